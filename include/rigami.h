@@ -1,0 +1,255 @@
+/* rigami.h -- folds origami crease patterns as rigid plates, after T. Tachi, "Simulation of Rigid Origami".
+ *
+ * Signs and units, here and everywhere: fold angle rho in radians, valley positive, mountain negative, 0 flat,
+ * +-pi folded flat. The sheet lies in z = 0 with y up; facets run counter-clockwise seen from +z; a valley turns its
+ * facets towards +z. Lengths are those of the input file.
+ *
+ * Errors: functions return a status, 0 is RG_OK; results go through the last pointers and are untouched on failure,
+ * unless said otherwise. The library never prints, never exits and keeps no global state: distinct handles may be
+ * used by distinct threads at the same time. Every destroy function takes NULL. */
+#ifndef RIGAMI_H
+#define RIGAMI_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define RG_API __attribute__((visibility("default")))
+#else
+#define RG_API
+#endif
+
+#define RG_VERSION "0.1.0"
+
+/* ---------------------------------------------------------------------------------------------- base ---- */
+
+#define RG_STATUS_LIST(X)                                     \
+    X(RG_OK, "success")                                       \
+    X(RG_EARG, "an argument is out of range")                 \
+    X(RG_ENOMEM, "out of memory")                             \
+    X(RG_EREAD, "the input cannot be read")                   \
+    X(RG_EFORMAT, "the input is not what its format asks for") \
+    X(RG_ESHEET, "not one sheet without holes")               \
+    X(RG_EWRITE, "the output cannot be written")              \
+    X(RG_EABSENT, "this build has no such part")
+
+typedef enum rg_status {
+#define X(name, words) name,
+    RG_STATUS_LIST(X)
+#undef X
+} rg_status;
+
+RG_API const char *rg_status_text(rg_status s);
+RG_API const char *rg_version(void);
+
+/* What is wrong and where: a line of the input file (1 is the first, 0: no line) and a sentence without full stop. */
+typedef struct rg_diag {
+    int line;
+    char text[240];
+} rg_diag;
+
+/* An allocator. resize(ctx, NULL, n) allocates, resize(ctx, p, n) moves, resize(ctx, p, 0) frees and returns NULL. */
+typedef struct rg_memory {
+    void *(*resize)(void *ctx, void *block, size_t bytes);
+    void *ctx;
+} rg_memory;
+
+typedef enum rg_method { RG_METHOD_AUTO, RG_METHOD_EULER, RG_METHOD_NEWTON } rg_method;
+typedef enum rg_solver { RG_SOLVER_AUTO, RG_SOLVER_CG, RG_SOLVER_CHOLESKY, RG_SOLVER_SVD } rg_solver;
+typedef enum rg_triangulation { RG_TRIANGULATE_AUTO, RG_TRIANGULATE_NONE, RG_TRIANGULATE_ALL } rg_triangulation;
+
+/* Start from rg_settings_default() and change what you need. */
+typedef struct rg_settings {
+    const rg_memory *memory;      /* NULL: malloc. Must outlive what is made with it. */
+    double merge;                 /* ends nearer than this part of the sheet's size are one vertex; 2e-5 */
+    int aux_creases;              /* non-zero: auxiliary lines are creases that may fold; 0 */
+    rg_triangulation triangulate; /* added creases; auto: none, and all where that stops short */
+    rg_method method;             /* auto: newton */
+    rg_solver solver;             /* auto: by size and build */
+    double step;                  /* largest change of any crease in one step, radians; 5 degrees */
+    double tol;                   /* closure tolerance: rotation angle of F at any vertex, radians; 1e-10 */
+    double to;                    /* how far to fold, -1 ... 1; negative: mountain and valley exchanged; 1 */
+    int32_t frames;               /* frames of the motion, both ends included, at least 2; 60 */
+    int32_t fixed_facet;          /* facet that stays where it is; -1: the one nearest the centre */
+} rg_settings;
+
+RG_API rg_settings rg_settings_default(void);
+
+/* ------------------------------------------------------------------------------------ read, pattern ---- */
+
+/* A crease pattern as a plane graph. */
+typedef struct rg_pattern rg_pattern;
+
+/* Reads a crease pattern file (ORIPA .opx). RG_EREAD: no such file; RG_EFORMAT: why->line and why->text say what is
+ * wrong. A pattern that is not one sheet without holes is read all the same: rg_pattern_get_info says so, and folding
+ * it is refused. Owner: the caller, rg_pattern_destroy. */
+RG_API rg_status rg_pattern_read(const char *path, const rg_settings *s, rg_pattern **pattern, rg_diag *why);
+/* The same from memory. */
+RG_API rg_status rg_pattern_parse(const void *bytes, size_t size, const rg_settings *s, rg_pattern **pattern,
+                                  rg_diag *why);
+RG_API void rg_pattern_destroy(rg_pattern *pattern);
+
+typedef struct rg_pattern_info {
+    int32_t vertices, edges, facets;  /* of the plane graph, before straight-through vertices are dissolved */
+    int32_t creases;                  /* N, after that */
+    int32_t interior_vertices;        /* M, after that */
+    int32_t boundary_edges;           /* N0, after that */
+    int32_t degrees_of_freedom;       /* N - 3M */
+    int32_t mountains, valleys, unassigned, flat;
+    int32_t closed_vertices;          /* section 3.1 */
+    int32_t maekawa_violations;
+    double kawasaki_max_deg;          /* largest | alternating angle sum | over interior vertices of even degree, degrees */
+    double size;                      /* longer side of the bounding box, file units */
+    double merged_max, kept_min;      /* largest distance merged, smallest kept, file units */
+    int is_disk;                      /* one sheet without holes, slits or loose ends */
+    char not_disk[200];               /* if not: what and where */
+    const char *title, *author;       /* "" where there is none; borrowed from the pattern */
+} rg_pattern_info;
+
+RG_API void rg_pattern_get_info(const rg_pattern *p, rg_pattern_info *info);
+
+/* A closed vertex (section 3.1): creases a, c, b are adjacent around the vertex, angle(a,c) = angle(c,b), a and b have
+ * opposite assignments; creases are given by their far ends. */
+typedef struct rg_closed {
+    int32_t vertex;
+    double x, y;
+    double a[2], c[2], b[2];
+    double inside_angle; /* radians: between c and whichever of a, b has the assignment opposite to c's */
+} rg_closed;
+
+typedef enum rg_theorem { RG_KAWASAKI, RG_MAEKAWA, RG_DEGREE } rg_theorem;
+
+/* An interior vertex that cannot fold flat. */
+typedef struct rg_unfoldable {
+    int32_t vertex;
+    double x, y;
+    rg_theorem theorem; /* RG_DEGREE: an odd number of creases */
+    double by;          /* degrees for Kawasaki, |M - V| for Maekawa, the number of creases for the degree */
+} rg_unfoldable;
+
+/* Lists are borrowed from the pattern. */
+RG_API int32_t rg_pattern_closed(const rg_pattern *p, const rg_closed **list);
+RG_API int32_t rg_pattern_unfoldable(const rg_pattern *p, const rg_unfoldable **list);
+RG_API int32_t rg_pattern_warnings(const rg_pattern *p, const rg_diag **list);
+
+/* -------------------------------------------------------------------------------------------- generate ---- */
+
+/* Writes an example crease pattern as .opx. `kind`: one of rg_generate_kinds(), a NULL-ended list of names. n, m: its
+ * size (0: the kind's default; m = 0: the same as n). angle: radians, 0 for the kind's default.
+ * RG_EARG: no such kind or size, why->text says so. */
+RG_API const char *const *rg_generate_kinds(void);
+RG_API rg_status rg_generate(const char *kind, int32_t n, int32_t m, double angle, const char *path, rg_diag *why);
+
+/* ------------------------------------------------------------------------------------------------ fold ---- */
+
+/* One fold in progress, for callers that own the loop. */
+typedef struct rg_fold rg_fold;
+
+typedef enum rg_outcome { RG_RUNNING, RG_FOLDED, RG_STOPPED } rg_outcome;
+
+typedef struct rg_step_info {
+    rg_outcome outcome; /* RG_RUNNING while there is more to come */
+    double progress;    /* 0 ... 1: mean over the driven creases of rho / target */
+    int32_t frame;      /* this step ended on that frame of settings.frames; -1: between frames */
+    double closure;     /* largest rotation angle of F over the vertices, radians */
+    int32_t solves, iterations; /* of this step */
+} rg_step_info;
+
+/* Takes a copy of what it needs of the pattern. RG_ESHEET: not one sheet without holes, why->text says where.
+ * Owner: the caller, rg_fold_destroy. */
+RG_API rg_status rg_fold_create(const rg_pattern *p, const rg_settings *s, rg_fold **fold, rg_diag *why);
+/* One step of the time loop; allocates nothing. A run that cannot go on is no error: info->outcome is RG_STOPPED. */
+RG_API rg_status rg_fold_step(rg_fold *f, rg_step_info *info);
+/* Fold angles, radians, one per crease; borrowed until the next step. */
+RG_API const double *rg_fold_angles(const rg_fold *f, int32_t *creases);
+RG_API void rg_fold_destroy(rg_fold *f);
+
+/* ---------------------------------------------------------------------------------------------- motion ---- */
+
+/* A whole motion, flat to folded, frame by frame, with its measurements. */
+typedef struct rg_motion rg_motion;
+
+typedef struct rg_frame {
+    double percent;          /* mean over driven creases of 100 |rho| / |target| */
+    double closure_residual; /* radians, recomputed from the fold angles */
+} rg_frame;
+
+typedef struct rg_report {
+    rg_pattern_info pattern;
+    int32_t added_creases, unknowns, constraints, components; /* the model */
+    const char *triangulation;                                /* "none" or "all", and why, below */
+    const char *why_triangulated;
+    const char *method, *solver;
+    int64_t steps, solves, cg_iterations, factorizations, assemblies;
+    double seconds_total, seconds_solving;
+    rg_outcome outcome;
+    char reason[240];
+    double folded_percent, least_folded_percent;
+    double max_closure_residual; /* radians; recomputed from the fold angles */
+    double max_edge_strain;      /* over frames and edges: | 3D length / pattern length - 1 | */
+    double max_facet_gap;        /* over frames: distance of two placements of one vertex, over the sheet's size */
+    double max_overfold_deg;
+    int32_t wrong_side_creases;  /* driven creases that ended on the other side of flat than they should */
+    int32_t blocking_vertex_count, blocking_crease_count;
+    const int32_t *blocking_vertices, *blocking_creases; /* borrowed; vertex numbers and crease numbers of the mesh */
+    const double (*blocking_at)[2];                      /* where those vertices are, file coordinates */
+    int32_t frame_count;
+    const rg_frame *frames; /* borrowed */
+} rg_report;
+
+/* Called as the motion goes on with 0 ... 1; a non-zero return stops it there. */
+typedef int (*rg_progress)(void *ctx, double progress);
+
+/* Folds the pattern through all frames. RG_OK also when it stopped short: read rg_motion_report. */
+RG_API rg_status rg_motion_create(const rg_pattern *p, const rg_settings *s, rg_progress progress, void *ctx,
+                                  rg_motion **motion, rg_diag *why);
+RG_API void rg_motion_destroy(rg_motion *m);
+RG_API const rg_report *rg_motion_report(const rg_motion *m); /* borrowed */
+
+/* The folded sheet of one frame for callers that draw it themselves: sizes, facets, positions. Borrowed. */
+typedef struct rg_sheet {
+    int32_t vertices, creases, facets;
+    const int32_t *facet_start;  /* [facets + 1] into facet_vertex */
+    const int32_t *facet_vertex; /* counter-clockwise */
+    const double (*flat)[2];     /* [vertices] in the pattern */
+} rg_sheet;
+RG_API void rg_motion_get_sheet(const rg_motion *m, rg_sheet *sheet);
+/* xyz[vertices]: out, positions of that frame. RG_EARG: no such frame. */
+RG_API rg_status rg_motion_pose(const rg_motion *m, int32_t frame, double (*xyz)[3]);
+/* Fold angles of a frame, [creases], radians; borrowed; NULL: no such frame. */
+RG_API const double *rg_motion_angles(const rg_motion *m, int32_t frame);
+
+/* ------------------------------------------------------------------------------------- write, render ---- */
+
+typedef struct rg_picture {
+    int32_t width, height;             /* pixels; 960 x 720 */
+    double azimuth, elevation;         /* of the camera about the sheet's centre, radians; -60 and 35 degrees */
+    double zoom;                       /* 1: the whole motion just fits */
+    unsigned char front[3], back[3];   /* paper colours */
+    unsigned char background[3];
+    int creases;                       /* non-zero: draw creases and edges */
+} rg_picture;
+
+RG_API rg_picture rg_picture_default(void);
+
+/* RG_OK if a motion can be written to this path (by its shape and extension) in this build, else why->text says why
+ * not: RG_EARG for an unknown form, RG_EABSENT for pictures in a build without them. */
+RG_API rg_status rg_output_check(const char *path, rg_diag *why);
+/* Writes the motion in the form that the path's shape and extension ask for; each file is written to a temporary name
+ * and renamed. `picture` NULL: the default. RG_EWRITE: why->text says what and why. */
+RG_API rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_picture *picture, rg_diag *why);
+
+/* JSON texts of a report and of what is known of a pattern. `file` "-": standard output; else written whole or not
+ * at all. `seconds_writing` and `peak_bytes` are the caller's own measurements. */
+RG_API rg_status rg_report_write(const rg_motion *m, double seconds_writing, double peak_bytes, const char *file,
+                                 rg_diag *why);
+RG_API rg_status rg_info_write(const rg_pattern *p, const char *file, rg_diag *why);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,32 @@
+#include "base/status.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+const char *rg_status_text(rg_status s)
+{
+    static const char *const text[] = {
+#define X(name, words) words,
+        RG_STATUS_LIST(X)
+#undef X
+    };
+    if ((unsigned)s >= sizeof text / sizeof text[0]) return "unknown status";
+    return text[s];
+}
+
+const char *rg_version(void)
+{
+    return RG_VERSION;
+}
+
+rg_status rg_fail(rg_status s, rg_diag *why, int line, const char *format, ...)
+{
+    if (why) {
+        va_list args;
+        va_start(args, format);
+        vsnprintf(why->text, sizeof why->text, format, args);
+        va_end(args);
+        why->line = line;
+    }
+    return s;
+}

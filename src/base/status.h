@@ -1,0 +1,15 @@
+/* status.h -- filling a diagnosis.
+ * Used by  readers, pattern, writers */
+#ifndef RG_STATUS_H
+#define RG_STATUS_H
+
+#include "rigami.h"
+
+/* Writes a printf-style message and a line number (0: none) into *why (may be NULL) and returns `s`, so that a
+ * failing branch is one statement: return rg_fail(RG_EFORMAT, why, line, "..."). Long text is cut. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5)))
+#endif
+rg_status rg_fail(rg_status s, rg_diag *why, int line, const char *format, ...);
+
+#endif

@@ -1,0 +1,38 @@
+/* mesh.h -- plates and hinges: facets, creases, interior vertices and their sector angles.
+ * Paper    sections 2, 3.2: M, N, N0, theta        Uses  pattern.h        Used by  kinematics, pose, fold, write */
+#ifndef RG_MESH_H
+#define RG_MESH_H
+
+#include "pattern/pattern.h"
+
+typedef struct rg_mesh {
+    rg_memory mem;
+    int32_t nv, ne, nf;
+    int32_t M, N, N0;         /* interior vertices, creases, perimeter edges */
+    int32_t added;            /* creases added by triangulation: the last `added` of the N */
+    double size;              /* longer side of the bounding box */
+    rg_vec2 *X;               /* [nv] */
+    int32_t (*edge)[2];       /* [ne] end vertices */
+    char *assignment;         /* [ne] B M V U F */
+    double *target;           /* [ne] wished final fold angle, radians; NAN: none */
+    int32_t (*edge_facet)[2]; /* [ne] facet left of edge[e][0] -> edge[e][1], and right of it; -1: outside */
+    int32_t *facet_start;     /* [nf + 1] */
+    int32_t *facet_vertex;    /* counter-clockwise */
+    int32_t *facet_edge;      /* facet_edge[j] joins facet_vertex[j] to the next one of that facet */
+    int32_t *crease_edge;     /* [N] edge number of crease i */
+    int32_t *edge_crease;     /* [ne] crease number of edge e, -1: perimeter */
+    int32_t *inner_vertex;    /* [M] vertex number of interior vertex k */
+    int32_t *loop_start;      /* [M + 1] */
+    int32_t *loop_crease;     /* crease numbers counter-clockwise around interior vertex k */
+    double *loop_theta;       /* theta[k][i]: angle from that crease to the next one counter-clockwise */
+} rg_mesh;
+
+/* Facets of a pattern, not triangulated. RG_ESHEET: not one sheet without holes, why->text says where.
+ * Owner: the caller, rg_mesh_free; *m is zeroed on failure. */
+rg_status rg_mesh_from_pattern(const rg_pattern *p, const rg_memory *mem, rg_mesh *m, rg_diag *why);
+/* The same sheet with every facet cut into triangles by added creases ('F', target NAN, crease numbers after all others;
+ * old crease and edge numbers are kept). Never a flipped or a zero-area triangle. DOF = N - 3M = N0 - 3 afterwards. */
+rg_status rg_triangulate_all(const rg_mesh *m, rg_mesh *out);
+void rg_mesh_free(rg_mesh *m);
+
+#endif

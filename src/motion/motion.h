@@ -1,0 +1,25 @@
+/* motion.h -- a fold from flat to its end, kept frame by frame, and measured.
+ * Uses  fold.h pose.h        Used by  write, render */
+#ifndef RG_MOTION_H
+#define RG_MOTION_H
+
+#include "mesh/mesh.h"
+#include "pose/pose.h"
+
+struct rg_motion {
+    rg_memory mem;
+    rg_settings settings;
+    rg_mesh mesh;
+    rg_tree tree;
+    char *title, *author;  /* of the pattern; NULL: none */
+    double *rho;           /* [report.frame_count][mesh.N] radians */
+    rg_frame *frame;       /* [report.frame_count] */
+    int32_t *blocking_vertex, *blocking_crease;
+    double (*blocking_at)[2];
+    rg_report report;
+};
+
+/* x[mesh.nv]: out, positions in frame f, 0 <= f < report.frame_count. RG_ENOMEM. */
+rg_status rg_motion_place(const rg_motion *m, int32_t f, rg_vec3 *x);
+
+#endif

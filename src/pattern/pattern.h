@@ -1,0 +1,37 @@
+/* pattern.h -- a crease pattern as a plane graph, and what is known of it before folding.
+ * Paper    sections 1, 2, 3.1        Uses  read/lines.h        Used by  mesh, write */
+#ifndef RG_PATTERN_H
+#define RG_PATTERN_H
+
+#include "base/memory.h"
+#include "base/vec.h"
+#include "read/lines.h"
+
+typedef struct rg_edge {
+    int32_t v[2];
+    char assignment;   /* 'B' exactly on the sheet's outer border, found topologically */
+    double target;     /* wished final fold angle, radians: +pi valley, -pi mountain or as given; NAN: none (U, F) */
+    int32_t where;     /* line of the file, 0: none */
+} rg_edge;
+
+/* The graph after merging, splitting, dropping loose ends and dissolving straight-through vertices: what is folded.
+ * Star of vertex v: star[star_start[v]] ... star[star_start[v+1] - 1], edge numbers counter-clockwise by direction. */
+struct rg_pattern {
+    rg_memory mem;
+    int32_t nv, ne;
+    rg_vec2 *X;           /* [nv] */
+    rg_edge *E;           /* [ne] */
+    int32_t *star_start;  /* [nv + 1] */
+    int32_t *star;        /* [2 ne] */
+    unsigned char *rim;   /* [nv] non-zero: on the outer border */
+    rg_pattern_info info; /* info.title, info.author point into `lines` */
+    rg_closed *closed;
+    rg_unfoldable *unfoldable;
+    int32_t unfoldables;
+    rg_lines lines;       /* only its metadata and warnings are kept */
+};
+
+/* Takes over *lines (also on failure, where it is freed). */
+rg_status rg_pattern_from_lines(rg_lines *lines, const rg_settings *s, rg_pattern **pattern, rg_diag *why);
+
+#endif

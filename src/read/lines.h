@@ -1,0 +1,41 @@
+/* lines.h -- what a reader hands on: line segments with assignments, as drawn.
+ * Used by  opx.c, generate, pattern */
+#ifndef RG_LINES_H
+#define RG_LINES_H
+
+#include "base/vec.h"
+#include "rigami.h"
+
+/* Assignments are FOLD's letters. */
+#define RG_BORDER 'B'
+#define RG_MOUNTAIN 'M'
+#define RG_VALLEY 'V'
+#define RG_FLAT 'F' /* auxiliary line, or a crease added by triangulation: no wish of its own */
+#define RG_UNASSIGNED 'U'
+#define RG_CUT 'C'
+
+typedef struct rg_line {
+    rg_vec2 a, b;      /* y up */
+    double target;     /* wished final fold angle, radians; NAN: by assignment */
+    char assignment;
+    int32_t where;     /* line of the file, 0: none */
+} rg_line;
+
+typedef struct rg_lines {
+    rg_memory mem;
+    rg_line *line;
+    int32_t count;
+    size_t room;
+    char *title, *author, *editor, *reference, *memo; /* NULL: none */
+    rg_diag *warning;
+    int32_t warnings;
+    size_t warning_room;
+} rg_lines;
+
+void rg_lines_init(rg_lines *l, const rg_memory *mem);
+void rg_lines_free(rg_lines *l);
+/* Both: RG_ENOMEM leaves *l as it was. */
+rg_status rg_lines_add(rg_lines *l, rg_vec2 a, rg_vec2 b, char assignment, int32_t where);
+rg_status rg_lines_warn(rg_lines *l, int32_t where, const char *format, ...);
+
+#endif
