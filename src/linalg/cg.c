@@ -1,0 +1,113 @@
+#include "linalg/cg.h"
+
+#include <string.h>
+
+const char *rg_cg_stop_text(rg_cg_stop s)
+{
+    switch (s) {
+    case RG_CG_CONVERGED: return "converged";
+    case RG_CG_LEAST_SQUARES: return "least squares";
+    case RG_CG_MAX_ITERATIONS: return "maximum of iterations";
+    case RG_CG_BREAKDOWN: return "breakdown";
+    }
+    return "unknown";
+}
+
+rg_status rg_cg_work_init(rg_cg_work *w, const rg_memory *mem, int32_t M, int32_t N)
+{
+    memset(w, 0, sizeof *w);
+    w->mem = *mem;
+    w->M = M;
+    w->N = N;
+    double **row[] = {&w->r, &w->z, &w->u, &w->q, &w->w};
+    double **column[] = {&w->s, &w->p};
+    int ok = 1;
+    for (int i = 0; i < 5; i++) ok &= (*row[i] = rg_mem_array(mem, 3 * (size_t)M, sizeof(double))) != NULL;
+    for (int i = 0; i < 2; i++) ok &= (*column[i] = rg_mem_array(mem, (size_t)N, sizeof(double))) != NULL;
+    if (ok) return RG_OK;
+    rg_cg_work_free(w);
+    return RG_ENOMEM;
+}
+
+void rg_cg_work_free(rg_cg_work *w)
+{
+    if (!w->mem.resize) return;
+    double *all[] = {w->r, w->z, w->u, w->q, w->w, w->s, w->p};
+    for (int i = 0; i < 7; i++) rg_mem_free(&w->mem, all[i]);
+    memset(w, 0, sizeof *w);
+}
+
+static double dot(int32_t n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < n; i++) sum += a[i] * b[i];
+    return sum;
+}
+
+/* r = b - C x */
+static void residual(const rg_sparse *C, const double *b, const double *x, double *r)
+{
+    rg_sparse_mul(C, x, r);
+    for (int32_t i = 0; i < 3 * C->M; i++) r[i] = b[i] - r[i];
+}
+
+void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double *b, double *y, double *x, double tol,
+                 int32_t max_iterations, rg_cg_work *k, rg_cg_report *rep)
+{
+    const int32_t m = 3 * C->M, n = C->N;
+    double *r = k->r, *z = k->z, *u = k->u, *q = k->q, *w = k->w, *s = k->s, *p = k->p;
+
+    P(ctx, b, z);
+    const double target = tol * sqrt(dot(m, b, z));
+
+    rg_sparse_mul_t(C, y, x);
+    residual(C, b, x, r);
+    P(ctx, r, u);
+    if (!(dot(m, r, u) < dot(m, b, z))) { /* the start is no better than none */
+        memset(y, 0, (size_t)m * sizeof *y);
+        memset(x, 0, (size_t)n * sizeof *x);
+        memcpy(r, b, (size_t)m * sizeof *r);
+    } else {
+        memcpy(z, u, (size_t)m * sizeof *z);
+    }
+
+    rep->stop = RG_CG_MAX_ITERATIONS;
+    rep->iterations = 0;
+    double gamma = 0;
+    for (;;) {
+        rg_sparse_mul_t(C, z, s);
+        double old = gamma, left = sqrt(fmax(dot(m, r, z), 0));
+        gamma = dot(n, s, s);
+        if (left <= target) {
+            rep->stop = RG_CG_CONVERGED;
+            break;
+        }
+        if (sqrt(gamma) <= tol * left) { /* P^(1/2) C has norm sqrt 2 at most under block-Jacobi */
+            rep->stop = RG_CG_LEAST_SQUARES;
+            break;
+        }
+        if (rep->iterations >= max_iterations) break;
+        double beta = rep->iterations ? gamma / old : 0;
+        for (int32_t i = 0; i < n; i++) p[i] = s[i] + beta * p[i];
+        for (int32_t i = 0; i < m; i++) q[i] = z[i] + beta * q[i]; /* p = C^T q */
+        rg_sparse_mul(C, p, w);
+        P(ctx, w, u);
+        double curvature = dot(m, w, u);
+        if (!(curvature > 0)) {
+            rep->stop = RG_CG_BREAKDOWN;
+            break;
+        }
+        double alpha = gamma / curvature;
+        for (int32_t i = 0; i < n; i++) x[i] += alpha * p[i];
+        for (int32_t i = 0; i < m; i++) {
+            y[i] += alpha * q[i];
+            r[i] -= alpha * w[i];
+            z[i] -= alpha * u[i];
+        }
+        rep->iterations++;
+    }
+    rg_sparse_mul_t(C, y, x);
+    residual(C, b, x, r);
+    rep->b_norm = sqrt(dot(m, b, b));
+    rep->residual = sqrt(dot(m, r, r));
+}

@@ -1,0 +1,76 @@
+#include "linalg/sparse.h"
+
+#include <string.h>
+
+rg_status rg_sparse_init(rg_sparse *C, const rg_memory *mem, int32_t M, int32_t N, const int32_t *start,
+                         const int32_t *col)
+{
+    size_t blocks = (size_t)start[M];
+    memset(C, 0, sizeof *C);
+    C->mem = *mem;
+    C->M = M;
+    C->N = N;
+    C->start = rg_mem_array(mem, (size_t)M + 1, sizeof *C->start);
+    C->col = rg_mem_array(mem, blocks, sizeof *C->col);
+    C->row = rg_mem_array(mem, blocks, sizeof *C->row);
+    C->slot = rg_mem_array(mem, (size_t)N, sizeof *C->slot);
+    C->x = rg_mem_array(mem, blocks, sizeof *C->x);
+    if (!C->start || !C->col || !C->row || !C->slot || !C->x) {
+        rg_sparse_free(C);
+        return RG_ENOMEM;
+    }
+    memcpy(C->start, start, ((size_t)M + 1) * sizeof *start);
+    memcpy(C->col, col, blocks * sizeof *col);
+    for (int32_t i = 0; i < N; i++) C->slot[i][0] = C->slot[i][1] = -1;
+    for (int32_t k = 0; k < M; k++)
+        for (int32_t j = start[k]; j < start[k + 1]; j++) {
+            int32_t *slot = C->slot[col[j]];
+            C->row[j] = k;
+            if (slot[0] < 0) slot[0] = j;
+            else if (slot[1] < 0) slot[1] = j;
+            else {
+                rg_sparse_free(C);
+                return RG_EARG;
+            }
+        }
+    return RG_OK;
+}
+
+void rg_sparse_free(rg_sparse *C)
+{
+    if (!C->mem.resize) return;
+    rg_memory mem = C->mem;
+    rg_mem_free(&mem, C->start);
+    rg_mem_free(&mem, C->col);
+    rg_mem_free(&mem, C->row);
+    rg_mem_free(&mem, C->slot);
+    rg_mem_free(&mem, C->x);
+    memset(C, 0, sizeof *C);
+}
+
+void rg_sparse_mul(const rg_sparse *C, const double *x, double *y)
+{
+    for (int32_t k = 0; k < C->M; k++) {
+        rg_vec3 sum = {0, 0, 0};
+        for (int32_t j = C->start[k]; j < C->start[k + 1]; j++) sum = rg_vec3_axpy(x[C->col[j]], C->x[j], sum);
+        y[3 * k] = sum.x;
+        y[3 * k + 1] = sum.y;
+        y[3 * k + 2] = sum.z;
+    }
+}
+
+static double dot_row(const rg_sparse *C, int32_t j, const double *y)
+{
+    const double *yk = y + 3 * C->row[j];
+    return C->x[j].x * yk[0] + C->x[j].y * yk[1] + C->x[j].z * yk[2];
+}
+
+void rg_sparse_mul_t(const rg_sparse *C, const double *y, double *x)
+{
+    for (int32_t i = 0; i < C->N; i++) {
+        double sum = 0;
+        if (C->slot[i][0] >= 0) sum += dot_row(C, C->slot[i][0], y);
+        if (C->slot[i][1] >= 0) sum += dot_row(C, C->slot[i][1], y);
+        x[i] = sum;
+    }
+}
