@@ -2,6 +2,10 @@
 
 #include <string.h>
 
+/* Least squares is declared when C^T P (b - C x) is this much smaller, against b - C x, than the tolerance asked for:
+ * a slow mode has a small C^T P r too, and must not be taken for one that is out of reach. */
+static const double LEAST_SQUARES_MARGIN = 1e-3;
+
 const char *rg_cg_stop_text(rg_cg_stop s)
 {
     switch (s) {
@@ -82,7 +86,7 @@ void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double 
             rep->stop = RG_CG_CONVERGED;
             break;
         }
-        if (sqrt(gamma) <= tol * left) { /* P^(1/2) C has norm sqrt 2 at most under block-Jacobi */
+        if (sqrt(gamma) <= LEAST_SQUARES_MARGIN * tol * left) { /* P^(1/2) C is of norm 1 or so */
             rep->stop = RG_CG_LEAST_SQUARES;
             break;
         }

@@ -1,0 +1,41 @@
+/* project.h -- turns the step the creases wish for into one the paper allows.
+ * Paper    eqs. (9), (10), (14), (15), Fig. 4        Uses  constraint.h cg.h        Used by  fold */
+#ifndef RG_PROJECT_H
+#define RG_PROJECT_H
+
+#include "kinematics/constraint.h"
+#include "linalg/cg.h"
+#include "linalg/cholesky.h"
+#include "linalg/jacobi.h"
+#include "linalg/rank.h"
+
+typedef struct rg_project {
+    rg_memory mem;
+    rg_solver solver; /* CG, CHOLESKY or SVD: never AUTO */
+    rg_jacobi jacobi;
+    rg_cholesky cholesky;
+    rg_pinv pinv;
+    rg_cg_work cg;
+    double *b, *y, *x; /* [3M] [3M] [N] */
+    int fresh;         /* the preconditioner belongs to the present numbers of C */
+    int64_t solves, iterations, factorizations;
+} rg_project;
+
+/* RG_EABSENT: that solver is not in this build. RG_SOLVER_AUTO chooses by size. */
+rg_status rg_project_init(rg_project *P, const rg_memory *mem, const rg_constraint *K, rg_solver solver);
+void rg_project_free(rg_project *P);
+
+/* Tells that C has new numbers. */
+void rg_project_renew(rg_project *P);
+
+/* drho = drho0 - C^T y   where   (C C^T) y = r + C drho0                                               eq. (15)
+ *   drho0[N]  in   wished step, radians; NULL: none, so that only the residual is worked off
+ *   feed      in   non-zero: r as in eq. (14); zero: the pure projection of eq. (9)
+ *   drho[N]   out  allowed step, radians; may be drho0
+ *   tol       in   of the linear solve, relative to r + C drho0
+ * P->y afterwards holds y: how hard each vertex resists. Allocates nothing.
+ * RG_OK, also when the solver ran out of iterations (read rep->stop). */
+rg_status rg_project_step(rg_project *P, const rg_constraint *K, const double *drho0, int feed, double *drho,
+                          double tol, rg_cg_report *rep);
+
+#endif

@@ -1,0 +1,107 @@
+#include "linalg/rank.h"
+
+#include <float.h>
+#include <string.h>
+
+#ifdef RG_GPL
+#include <gsl/gsl_linalg.h>
+
+/* GSL's own allocations end the program when they fail, so it works in ours, through views. */
+typedef struct dense {
+    size_t tall, small;
+    double *u, *v, *x, *s, *work; /* A = U S V^T with A = C or C^T, whichever is tall */
+} dense;
+
+int rg_pinv_built(void) { return 1; }
+
+rg_status rg_pinv_init(rg_pinv *P, const rg_memory *mem, int32_t M, int32_t N)
+{
+    memset(P, 0, sizeof *P);
+    P->mem = *mem;
+    P->M = M;
+    P->N = N;
+    if (M == 0 || N == 0) return RG_OK;
+    dense *d = P->dense = rg_mem_array(mem, 1, sizeof *d);
+    if (!d) return RG_ENOMEM;
+    d->tall = (size_t)(3 * M > N ? 3 * M : N);
+    d->small = (size_t)(3 * M > N ? N : 3 * M);
+    d->u = rg_mem_array(mem, d->tall * d->small, sizeof *d->u);
+    d->v = rg_mem_array(mem, d->small * d->small, sizeof *d->v);
+    d->x = rg_mem_array(mem, d->small * d->small, sizeof *d->x);
+    d->s = rg_mem_array(mem, d->small, sizeof *d->s);
+    d->work = rg_mem_array(mem, d->small, sizeof *d->work);
+    if (d->u && d->v && d->x && d->s && d->work) return RG_OK;
+    rg_pinv_free(P);
+    return RG_ENOMEM;
+}
+
+void rg_pinv_free(rg_pinv *P)
+{
+    if (!P->mem.resize) return;
+    dense *d = P->dense;
+    if (d) {
+        double *all[] = {d->u, d->v, d->x, d->s, d->work};
+        for (int i = 0; i < 5; i++) rg_mem_free(&P->mem, all[i]);
+        rg_mem_free(&P->mem, d);
+    }
+    memset(P, 0, sizeof *P);
+}
+
+rg_status rg_pinv_update(rg_pinv *P, const rg_sparse *C)
+{
+    dense *d = P->dense;
+    if (!d) return RG_OK;
+    int upright = 3 * P->M > P->N; /* A = C, else A = C^T */
+    memset(d->u, 0, d->tall * d->small * sizeof *d->u);
+    for (int32_t j = 0; j < C->start[C->M]; j++) {
+        double x[3] = {C->x[j].x, C->x[j].y, C->x[j].z};
+        for (size_t a = 0; a < 3; a++) {
+            size_t row = 3 * (size_t)C->row[j] + a, col = (size_t)C->col[j];
+            d->u[upright ? row * d->small + col : col * d->small + row] = x[a];
+        }
+    }
+    gsl_matrix_view U = gsl_matrix_view_array(d->u, d->tall, d->small), V = gsl_matrix_view_array(d->v, d->small, d->small);
+    gsl_matrix_view X = gsl_matrix_view_array(d->x, d->small, d->small);
+    gsl_vector_view S = gsl_vector_view_array(d->s, d->small), work = gsl_vector_view_array(d->work, d->small);
+    gsl_linalg_SV_decomp_mod(&U.matrix, &X.matrix, &V.matrix, &S.vector, &work.vector);
+    /* numpy's and LAPACK's usual cut: what rounding alone can lift a zero to */
+    double cut = d->s[0] * DBL_EPSILON * (double)d->tall;
+    P->rank = 0;
+    for (size_t i = 0; i < d->small; i++)
+        if (d->s[i] > cut) P->rank++;
+        else d->s[i] = 0;
+    return RG_OK;
+}
+
+void rg_pinv_apply(const rg_pinv *P, const double *b, double *x, double *y)
+{
+    const dense *d = P->dense;
+    memset(x, 0, (size_t)P->N * sizeof *x);
+    memset(y, 0, 3 * (size_t)P->M * sizeof *y);
+    if (!d) return;
+    int upright = 3 * P->M > P->N;
+    const double *rows = upright ? d->u : d->v, *cols = upright ? d->v : d->u; /* C = rows S cols^T */
+    size_t m = 3 * (size_t)P->M, n = (size_t)P->N;
+    for (size_t i = 0; i < d->small; i++) {
+        double s = d->s[i], c = 0;
+        if (!(s > 0)) continue;
+        for (size_t k = 0; k < m; k++) c += rows[k * d->small + i] * b[k];
+        for (size_t k = 0; k < n; k++) x[k] += c / s * cols[k * d->small + i];
+        for (size_t k = 0; k < m; k++) y[k] += c / (s * s) * rows[k * d->small + i];
+    }
+}
+
+#else
+
+int rg_pinv_built(void) { return 0; }
+rg_status rg_pinv_init(rg_pinv *P, const rg_memory *mem, int32_t M, int32_t N)
+{
+    (void)mem, (void)M, (void)N;
+    memset(P, 0, sizeof *P);
+    return RG_EABSENT;
+}
+void rg_pinv_free(rg_pinv *P) { (void)P; }
+rg_status rg_pinv_update(rg_pinv *P, const rg_sparse *C) { (void)P, (void)C; return RG_EABSENT; }
+void rg_pinv_apply(const rg_pinv *P, const double *b, double *x, double *y) { (void)P, (void)b, (void)x, (void)y; }
+
+#endif
