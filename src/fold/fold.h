@@ -1,0 +1,47 @@
+/* fold.h -- the time loop: from flat to folded, one step at a time.
+ * Paper    eqs. (10), (14), section 4        Uses  drive.h limit.h project.h        Used by  motion.c */
+#ifndef RG_FOLD_H
+#define RG_FOLD_H
+
+#include "fold/drive.h"
+#include "fold/limit.h"
+#include "kinematics/project.h"
+
+struct rg_fold {
+    rg_memory mem;
+    rg_settings settings;
+    rg_mesh mesh;
+    rg_constraint K;
+    rg_project P;
+    rg_drive drive;
+    rg_limit limit;
+    double *rho;                  /* [N] the state: always closed to settings.tol under newton */
+    double *trial, *wish, *t;     /* [N] */
+    double *pull, *best;          /* [N] */
+    double *end;                  /* [N] the folded state that is aimed at */
+    double s, s_end, ds;          /* progress, where to stop, size of the next step in s */
+    int end_is_closed;            /* the folded state closes to tolerance: land on it exactly */
+    int32_t frame;                /* the next frame to reach */
+    int32_t steps;
+    int64_t assemblies;
+    double closure;
+    rg_outcome outcome;
+    char reason[240];
+    double seconds_solving;
+};
+
+/* A fold of a mesh; *m is taken over, also on failure. */
+rg_status rg_fold_from_mesh(rg_mesh *m, const rg_settings *s, rg_fold **fold, rg_diag *why);
+
+/* The progress at which a frame is due. */
+double rg_fold_frame_progress(const rg_fold *f, int32_t frame);
+
+/* start.c: leaves the flat state along the branch that mountain and valley ask for. On return f->rho is closed, at
+ * progress s1, with as few creases on the wrong side as could be found; RG_FOLDED-like success is non-zero. */
+int rg_start_leave_flat(rg_fold *f, double s1);
+
+/* newton.c: works off the residual at f->trial, holding progress at `s`: eq. (14) with the wish along f->t only.
+ * Non-zero when closed; f->closure is then the closure of f->trial. */
+int rg_newton_correct(rg_fold *f, double s, int32_t most);
+
+#endif
