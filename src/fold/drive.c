@@ -9,7 +9,8 @@ rg_status rg_drive_init(rg_drive *d, const rg_memory *mem, const rg_mesh *m, dou
     d->N = m->N;
     d->target = rg_mem_array(mem, (size_t)m->N, sizeof *d->target);
     d->gradient = rg_mem_array(mem, (size_t)m->N, sizeof *d->gradient);
-    if (!d->target || !d->gradient) {
+    d->along = rg_mem_array(mem, (size_t)m->N, sizeof *d->along);
+    if (!d->target || !d->gradient || !d->along) {
         rg_drive_free(d);
         return RG_ENOMEM;
     }
@@ -20,6 +21,8 @@ rg_status rg_drive_init(rg_drive *d, const rg_memory *mem, const rg_mesh *m, dou
     }
     for (int32_t i = 0; i < m->N; i++)
         d->gradient[i] = rg_drive_is_driven(d, i) ? 1 / (d->count * d->target[i]) : 0;
+    for (int32_t i = 0; i < m->N; i++) d->steepness = hypot(d->steepness, d->gradient[i]);
+    for (int32_t i = 0; i < m->N && d->steepness > 0; i++) d->along[i] = d->gradient[i] / d->steepness;
     return RG_OK;
 }
 
@@ -28,6 +31,7 @@ void rg_drive_free(rg_drive *d)
     if (!d->mem.resize) return;
     rg_mem_free(&d->mem, d->target);
     rg_mem_free(&d->mem, d->gradient);
+    rg_mem_free(&d->mem, d->along);
     memset(d, 0, sizeof *d);
 }
 

@@ -20,6 +20,8 @@ typedef struct rg_drive {
     int32_t N, count;  /* creases; driven ones */
     double *target;    /* [N] radians; 0 for added creases, NAN for creases that wish nothing */
     double *gradient;  /* [N] ds/drho_i: 1 / (count target_i), 0 for creases not driven */
+    double *along;     /* [N] the gradient over its length */
+    double steepness;  /* its length, 1/radian */
 } rg_drive;
 
 /* sign: +1, or -1 with mountain and valley exchanged */

@@ -145,7 +145,7 @@ static double direction(rg_fold *f)
     f->assemblies++;
     rg_project_renew(&f->P);
     rg_drive_wish(&f->drive, f->rho, f->s, f->wish);
-    if (rg_project_step(&f->P, &f->K, f->wish, 0, f->t, SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (9) */
+    if (rg_project_step(&f->P, &f->K, f->wish, 0, NULL, f->t, SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (9) */
     double along = rg_drive_progress(&f->drive, f->t);
     if (along > 0)
         for (int32_t i = 0; i < N; i++) f->t[i] /= along;
@@ -158,7 +158,7 @@ static int pull_back(rg_fold *f)
     rg_cg_report rep;
     if (rg_limit_pull(&f->limit, f->trial, f->pull) <= 0) return 0;
     for (int32_t i = 0; i < f->mesh.N; i++) f->pull[i] *= LIMIT_GAIN;
-    if (rg_project_step(&f->P, &f->K, f->pull, 0, f->pull, SOLVE_TOLERANCE, &rep) != RG_OK) return 0;
+    if (rg_project_step(&f->P, &f->K, f->pull, 0, NULL, f->pull, SOLVE_TOLERANCE, &rep) != RG_OK) return 0;
     for (int32_t i = 0; i < f->mesh.N; i++) f->trial[i] += f->pull[i];
     return 1;
 }
@@ -232,7 +232,7 @@ static void step_euler(rg_fold *f)
     double h = fmin(f->settings.step / fmax(largest(N, f->wish), 1e-300), 1);
     rg_limit_pull(&f->limit, f->rho, f->pull);
     for (int32_t i = 0; i < N; i++) f->wish[i] = h * f->wish[i] + LIMIT_GAIN * f->pull[i];
-    if (rg_project_step(&f->P, &f->K, f->wish, 1, f->t, SOLVE_TOLERANCE, &rep) != RG_OK) { /* eqs. (14), (15) */
+    if (rg_project_step(&f->P, &f->K, f->wish, 1, NULL, f->t, SOLVE_TOLERANCE, &rep) != RG_OK) { /* eqs. (14), (15) */
         stop(f, "the solver failed");
         return;
     }

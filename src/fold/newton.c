@@ -13,10 +13,8 @@ static const double POOR_GAIN = 0.7;
 int rg_newton_correct(rg_fold *f, double s, int32_t most)
 {
     const int32_t N = f->mesh.N;
-    double along = 0, before = INFINITY;
+    double before = INFINITY;
     int poor = 0;
-    for (int32_t i = 0; i < N; i++) along += f->drive.gradient[i] * f->t[i];
-
     for (int32_t n = 0;; n++) {
         f->closure = rg_constraint_assemble(&f->K, f->trial);
         f->assemblies++;
@@ -28,11 +26,12 @@ int rg_newton_correct(rg_fold *f, double s, int32_t most)
         if (poor >= 3) return 0;
         before = f->closure;
 
-        double alpha = along > 0 ? off / along : 0;
-        for (int32_t i = 0; i < N; i++) f->wish[i] = alpha * f->t[i];
+        /* Progress is held to the letter: without that, an over-constrained sheet, whose C has one more rank off the
+         * path than on it, would trade progress for closure and creep. */
+        for (int32_t i = 0; i < N; i++) f->wish[i] = off / f->drive.steepness * f->drive.along[i];
         rg_cg_report rep;
         memset(f->P.y, 0, 3 * (size_t)f->mesh.M * sizeof *f->P.y); /* the last answer has nothing to do with this one */
-        if (rg_project_step(&f->P, &f->K, f->wish, 1, f->wish, SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (14) */
+        if (rg_project_step(&f->P, &f->K, f->wish, 1, f->drive.along, f->wish, SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (14) */
         for (int32_t i = 0; i < N; i++) f->trial[i] += f->wish[i];
     }
 }

@@ -40,7 +40,7 @@ static int flat_direction(rg_fold *f)
     f->assemblies++;
     rg_project_renew(&f->P);
     memset(f->P.y, 0, 3 * (size_t)f->mesh.M * sizeof *f->P.y);
-    if (rg_project_step(&f->P, &f->K, f->wish, 0, f->t, SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (9) */
+    if (rg_project_step(&f->P, &f->K, f->wish, 0, NULL, f->t, SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (9) */
     double along = rg_drive_progress(&f->drive, f->t);
     if (!(along > 0)) return 0;
     for (int32_t i = 0; i < f->mesh.N; i++) f->t[i] /= along;
@@ -57,7 +57,7 @@ static int slide(rg_fold *f, double s1, double gain)
         f->wish[i] = isnan(target) ? 0 : gain * (s1 * target - f->trial[i]);
     }
     memset(f->P.y, 0, 3 * (size_t)f->mesh.M * sizeof *f->P.y);
-    if (rg_project_step(&f->P, &f->K, f->wish, 0, f->wish, SOLVE_TOLERANCE, &rep) != RG_OK) return 0;
+    if (rg_project_step(&f->P, &f->K, f->wish, 0, NULL, f->wish, SOLVE_TOLERANCE, &rep) != RG_OK) return 0;
     for (int32_t i = 0; i < N; i++) f->trial[i] += f->wish[i];
     return rg_newton_correct(f, s1, CORRECTIONS);
 }

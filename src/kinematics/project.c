@@ -47,11 +47,12 @@ void rg_project_renew(rg_project *P)
     P->fresh = 0;
 }
 
-static rg_status renew(rg_project *P, const rg_constraint *K)
+static rg_status renew(rg_project *P, const rg_constraint *K, const double *hold)
 {
     rg_status s = RG_OK;
-    if (P->fresh) return s;
-    if (P->solver == RG_SOLVER_SVD) s = rg_pinv_update(&P->pinv, &K->C);
+    if (P->fresh && (P->solver != RG_SOLVER_SVD || P->held == hold)) return s;
+    P->held = hold;
+    if (P->solver == RG_SOLVER_SVD) s = rg_pinv_update(&P->pinv, &K->C, hold);
     else rg_jacobi_update(&P->jacobi, &K->C);
     if (P->solver == RG_SOLVER_CHOLESKY) s = rg_cholesky_update(&P->cholesky, &K->C);
     if (P->solver != RG_SOLVER_CG) P->factorizations++;
@@ -59,11 +60,11 @@ static rg_status renew(rg_project *P, const rg_constraint *K)
     return s;
 }
 
-rg_status rg_project_step(rg_project *P, const rg_constraint *K, const double *drho0, int feed, double *drho,
-                          double tol, rg_cg_report *rep)
+rg_status rg_project_step(rg_project *P, const rg_constraint *K, const double *drho0, int feed,
+                          const double *hold, double *drho, double tol, rg_cg_report *rep)
 {
     const int32_t M = K->C.M, N = K->C.N;
-    rg_status s = renew(P, K);
+    rg_status s = renew(P, K, hold);
     if (s != RG_OK) return s;
 
     if (drho0) rg_sparse_mul(&K->C, drho0, P->b);
@@ -78,7 +79,7 @@ rg_status rg_project_step(rg_project *P, const rg_constraint *K, const double *d
         int32_t most = ITERATIONS_PER_CREASE * N > ITERATIONS_AT_LEAST ? ITERATIONS_PER_CREASE * N : ITERATIONS_AT_LEAST;
         int direct = P->solver == RG_SOLVER_CHOLESKY;
         rg_cg_solve(&K->C, direct ? rg_cholesky_apply : rg_jacobi_apply, direct ? (const void *)&P->cholesky : &P->jacobi,
-                    P->b, P->y, P->x, tol, most, &P->cg, rep); /* y = (C C^T) \ b, x = C^T y          eq. (15) */
+                    hold, P->b, P->y, P->x, tol, most, &P->cg, rep); /* y = (C C^T) \ b, x = C^T y          eq. (15) */
     }
     for (int32_t i = 0; i < N; i++) drho[i] = (drho0 ? drho0[i] : 0) - P->x[i]; /* drho0 - C^+ (r + C drho0)   eqs. (9), (15) */
     P->solves++;

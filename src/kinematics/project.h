@@ -18,6 +18,7 @@ typedef struct rg_project {
     rg_cg_work cg;
     double *b, *y, *x; /* [3M] [3M] [N] */
     int fresh;         /* the preconditioner belongs to the present numbers of C */
+    const double *held; /* and, dense, to this hold */
     int64_t solves, iterations, factorizations;
 } rg_project;
 
@@ -31,11 +32,13 @@ void rg_project_renew(rg_project *P);
 /* drho = drho0 - C^T y   where   (C C^T) y = r + C drho0                                               eq. (15)
  *   drho0[N]  in   wished step, radians; NULL: none, so that only the residual is worked off
  *   feed      in   non-zero: r as in eq. (14); zero: the pure projection of eq. (9)
+ *   hold[N]   in   unit vector: C^T y is kept orthogonal to it, so that the component of drho0 along it is obeyed to
+ *                  the letter; NULL: none
  *   drho[N]   out  allowed step, radians; may be drho0
  *   tol       in   of the linear solve, relative to r + C drho0
  * P->y afterwards holds y: how hard each vertex resists. Allocates nothing.
  * RG_OK, also when the solver ran out of iterations (read rep->stop). */
-rg_status rg_project_step(rg_project *P, const rg_constraint *K, const double *drho0, int feed, double *drho,
-                          double tol, rg_cg_report *rep);
+rg_status rg_project_step(rg_project *P, const rg_constraint *K, const double *drho0, int feed,
+                          const double *hold, double *drho, double tol, rg_cg_report *rep);
 
 #endif

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-/* Least squares is declared when C^T P (b - C x) is this much smaller, against b - C x, than the tolerance asked for:
- * a slow mode has a small C^T P r too, and must not be taken for one that is out of reach. */
+/* Least squares is declared when C^T P (b - C x), against C^T P b, is this much smaller than the tolerance asked for: a
+ * slow mode has a small C^T P r too, and must not be taken for one that is out of reach. */
 static const double LEAST_SQUARES_MARGIN = 1e-3;
 
 const char *rg_cg_stop_text(rg_cg_stop s)
@@ -55,16 +55,27 @@ static void residual(const rg_sparse *C, const double *b, const double *x, doubl
     for (int32_t i = 0; i < 3 * C->M; i++) r[i] = b[i] - r[i];
 }
 
-void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double *b, double *y, double *x, double tol,
-                 int32_t max_iterations, rg_cg_work *k, rg_cg_report *rep)
+/* x = (I - n n^T) C^T y */
+static void mul_t_held(const rg_sparse *C, const double *hold, const double *y, double *x)
+{
+    rg_sparse_mul_t(C, y, x);
+    if (!hold) return;
+    double along = dot(C->N, hold, x);
+    for (int32_t i = 0; i < C->N; i++) x[i] -= along * hold[i];
+}
+
+void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double *hold, const double *b, double *y,
+                 double *x, double tol, int32_t max_iterations, rg_cg_work *k, rg_cg_report *rep)
 {
     const int32_t m = 3 * C->M, n = C->N;
     double *r = k->r, *z = k->z, *u = k->u, *q = k->q, *w = k->w, *s = k->s, *p = k->p;
 
     P(ctx, b, z);
     const double target = tol * sqrt(dot(m, b, z));
+    mul_t_held(C, hold, z, s);
+    const double all = sqrt(dot(n, s, s));
 
-    rg_sparse_mul_t(C, y, x);
+    mul_t_held(C, hold, y, x);
     residual(C, b, x, r);
     P(ctx, r, u);
     if (!(dot(m, r, u) < dot(m, b, z))) { /* the start is no better than none */
@@ -79,14 +90,14 @@ void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double 
     rep->iterations = 0;
     double gamma = 0;
     for (;;) {
-        rg_sparse_mul_t(C, z, s);
+        mul_t_held(C, hold, z, s);
         double old = gamma, left = sqrt(fmax(dot(m, r, z), 0));
         gamma = dot(n, s, s);
         if (left <= target) {
             rep->stop = RG_CG_CONVERGED;
             break;
         }
-        if (sqrt(gamma) <= LEAST_SQUARES_MARGIN * tol * left) { /* P^(1/2) C is of norm 1 or so */
+        if (sqrt(gamma) <= LEAST_SQUARES_MARGIN * tol * all) {
             rep->stop = RG_CG_LEAST_SQUARES;
             break;
         }
@@ -110,7 +121,7 @@ void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double 
         }
         rep->iterations++;
     }
-    rg_sparse_mul_t(C, y, x);
+    mul_t_held(C, hold, y, x);
     residual(C, b, x, r);
     rep->b_norm = sqrt(dot(m, b, b));
     rep->residual = sqrt(dot(m, r, r));

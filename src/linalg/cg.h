@@ -42,9 +42,11 @@ typedef void rg_apply(const void *ctx, const double *in, double *out);
 /* y[3M]    in   where to start (zero is always right); dropped if it is no better than zero
  *          out  a solution; y is not unique where C C^T is singular, x is
  * x[N]     out  C^T y
+ * hold     unit vector [N] that x is kept orthogonal to, C being used as C (I - n n^T); NULL: none. x is then that part
+ *          of C^T y.
  * P        a positive semi-definite preconditioner, [3M] -> [3M], close to the inverse of C C^T
  * Allocates nothing. One work per thread. */
-void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double *b, double *y, double *x, double tol,
-                 int32_t max_iterations, rg_cg_work *w, rg_cg_report *rep);
+void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double *hold, const double *b, double *y,
+                 double *x, double tol, int32_t max_iterations, rg_cg_work *w, rg_cg_report *rep);
 
 #endif

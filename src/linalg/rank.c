@@ -47,7 +47,7 @@ void rg_pinv_free(rg_pinv *P)
     memset(P, 0, sizeof *P);
 }
 
-rg_status rg_pinv_update(rg_pinv *P, const rg_sparse *C)
+rg_status rg_pinv_update(rg_pinv *P, const rg_sparse *C, const double *hold)
 {
     dense *d = P->dense;
     if (!d) return RG_OK;
@@ -59,6 +59,12 @@ rg_status rg_pinv_update(rg_pinv *P, const rg_sparse *C)
             size_t row = 3 * (size_t)C->row[j] + a, col = (size_t)C->col[j];
             d->u[upright ? row * d->small + col : col * d->small + row] = x[a];
         }
+    }
+    for (size_t row = 0; hold && row < 3 * (size_t)P->M; row++) {
+        size_t across = upright ? 1 : d->small;
+        double *a = d->u + (upright ? row * d->small : row), along = 0;
+        for (size_t i = 0; i < (size_t)P->N; i++) along += a[i * across] * hold[i];
+        for (size_t i = 0; i < (size_t)P->N; i++) a[i * across] -= along * hold[i];
     }
     gsl_matrix_view U = gsl_matrix_view_array(d->u, d->tall, d->small), V = gsl_matrix_view_array(d->v, d->small, d->small);
     gsl_matrix_view X = gsl_matrix_view_array(d->x, d->small, d->small);
@@ -101,7 +107,11 @@ rg_status rg_pinv_init(rg_pinv *P, const rg_memory *mem, int32_t M, int32_t N)
     return RG_EABSENT;
 }
 void rg_pinv_free(rg_pinv *P) { (void)P; }
-rg_status rg_pinv_update(rg_pinv *P, const rg_sparse *C) { (void)P, (void)C; return RG_EABSENT; }
+rg_status rg_pinv_update(rg_pinv *P, const rg_sparse *C, const double *hold)
+{
+    (void)P, (void)C, (void)hold;
+    return RG_EABSENT;
+}
 void rg_pinv_apply(const rg_pinv *P, const double *b, double *x, double *y) { (void)P, (void)b, (void)x, (void)y; }
 
 #endif

@@ -17,7 +17,8 @@ int rg_pinv_built(void); /* non-zero: this build has it */
 /* Dense: takes 16 (3M + N) max(3M, N) bytes or so. RG_EABSENT in a build without GSL. */
 rg_status rg_pinv_init(rg_pinv *P, const rg_memory *mem, int32_t M, int32_t N);
 void rg_pinv_free(rg_pinv *P);
-rg_status rg_pinv_update(rg_pinv *P, const rg_sparse *C);
+/* hold: unit vector [N], C is then used as C (I - n n^T); NULL: none */
+rg_status rg_pinv_update(rg_pinv *P, const rg_sparse *C, const double *hold);
 /* x[N] = C^+ b, and y[3M] = (C C^T)^+ b, b[3M] */
 void rg_pinv_apply(const rg_pinv *P, const double *b, double *x, double *y);
 

@@ -31,7 +31,7 @@ rg_status rg_diagnose_blocking(rg_fold *f, int32_t *vertex, int32_t *vertices, i
     rg_project_renew(&f->P);
     rg_drive_wish(&f->drive, f->rho, fmin(f->s, 0.999), f->wish);
     memset(f->P.y, 0, 3 * (size_t)C->M * sizeof *f->P.y);
-    rg_status s = rg_project_step(&f->P, &f->K, f->wish, 0, f->t, SOLVE_TOLERANCE, &rep); /* eq. (9) */
+    rg_status s = rg_project_step(&f->P, &f->K, f->wish, 0, NULL, f->t, SOLVE_TOLERANCE, &rep); /* eq. (9) */
     if (s == RG_OK) {
         for (int32_t k = 0; k < C->M; k++) {
             double sum = 0;
