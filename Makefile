@@ -1,46 +1,65 @@
 # make            the library and the command line        make demo      set up, build, fold a pattern, say where it is
 # make test       set up, build, run every test           make check     everything a change must pass
-# make bench      ratios of speed                         make install   prefix=/usr/local DESTDIR=
-# config=release|debug|asan|coverage   GL=osmesa|egl|none   GPL=1|0   CC=gcc|clang   WERROR=0|1
+# make bench      times, as CSV                           make install   prefix=/usr/local DESTDIR=
+# make asan, coverage, werror, layers, equations, format, pictures, uninstall, clean
+# config=release|debug|asan|coverage   GL=osmesa|egl|none (the first that is there)   GPL=1|0   CC=gcc|clang   WERROR=0|1
 config  ?= release
-GL      ?= osmesa
 GPL     ?= 1
 WERROR  ?= 0
 prefix  ?= /usr/local
+bindir     ?= $(prefix)/bin
+libdir     ?= $(prefix)/lib
+includedir ?= $(prefix)/include
+mandir     ?= $(prefix)/share/man
 VERSION := 0.1.0
 SOVERSION := 0
 
-B := build/$(config)$(if $(filter-out osmesa,$(GL)),-gl-$(GL))$(if $(filter 0,$(GPL)),-nogpl)$(if $(filter clang%,$(CC)),-clang)
+# What the caller asked for, before a default is chosen: tools/setup installs for that.
+setup := GL='$(GL)' GPL='$(GPL)' sh tools/setup
+ifeq ($(GL),)
+override GL := $(shell for gl in osmesa egl; do pkg-config --exists $$gl 2>/dev/null && echo $$gl && exit; done; echo osmesa)
+endif
+ifeq ($(filter $(GL),osmesa egl none),)
+$(error GL is one of osmesa, egl, none)
+endif
+ifeq ($(filter $(config),release debug asan coverage),)
+$(error config is one of release, debug, asan, coverage)
+endif
+
+B := build/$(config)$(if $(filter-out osmesa,$(GL)),-gl-$(GL))$(if $(filter 0,$(GPL)),-nogpl)$(if $(filter clang%,$(CC)),-clang)$(if $(filter 1,$(WERROR)),-werror)
 
 pkgs := libxml-2.0 jansson libpng
 gl_osmesa := osmesa
 gl_egl    := egl gl
-ifeq ($(filter $(GL),osmesa egl none),)
-$(error GL is one of osmesa, egl, none)
-endif
 pkgs += $(gl_$(GL))
 
-CPPFLAGS += -Iinclude -Isrc -D_POSIX_C_SOURCE=200809L -DRG_GL_$(GL)=1 $(shell pkg-config --cflags $(pkgs) 2>/dev/null)
-CFLAGS   ?= -O2 -g
-CFLAGS   += -std=c11 -fPIC -fvisibility=hidden -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes \
+# In lower case what the project needs; CPPFLAGS, CFLAGS, LDFLAGS, LDLIBS stay the caller's.
+cppflags := -Iinclude -Isrc -D_POSIX_C_SOURCE=200809L -DRG_GL_$(GL)=1 $(shell pkg-config --cflags $(pkgs) 2>/dev/null)
+cflags   := -std=c11 -fPIC -fvisibility=hidden -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes \
             -Wmissing-prototypes -Wvla -Wpointer-arith -Wwrite-strings
-LDLIBS   += $(shell pkg-config --libs $(pkgs) 2>/dev/null) -lpthread -lm
+libs     := $(shell pkg-config --libs $(pkgs) 2>/dev/null) -lpthread -lm
 ifeq ($(GPL),1)
-CPPFLAGS += -DRG_GPL=1 -I/usr/include/suitesparse
-LDLIBS   := -lcholmod -lsuitesparseconfig -lgsl -lgslcblas $(LDLIBS)
+cppflags += -DRG_GPL=1 -I/usr/include/suitesparse
+libs     := -lcholmod -lsuitesparseconfig -lgsl -lgslcblas $(libs)
 endif
 ifeq ($(WERROR),1)
-CFLAGS   += -Werror
+cflags   += -Werror
 endif
-ifeq ($(config),debug)
-CFLAGS   += -O0
-else ifeq ($(config),asan)
-CFLAGS   += -O1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
-LDFLAGS  += -fsanitize=address,undefined
+optimise_release  := -O2 -g
+optimise_debug    := -O0 -g
+optimise_asan     := -O1 -g
+optimise_coverage := -O0 -g
+CFLAGS   ?= $(optimise_$(config))
+ldflags  :=
+ifeq ($(config),asan)
+ldflags  += -fsanitize=address,undefined
+cflags   += $(ldflags) -fno-sanitize-recover=all -fno-omit-frame-pointer
 else ifeq ($(config),coverage)
-CFLAGS   += -O0 --coverage
-LDFLAGS  += --coverage
+ldflags  += --coverage
+cflags   += --coverage
 endif
+compile = $(CC) $(cppflags) $(CPPFLAGS) $(cflags) $(CFLAGS)
+link    = $(CC) $(ldflags) $(LDFLAGS)
 
 src   := $(sort $(wildcard src/*/*.c))
 cmd   := $(sort $(wildcard tools/rigami.c tools/cmd_*.c))
@@ -48,34 +67,160 @@ tests := $(sort $(wildcard tests/test_*.c))
 bench := $(sort $(wildcard tests/bench/*.c))
 lib_o := $(src:%.c=$B/%.o)
 cmd_o := $(cmd:%.c=$B/%.o)
+test_bin  := $(tests:%.c=$B/%)
+bench_bin := $(bench:%.c=$B/%)
 
-all: $B/librigami.a $B/librigami.so $B/rigami
+# As many jobs as there are processors, unless the caller chose.
+jobs = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc 2>/dev/null || echo 2))
+
+all: build
 	@ln -sfn $B/rigami rigami
+
+build: $B/librigami.a $B/librigami.so $B/rigami
 
 $B/%.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
+	$(compile) -MMD -MP -c -o $@ $<
 
 $B/librigami.a: $(lib_o)
 	@rm -f $@
 	ar rcs $@ $^
 
 $B/librigami.so: $(lib_o)
-	$(CC) $(LDFLAGS) -shared -Wl,-soname,librigami.so.$(SOVERSION) -Wl,--no-undefined -o $@ $^ $(LDLIBS)
+	$(link) -shared -Wl,-soname,librigami.so.$(SOVERSION) -Wl,--no-undefined -o $@ $^ $(libs) $(LDLIBS)
 
 $B/rigami: $(cmd_o) $B/librigami.a
-	$(CC) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+	$(link) -o $@ $^ $(libs) $(LDLIBS)
 
 # Tests see the library's inside, so they link the archive.
 $B/tests/test_%: $B/tests/test_%.o $B/librigami.a $B/rigami
-	$(CC) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) -lcmocka $(if $(filter 1,$(GPL)),-lgsl -lgslcblas) $(LDLIBS)
+	$(link) -o $@ $(filter %.o %.a,$^) -lcmocka $(if $(filter 1,$(GPL)),-lgsl -lgslcblas) $(libs) $(LDLIBS)
 
 $B/tests/bench/%: $B/tests/bench/%.o $B/librigami.a
-	$(CC) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+	$(link) -o $@ $^ $(libs) $(LDLIBS)
+
+# What the embedder sees: the example knows nothing but rigami.h.
+$B/docs/example: $B/docs/example.o $B/librigami.a
+	$(link) -o $@ $^ $(libs) $(LDLIBS)
+
+# ------------------------------------------------------------------------------------------------ test, demo
+
+# A second make, because what pkg-config says is asked when a makefile is read: before tools/setup, it may say nothing.
+test:
+	@$(setup)
+	@$(MAKE) --no-print-directory $(jobs) run-tests
+
+demo:
+	@$(setup)
+	@$(MAKE) --no-print-directory $(jobs) run-demo
+
+# Mesa and the libraries under it keep memory until the program ends.
+run-tests: all $(test_bin)
+	@ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS=suppressions=tests/lsan.supp:print_suppressions=0 \
+	 UBSAN_OPTIONS=print_stacktrace=1 RIGAMI=$B/rigami sh tools/run_tests $(test_bin)
+
+run-demo: all
+	@sh tools/run_demo $B/rigami $(GL)
+
+asan:
+	@$(MAKE) --no-print-directory $(jobs) config=asan run-tests
+
+coverage:
+	@find build -path 'build/coverage*' -name '*.gcda' -exec rm -f {} +
+	@$(MAKE) --no-print-directory $(jobs) config=coverage run-tests
+	@$(MAKE) --no-print-directory config=coverage coverage-table
+
+coverage-table:
+	@for o in $(lib_o); do gcov -n -o $$o $$o 2>/dev/null; done | \
+	    awk -F"'" '/^File/ {f = $$2} /^Lines executed/ && f ~ /^src\// {print f ": " $$0; f = ""}' | sort -u | \
+	    sed 's/Lines executed://' | column -t
+
+bench:
+	@$(setup)
+	@$(MAKE) --no-print-directory $(jobs) run-bench
+
+run-bench: $(bench_bin)
+	@for b in $(bench_bin); do $$b || exit 1; done
+
+# ----------------------------------------------------------------------------------------------------- check
+
+# tested=yes: make test was run already.
+check:
+	@$(setup) check
+	@$(if $(tested),,$(MAKE) --no-print-directory $(jobs) run-tests)
+	@for part in layers equations header werror install-check without-gpl without-gl asan; do \
+	    echo "== $$part"; $(MAKE) --no-print-directory $(jobs) $$part >build/check.log 2>&1 || \
+	        { cat build/check.log; echo "check: $$part FAILED"; exit 1; }; \
+	    tail -n 1 build/check.log; \
+	done
+	@echo "check: all parts passed"
+
+werror:
+	@$(MAKE) --no-print-directory CC=gcc WERROR=1 everything
+	@$(MAKE) --no-print-directory CC=clang WERROR=1 everything
+	@echo "no warnings from gcc and clang"
+
+everything: build $(test_bin) $(bench_bin) $B/docs/example
+
+# Builds with a part left out, each asked to do what it still can.
+without-gpl:
+	@$(MAKE) --no-print-directory GPL=0 build
+	@sh tools/smoke build/release$(if $(filter-out osmesa,$(GL)),-gl-$(GL))-nogpl/rigami $(GL)
+without-gl:
+	@$(MAKE) --no-print-directory GL=none build
+	@sh tools/smoke build/release-gl-none/rigami none
+
+layers:
+	@sh tools/check_layers
+
+equations:
+	@sh tools/check_equations
+
+header:
+	@clang -x c++ -std=c++98 -Wall -Wextra -Wpedantic -Wno-long-long -Werror -Iinclude -fsyntax-only tests/header.cpp
+	@clang -x c++ -std=c++17 -Wall -Wextra -Wpedantic -Werror -Iinclude -fsyntax-only tests/header.cpp
+	@echo "rigami.h is C++ too"
+
+format:
+	clang-format -i $(wildcard include/*.h src/*/*.[ch] tools/*.[ch] tests/*.[ch] tests/bench/*.[ch])
+
+pictures: all
+	@sh tools/make_pictures $B/rigami
+
+# --------------------------------------------------------------------------------------------------- install
+
+installed = $(bindir)/rigami $(includedir)/rigami.h $(libdir)/librigami.a $(libdir)/librigami.so.$(VERSION) \
+            $(libdir)/librigami.so.$(SOVERSION) $(libdir)/librigami.so $(libdir)/pkgconfig/rigami.pc $(mandir)/man1/rigami.1
+
+install: build
+	install -d $(sort $(dir $(addprefix $(DESTDIR),$(installed))))
+	install -m 755 $B/rigami $(DESTDIR)$(bindir)/rigami
+	install -m 644 include/rigami.h $(DESTDIR)$(includedir)/rigami.h
+	install -m 644 $B/librigami.a $(DESTDIR)$(libdir)/librigami.a
+	install -m 755 $B/librigami.so $(DESTDIR)$(libdir)/librigami.so.$(VERSION)
+	ln -sf librigami.so.$(VERSION) $(DESTDIR)$(libdir)/librigami.so.$(SOVERSION)
+	ln -sf librigami.so.$(SOVERSION) $(DESTDIR)$(libdir)/librigami.so
+	sed -e 's|@prefix@|$(prefix)|' -e 's|@libdir@|$(libdir)|' -e 's|@includedir@|$(includedir)|' \
+	    -e 's|@version@|$(VERSION)|' -e 's|@libs@|$(libs)|' rigami.pc.in >$B/rigami.pc
+	install -m 644 $B/rigami.pc $(DESTDIR)$(libdir)/pkgconfig/rigami.pc
+	install -m 644 docs/rigami.1 $(DESTDIR)$(mandir)/man1/rigami.1
+
+uninstall:
+	rm -f $(addprefix $(DESTDIR),$(installed))
+
+# Installs, builds the example against what was installed, shared and static, runs both, takes it all away again.
+install-check: build
+	@rm -rf build/installed
+	@$(MAKE) --no-print-directory install prefix=$(CURDIR)/build/installed DESTDIR= >/dev/null
+	@CC='$(CC)' sh tools/check_install build/installed
+	@$(MAKE) --no-print-directory uninstall prefix=$(CURDIR)/build/installed DESTDIR= >/dev/null
+	@left=$$(find build/installed ! -type d); test -z "$$left" || { echo "uninstall leaves $$left"; exit 1; }
+	@echo "install, example against it, uninstall: as they should be"
 
 clean:
 	rm -rf build rigami
 
-.PHONY: all clean
+.PHONY: all build test demo run-tests run-demo asan coverage coverage-table bench run-bench check werror everything without-gpl \
+        without-gl layers equations header format pictures install uninstall install-check clean
 .SECONDARY:
--include $(shell find build -name '*.d' 2>/dev/null)
+-include $(shell find $B -name '*.d' 2>/dev/null)
