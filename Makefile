@@ -3,6 +3,7 @@
 # make bench      times, as CSV                           make install   prefix=/usr/local DESTDIR=
 # make asan, coverage, werror, layers, equations, format, pictures, uninstall, clean
 # config=release|debug|asan|coverage   GL=osmesa|egl|none (the first that is there)   GPL=1|0   CC=gcc|clang   WERROR=0|1
+# V=1 shows whole commands
 config  ?= release
 GPL     ?= 1
 WERROR  ?= 0
@@ -58,6 +59,9 @@ else ifeq ($(config),coverage)
 ldflags  += --coverage
 cflags   += --coverage
 endif
+# One short line a command; V=1 shows the whole of it.
+Q := $(if $(filter 1,$(V)),,@)
+say = $(if $Q,@printf '%-5s %s\n' '$1' '$2')
 compile = $(CC) $(cppflags) $(CPPFLAGS) $(cflags) $(CFLAGS)
 link    = $(CC) $(ldflags) $(LDFLAGS)
 
@@ -80,28 +84,35 @@ build: $B/librigami.a $B/librigami.so $B/rigami
 
 $B/%.o: %.c
 	@mkdir -p $(@D)
-	$(compile) -MMD -MP -c -o $@ $<
+	$(call say,cc,$<)
+	$Q$(compile) -MMD -MP -c -o $@ $<
 
 $B/librigami.a: $(lib_o)
 	@rm -f $@
-	ar rcs $@ $^
+	$(call say,ar,$@)
+	$Qar rcs $@ $^
 
 $B/librigami.so: $(lib_o)
-	$(link) -shared -Wl,-soname,librigami.so.$(SOVERSION) -Wl,--no-undefined -o $@ $^ $(libs) $(LDLIBS)
+	$(call say,link,$@)
+	$Q$(link) -shared -Wl,-soname,librigami.so.$(SOVERSION) -Wl,--no-undefined -o $@ $^ $(libs) $(LDLIBS)
 
 $B/rigami: $(cmd_o) $B/librigami.a
-	$(link) -o $@ $^ $(libs) $(LDLIBS)
+	$(call say,link,$@)
+	$Q$(link) -o $@ $^ $(libs) $(LDLIBS)
 
 # Tests see the library's inside, so they link the archive.
 $B/tests/test_%: $B/tests/test_%.o $B/librigami.a $B/rigami
-	$(link) -o $@ $(filter %.o %.a,$^) -lcmocka $(if $(filter 1,$(GPL)),-lgsl -lgslcblas) $(libs) $(LDLIBS)
+	$(call say,link,$@)
+	$Q$(link) -o $@ $(filter %.o %.a,$^) -lcmocka $(if $(filter 1,$(GPL)),-lgsl -lgslcblas) $(libs) $(LDLIBS)
 
 $B/tests/bench/%: $B/tests/bench/%.o $B/librigami.a
-	$(link) -o $@ $^ $(libs) $(LDLIBS)
+	$(call say,link,$@)
+	$Q$(link) -o $@ $^ $(libs) $(LDLIBS)
 
 # What the embedder sees: the example knows nothing but rigami.h.
 $B/docs/example: $B/docs/example.o $B/librigami.a
-	$(link) -o $@ $^ $(libs) $(LDLIBS)
+	$(call say,link,$@)
+	$Q$(link) -o $@ $^ $(libs) $(LDLIBS)
 
 # ------------------------------------------------------------------------------------------------ test, demo
 
@@ -132,7 +143,7 @@ coverage:
 
 coverage-table:
 	@for o in $(lib_o); do gcov -n -o $$o $$o 2>/dev/null; done | \
-	    awk -F"'" '/^File/ {f = $$2} /^Lines executed/ && f ~ /^src\// {print f ": " $$0; f = ""}' | sort -u | \
+	    awk -F"'" '/^File/ {f = $$2} /^Lines executed/ && f ~ /^src.*c$$/ {print f ": " $$0; f = ""}' | sort -u | \
 	    sed 's/Lines executed://' | column -t
 
 bench:
@@ -177,7 +188,7 @@ equations:
 	@sh tools/check_equations
 
 header:
-	@clang -x c++ -std=c++98 -Wall -Wextra -Wpedantic -Wno-long-long -Werror -Iinclude -fsyntax-only tests/header.cpp
+	@clang -x c++ -std=c++11 -Wall -Wextra -Wpedantic -Werror -Iinclude -fsyntax-only tests/header.cpp
 	@clang -x c++ -std=c++17 -Wall -Wextra -Wpedantic -Werror -Iinclude -fsyntax-only tests/header.cpp
 	@echo "rigami.h is C++ too"
 
