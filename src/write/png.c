@@ -1,0 +1,67 @@
+#include "write/png.h"
+#include "base/status.h"
+
+#include <errno.h>
+#include <png.h>
+#include <setjmp.h>
+#include <string.h>
+
+/* What libpng says, kept for the caller instead of printed. */
+typedef struct trouble {
+    rg_diag *why;
+    FILE *file;
+    rg_status status;
+} trouble;
+
+static void on_error(png_structp png, png_const_charp words)
+{
+    trouble *t = png_get_error_ptr(png);
+    if (t->status == RG_OK) t->status = rg_fail(RG_EWRITE, t->why, 0, "%s", words);
+    png_longjmp(png, 1);
+}
+
+static void on_warning(png_structp png, png_const_charp words) { (void)png, (void)words; }
+
+static void write_bytes(png_structp png, png_bytep bytes, size_t n)
+{
+    trouble *t = png_get_io_ptr(png);
+    if (fwrite(bytes, 1, n, t->file) == n) return;
+    t->status = rg_fail(RG_EWRITE, t->why, 0, "%s", strerror(errno));
+    png_error(png, "write");
+}
+
+static void flush(png_structp png) { (void)png; }
+
+/* Everything that libpng may jump out of is in here, so that nothing of the caller's is clobbered by the jump. */
+static rg_status write_all(png_structp png, png_infop info, int32_t width, int32_t height, const unsigned char *rgb)
+{
+    if (setjmp(png_jmpbuf(png))) return RG_EWRITE;
+    png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
+    png_set_IHDR(png, info, (png_uint_32)width, (png_uint_32)height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_compression_level(png, 6);
+    /* Flat areas: a row that is like the one above turns into zeros. */
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
+    png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(png, info);
+    for (int32_t y = 0; y < height; y++) png_write_row(png, rgb + 3 * (size_t)width * (size_t)y);
+    png_write_end(png, info);
+    return RG_OK;
+}
+
+rg_status rg_png_write(FILE *file, int32_t width, int32_t height, const unsigned char *rgb, rg_diag *why)
+{
+    if (width < 1 || height < 1)
+        return rg_fail(RG_EARG, why, 0, "a picture of %d x %d pixels", (int)width, (int)height);
+    trouble t = {why, file, RG_OK};
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &t, on_error, on_warning);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    if (!info) {
+        png_destroy_write_struct(&png, NULL);
+        return rg_fail(RG_ENOMEM, why, 0, "out of memory for the PNG");
+    }
+    png_set_write_fn(png, &t, write_bytes, flush);
+    const rg_status s = write_all(png, info, width, height, rgb);
+    png_destroy_write_struct(&png, &info);
+    return s;
+}

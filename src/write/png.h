@@ -1,0 +1,13 @@
+/* png.h -- one picture as PNG.
+ * Uses  base        Used by  pictures.c, animations */
+#ifndef RG_PNG_H
+#define RG_PNG_H
+
+#include "rigami.h"
+#include <stdio.h>
+
+/* rgb: height rows of width pixels of 3 bytes, top row first. The same picture gives the same bytes.
+ * RG_EWRITE: why->text says why; the file is then of no use. RG_ENOMEM. The file stays open and the caller's. */
+rg_status rg_png_write(FILE *file, int32_t width, int32_t height, const unsigned char *rgb, rg_diag *why);
+
+#endif
