@@ -1,0 +1,43 @@
+#include "read/lines.h"
+#include "base/memory.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+void rg_lines_init(rg_lines *l, const rg_memory *mem)
+{
+    memset(l, 0, sizeof *l);
+    l->mem = *mem;
+}
+
+void rg_lines_free(rg_lines *l)
+{
+    if (!l->mem.resize) return;
+    rg_memory mem = l->mem;
+    void *block[] = {l->line, l->title, l->author, l->editor, l->reference, l->memo, l->warning};
+    for (int i = 0; i < 7; i++) rg_mem_free(&mem, block[i]);
+    memset(l, 0, sizeof *l);
+}
+
+rg_status rg_lines_add(rg_lines *l, rg_vec2 a, rg_vec2 b, char assignment, int32_t where)
+{
+    if (l->count >= INT32_MAX / 8) return RG_ENOMEM; /* indices of what is made of the lines stay in 32 bits */
+    rg_status s = rg_mem_grow(&l->mem, (void **)&l->line, &l->room, (size_t)l->count + 1, sizeof *l->line);
+    if (s != RG_OK) return s;
+    l->line[l->count++] = (rg_line){a, b, NAN, assignment, where};
+    return RG_OK;
+}
+
+rg_status rg_lines_warn(rg_lines *l, int32_t where, const char *format, ...)
+{
+    rg_status s = rg_mem_grow(&l->mem, (void **)&l->warning, &l->warning_room, (size_t)l->warnings + 1, sizeof *l->warning);
+    if (s != RG_OK) return s;
+    rg_diag *d = &l->warning[l->warnings++];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(d->text, sizeof d->text, format, args);
+    va_end(args);
+    d->line = where;
+    return RG_OK;
+}
