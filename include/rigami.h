@@ -102,7 +102,7 @@ typedef struct rg_pattern_info {
     int32_t mountains, valleys, unassigned, flat;
     int32_t closed_vertices;          /* section 3.1 */
     int32_t maekawa_violations;
-    double kawasaki_max_deg;          /* largest | alternating angle sum | over interior vertices of even degree, degrees */
+    double kawasaki_max_deg;          /* largest | every other angle - 180 | over interior vertices of even degree, degrees */
     double size;                      /* longer side of the bounding box, file units */
     double merged_max, kept_min;      /* largest distance merged, smallest kept, file units */
     int is_disk;                      /* one sheet without holes, slits or loose ends */

@@ -25,7 +25,8 @@ struct rg_pattern {
     int32_t *star;        /* [2 ne] */
     unsigned char *rim;   /* [nv] non-zero: on the outer border */
     rg_pattern_info info; /* info.title, info.author point into `lines` */
-    rg_closed *closed;
+    rg_closed *closed;    /* every closed triple, by vertex */
+    int32_t closed_triples;
     rg_unfoldable *unfoldable;
     int32_t unfoldables;
     rg_lines lines;       /* only its metadata and warnings are kept */

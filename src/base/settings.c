@@ -1,0 +1,7 @@
+#include "base/vec.h"
+#include "rigami.h"
+
+rg_settings rg_settings_default(void)
+{
+    return (rg_settings){.merge = 2e-5, .step = 5 * RG_DEG, .tol = 1e-10, .to = 1, .frames = 60, .fixed_facet = -1};
+}

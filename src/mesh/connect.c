@@ -1,0 +1,96 @@
+#include "mesh/connect.h"
+#include "base/memory.h"
+
+#include <string.h>
+
+void rg_mesh_free(rg_mesh *m)
+{
+    if (!m->mem.resize) return;
+    rg_memory mem = m->mem;
+    void *block[] = {m->X, m->edge, m->assignment, m->target, m->edge_facet, m->facet_start, m->facet_vertex, m->facet_edge,
+                     m->crease_edge, m->edge_crease, m->inner_vertex, m->loop_start, m->loop_crease, m->loop_theta};
+    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&mem, block[i]);
+    memset(m, 0, sizeof *m);
+}
+
+static rg_status join_facets(rg_mesh *m)
+{
+    m->edge_facet = rg_mem_array(&m->mem, (size_t)m->ne, sizeof *m->edge_facet);
+    m->edge_crease = rg_mem_array(&m->mem, (size_t)m->ne, sizeof *m->edge_crease);
+    m->crease_edge = rg_mem_array(&m->mem, (size_t)m->ne, sizeof *m->crease_edge);
+    if (!m->edge_facet || !m->edge_crease || !m->crease_edge) return RG_ENOMEM;
+    for (int32_t e = 0; e < m->ne; e++) m->edge_facet[e][0] = m->edge_facet[e][1] = -1;
+    for (int32_t f = 0; f < m->nf; f++)
+        for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) {
+            const int32_t e = m->facet_edge[j];
+            m->edge_facet[e][m->edge[e][0] != m->facet_vertex[j]] = f;
+        }
+    for (int32_t e = 0; e < m->ne; e++) {
+        const int inside = m->edge_facet[e][0] >= 0 && m->edge_facet[e][1] >= 0;
+        m->edge_crease[e] = inside ? m->N : -1;
+        if (inside) m->crease_edge[m->N++] = e;
+        else m->N0++;
+    }
+    return RG_OK;
+}
+
+/* A facet's corner takes one counter-clockwise from the edge that leaves it to the edge that arrives there, by its
+ * angle: following the corners of a vertex goes once around it. corner[j]: the crease after facet_edge[j] around
+ * facet_vertex[j], as a position in the facet lists, found over the edge's other facet. */
+static rg_status walk_loops(rg_mesh *m, const int32_t *inner)
+{
+    const int32_t corners = m->facet_start[m->nf];
+    int32_t *leaving = rg_mem_array(&m->mem, (size_t)m->ne, 2 * sizeof *leaving);
+    int32_t *first = rg_mem_array(&m->mem, (size_t)m->nv, sizeof *first), *before = rg_mem_array(&m->mem, (size_t)corners, sizeof *before);
+    rg_status s = leaving && first && before ? RG_OK : RG_ENOMEM;
+    if (s != RG_OK) goto out;
+    for (int32_t v = 0; v < m->nv; v++) first[v] = -1;
+    for (int32_t f = 0; f < m->nf; f++)
+        for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) {
+            const int32_t e = m->facet_edge[j], v = m->facet_vertex[j];
+            leaving[2 * e + (m->edge[e][0] != v)] = j;
+            before[j] = j > m->facet_start[f] ? j - 1 : m->facet_start[f + 1] - 1;
+            if (first[v] < 0 || m->edge_crease[e] < m->edge_crease[m->facet_edge[first[v]]]) first[v] = j;
+        }
+    int32_t at = 0, k = 0;
+    for (int32_t v = 0; v < m->nv; v++) {
+        if (!inner[v]) continue;
+        m->inner_vertex[k] = v;
+        int32_t j = first[v];
+        do {
+            const int32_t arriving = m->facet_edge[before[j]], from = m->facet_vertex[before[j]];
+            const int32_t e = m->facet_edge[j], to = m->edge[e][m->edge[e][0] == v];
+            const rg_vec2 a = rg_vec2_sub(m->X[to], m->X[v]), b = rg_vec2_sub(m->X[from], m->X[v]);
+            const double turn = atan2(rg_vec2_cross(a, b), rg_vec2_dot(a, b));
+            m->loop_crease[at] = m->edge_crease[e];
+            m->loop_theta[at++] = turn > 0 ? turn : turn + 2 * RG_PI;
+            j = leaving[2 * arriving + (m->edge[arriving][0] != v)];
+        } while (j != first[v]);
+        m->loop_start[++k] = at;
+    }
+out:
+    rg_mem_free(&m->mem, leaving);
+    rg_mem_free(&m->mem, first);
+    rg_mem_free(&m->mem, before);
+    return s;
+}
+
+rg_status rg_mesh_connect(rg_mesh *m)
+{
+    rg_status s = join_facets(m);
+    if (s != RG_OK) return s;
+    int32_t *inner = rg_mem_array(&m->mem, (size_t)m->nv, sizeof *inner), spokes = 0;
+    if (!inner) return RG_ENOMEM;
+    for (int32_t v = 0; v < m->nv; v++) inner[v] = 1;
+    for (int32_t e = 0; e < m->ne; e++)
+        if (m->edge_crease[e] < 0) inner[m->edge[e][0]] = inner[m->edge[e][1]] = 0;
+    for (int32_t v = 0; v < m->nv; v++) m->M += inner[v];
+    for (int32_t i = 0; i < m->N; i++) spokes += inner[m->edge[m->crease_edge[i]][0]] + inner[m->edge[m->crease_edge[i]][1]];
+    m->inner_vertex = rg_mem_array(&m->mem, (size_t)m->M, sizeof *m->inner_vertex);
+    m->loop_start = rg_mem_array(&m->mem, (size_t)m->M + 1, sizeof *m->loop_start);
+    m->loop_crease = rg_mem_array(&m->mem, (size_t)spokes, sizeof *m->loop_crease);
+    m->loop_theta = rg_mem_array(&m->mem, (size_t)spokes, sizeof *m->loop_theta);
+    s = m->inner_vertex && m->loop_start && m->loop_crease && m->loop_theta ? walk_loops(m, inner) : RG_ENOMEM;
+    rg_mem_free(&m->mem, inner);
+    return s;
+}

@@ -1,0 +1,61 @@
+#include "pattern/check.h"
+
+#include <stdlib.h>
+
+/* Larger than any drawing program's rounding, smaller than what one sees: flat-foldable drawings read from files
+ * are off by less, patterns drawn by eye by more. */
+static const double KAWASAKI = 0.01 * RG_DEG;
+
+void rg_check_sectors(const struct rg_pattern *p, int32_t v, double *theta)
+{
+    const int32_t *star = p->star + p->star_start[v], n = p->star_start[v + 1] - p->star_start[v];
+    for (int32_t i = 0; i < n; i++) {
+        const rg_edge *e = &p->E[star[i]], *f = &p->E[star[(i + 1) % n]];
+        const rg_vec2 a = rg_vec2_sub(p->X[e->v[e->v[0] == v]], p->X[v]), b = rg_vec2_sub(p->X[f->v[f->v[0] == v]], p->X[v]);
+        const double turn = atan2(rg_vec2_cross(a, b), rg_vec2_dot(a, b));
+        theta[i] = turn > 0 ? turn : turn + 2 * RG_PI;
+    }
+}
+
+static rg_status add(struct rg_pattern *p, size_t *room, int32_t v, rg_theorem theorem, double by)
+{
+    rg_status s = rg_mem_grow(&p->mem, (void **)&p->unfoldable, room, (size_t)p->unfoldables + 1, sizeof *p->unfoldable);
+    if (s == RG_OK) p->unfoldable[p->unfoldables++] = (rg_unfoldable){v, p->X[v].x, p->X[v].y, theorem, by};
+    return s;
+}
+
+rg_status rg_check_vertices(struct rg_pattern *p)
+{
+    int32_t most = 1;
+    size_t room = 0;
+    rg_status s = RG_OK;
+    for (int32_t v = 0; v < p->nv; v++) most = p->star_start[v + 1] - p->star_start[v] > most ? p->star_start[v + 1] - p->star_start[v] : most;
+    double *theta = rg_mem_array(&p->mem, (size_t)most, sizeof *theta);
+    if (!theta) return RG_ENOMEM;
+    for (int32_t v = 0; s == RG_OK && v < p->nv; v++) {
+        if (p->rim[v]) continue;
+        const int32_t n = p->star_start[v + 1] - p->star_start[v];
+        int32_t mountains = 0, valleys = 0, cuts = 0;
+        double alternating = 0;
+        rg_check_sectors(p, v, theta);
+        for (int32_t i = 0; i < n; i++) {
+            mountains += p->E[p->star[p->star_start[v] + i]].assignment == RG_MOUNTAIN;
+            valleys += p->E[p->star[p->star_start[v] + i]].assignment == RG_VALLEY;
+            cuts += p->E[p->star[p->star_start[v] + i]].assignment == RG_CUT;
+            alternating += (i % 2 ? -theta[i] : theta[i]) / 2; /* every other angle, less half a turn */
+        }
+        if (cuts) continue; /* the end of a slit: the paper does not go all the way round */
+        const int32_t excess = abs(mountains - valleys);
+        const int maekawa = mountains + valleys < n || excess == 2;
+        p->info.maekawa_violations += !maekawa;
+        if (n % 2) {
+            s = add(p, &room, v, RG_DEGREE, n);
+            continue;
+        }
+        p->info.kawasaki_max_deg = fmax(p->info.kawasaki_max_deg, fabs(alternating) / RG_DEG);
+        if (!(fabs(alternating) <= KAWASAKI)) s = add(p, &room, v, RG_KAWASAKI, fabs(alternating) / RG_DEG);
+        if (s == RG_OK && !maekawa) s = add(p, &room, v, RG_MAEKAWA, excess);
+    }
+    rg_mem_free(&p->mem, theta);
+    return s;
+}

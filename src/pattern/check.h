@@ -1,0 +1,14 @@
+/* check.h -- can a vertex fold flat: degree, Kawasaki's theorem, Maekawa's theorem.
+ * Paper    section 3.3, eq. (16) is Kawasaki's        Uses  pattern.h        Used by  pattern.c */
+#ifndef RG_CHECK_H
+#define RG_CHECK_H
+
+#include "pattern/pattern.h"
+
+/* Sector angles theta[i] of interior vertex v, from edge star[i] to the next one counter-clockwise; they add up to
+ * 2 pi. theta: room for the vertex's degree. */
+void rg_check_sectors(const struct rg_pattern *p, int32_t v, double *theta);
+/* Fills p->unfoldable, and the counts and the Kawasaki residual of p->info. RG_ENOMEM. */
+rg_status rg_check_vertices(struct rg_pattern *p);
+
+#endif

@@ -1,0 +1,47 @@
+#include "pattern/closed.h"
+#include "pattern/check.h"
+
+/* Two sector angles of a drawing are equal when they differ by no more. */
+static const double EQUAL = 0.01 * RG_DEG;
+
+static int folds(char assignment) { return assignment == RG_MOUNTAIN || assignment == RG_VALLEY; }
+
+static void far_end(const struct rg_pattern *p, int32_t v, int32_t e, double x[2])
+{
+    const rg_vec2 at = p->X[p->E[e].v[p->E[e].v[0] == v]];
+    x[0] = at.x;
+    x[1] = at.y;
+}
+
+rg_status rg_closed_find(struct rg_pattern *p)
+{
+    int32_t most = 1;
+    size_t room = 0;
+    rg_status s = RG_OK;
+    for (int32_t v = 0; v < p->nv; v++) most = p->star_start[v + 1] - p->star_start[v] > most ? p->star_start[v + 1] - p->star_start[v] : most;
+    double *theta = rg_mem_array(&p->mem, (size_t)most, sizeof *theta);
+    if (!theta) return RG_ENOMEM;
+    for (int32_t v = 0; s == RG_OK && v < p->nv; v++) {
+        const int32_t *star = p->star + p->star_start[v], n = p->star_start[v + 1] - p->star_start[v];
+        if (p->rim[v] || n < 3) continue;
+        rg_check_sectors(p, v, theta);
+        int found = 0;
+        for (int32_t i = 0; s == RG_OK && i < n; i++) {
+            const int32_t next = (i + 1) % n, a = star[i], c = star[next], b = star[(i + 2) % n];
+            const char at_a = p->E[a].assignment, at_c = p->E[c].assignment, at_b = p->E[b].assignment;
+            if (!folds(at_a) || !folds(at_c) || !folds(at_b) || at_a == at_b) continue;
+            if (!(fabs(theta[i] - theta[next]) <= EQUAL)) continue;
+            s = rg_mem_grow(&p->mem, (void **)&p->closed, &room, (size_t)p->closed_triples + 1, sizeof *p->closed);
+            if (s != RG_OK) break;
+            rg_closed *closed = &p->closed[p->closed_triples++];
+            *closed = (rg_closed){.vertex = v, .x = p->X[v].x, .y = p->X[v].y, .inside_angle = at_a != at_c ? theta[i] : theta[next]};
+            far_end(p, v, a, closed->a);
+            far_end(p, v, c, closed->c);
+            far_end(p, v, b, closed->b);
+            found = 1;
+        }
+        p->info.closed_vertices += found;
+    }
+    rg_mem_free(&p->mem, theta);
+    return s;
+}

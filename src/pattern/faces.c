@@ -1,0 +1,93 @@
+#include "pattern/faces.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct spoke { double angle; int32_t e; } spoke;
+
+static int by_angle(const void *a, const void *b)
+{
+    const spoke *p = a, *q = b;
+    if (p->angle != q->angle) return p->angle < q->angle ? -1 : 1;
+    return p->e < q->e ? -1 : p->e > q->e;
+}
+
+rg_status rg_star_init(rg_star *s, const rg_memory *mem, int32_t nv, int32_t ne, const rg_vec2 *X, const rg_edge *E)
+{
+    memset(s, 0, sizeof *s);
+    s->mem = *mem;
+    s->start = rg_mem_array(mem, (size_t)nv + 2, sizeof *s->start);
+    s->edge = rg_mem_array(mem, 2 * (size_t)ne, sizeof *s->edge);
+    spoke *spokes = rg_mem_array(mem, 2 * (size_t)ne, sizeof *spokes);
+    if (!s->start || !s->edge || !spokes) {
+        rg_mem_free(mem, spokes);
+        return RG_ENOMEM;
+    }
+    int32_t *cursor = s->start + 1;
+    for (int32_t e = 0; e < ne; e++)
+        for (int i = 0; i < 2; i++) s->start[E[e].v[i] + 2]++;
+    for (int32_t v = 2; v <= nv; v++) s->start[v] += s->start[v - 1];
+    for (int32_t e = 0; e < ne; e++)
+        for (int i = 0; i < 2; i++) {
+            rg_vec2 d = rg_vec2_sub(X[E[e].v[!i]], X[E[e].v[i]]);
+            spokes[cursor[E[e].v[i]]++] = (spoke){atan2(d.y, d.x), e};
+        }
+    for (int32_t v = 0; v < nv; v++)
+        qsort(spokes + s->start[v], (size_t)(s->start[v + 1] - s->start[v]), sizeof *spokes, by_angle);
+    for (int32_t j = 0; j < 2 * ne; j++) s->edge[j] = spokes[j].e;
+    rg_mem_free(mem, spokes);
+    return RG_OK;
+}
+
+void rg_star_free(rg_star *s)
+{
+    if (!s->mem.resize) return;
+    rg_mem_free(&s->mem, s->start);
+    rg_mem_free(&s->mem, s->edge);
+    memset(s, 0, sizeof *s);
+}
+
+rg_status rg_faces_init(rg_faces *f, const rg_memory *mem, int32_t nv, int32_t ne, const rg_vec2 *X, const rg_edge *E,
+                        const int32_t *star_start, const int32_t *star)
+{
+    const int32_t halves = 2 * ne;
+    memset(f, 0, sizeof *f);
+    f->mem = *mem;
+    f->next = rg_mem_array(mem, (size_t)halves, sizeof *f->next);
+    f->face = rg_mem_array(mem, (size_t)halves, sizeof *f->face);
+    f->first = rg_mem_array(mem, (size_t)halves, sizeof *f->first);
+    f->area = rg_mem_array(mem, (size_t)halves, sizeof *f->area);
+    if (!f->next || !f->face || !f->first || !f->area) return RG_ENOMEM;
+    /* Arriving at v over an edge, the face on the left goes on over the edge before it, counter-clockwise. */
+    for (int32_t v = 0; v < nv; v++)
+        for (int32_t j = star_start[v]; j < star_start[v + 1]; j++) {
+            const int32_t e = star[j], before = star[j > star_start[v] ? j - 1 : star_start[v + 1] - 1];
+            const int32_t arriving = 2 * e + (E[e].v[0] == v), leaving = 2 * before + (E[before].v[1] == v);
+            f->next[arriving] = leaving;
+        }
+    for (int32_t h = 0; h < halves; h++) f->face[h] = -1;
+    for (int32_t h = 0; h < halves; h++) {
+        if (f->face[h] >= 0) continue;
+        const rg_vec2 from = X[rg_tail(E, h)]; /* sums of small numbers round less */
+        double twice = 0;
+        int32_t g = h;
+        do {
+            f->face[g] = f->count;
+            twice += rg_vec2_turn(from, X[rg_tail(E, g)], X[rg_head(E, g)]);
+            g = f->next[g];
+        } while (g != h);
+        f->first[f->count] = h;
+        f->area[f->count++] = twice / 2;
+    }
+    return RG_OK;
+}
+
+void rg_faces_free(rg_faces *f)
+{
+    if (!f->mem.resize) return;
+    rg_mem_free(&f->mem, f->next);
+    rg_mem_free(&f->mem, f->face);
+    rg_mem_free(&f->mem, f->first);
+    rg_mem_free(&f->mem, f->area);
+    memset(f, 0, sizeof *f);
+}

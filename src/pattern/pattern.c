@@ -1,0 +1,145 @@
+#include "pattern/pattern.h"
+#include "base/status.h"
+#include "pattern/check.h"
+#include "pattern/closed.h"
+#include "pattern/planar.h"
+#include "pattern/points.h"
+#include "pattern/sheet.h"
+#include "read/opx.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+void rg_pattern_destroy(rg_pattern *p)
+{
+    if (!p) return;
+    rg_memory mem = p->mem;
+    rg_lines_free(&p->lines);
+    void *block[] = {p->X, p->E, p->star_start, p->star, p->rim, p->closed, p->unfoldable};
+    for (int i = 0; i < 7; i++) rg_mem_free(&mem, block[i]);
+    rg_mem_free(&mem, p);
+}
+
+void rg_pattern_get_info(const rg_pattern *p, rg_pattern_info *info) { *info = p->info; }
+
+int32_t rg_pattern_closed(const rg_pattern *p, const rg_closed **list)
+{
+    *list = p->closed;
+    return p->closed_triples;
+}
+
+int32_t rg_pattern_unfoldable(const rg_pattern *p, const rg_unfoldable **list)
+{
+    *list = p->unfoldable;
+    return p->unfoldables;
+}
+
+int32_t rg_pattern_warnings(const rg_pattern *p, const rg_diag **list)
+{
+    *list = p->lines.warning;
+    return p->lines.warnings;
+}
+
+static void count(struct rg_pattern *p)
+{
+    rg_pattern_info *info = &p->info;
+    for (int32_t v = 0; v < p->nv; v++) info->interior_vertices += !p->rim[v];
+    for (int32_t e = 0; e < p->ne; e++) {
+        const char a = p->E[e].assignment;
+        info->boundary_edges += a == RG_BORDER;
+        info->creases += a != RG_BORDER;
+        info->mountains += a == RG_MOUNTAIN;
+        info->valleys += a == RG_VALLEY;
+        info->unassigned += a == RG_UNASSIGNED;
+        info->flat += a == RG_FLAT;
+    }
+    info->degrees_of_freedom = info->creases - 3 * info->interior_vertices;
+    info->title = p->lines.title ? p->lines.title : "";
+    info->author = p->lines.author ? p->lines.author : "";
+}
+
+static rg_status build(struct rg_pattern *p, const rg_settings *settings, rg_diag *why)
+{
+    rg_graph g = {.mem = p->mem};
+    rg_star star = {.mem = p->mem};
+    rg_status s = rg_planar_from_lines(&p->lines, settings, &g, why);
+    p->info.size = g.size;
+    p->info.merged_max = g.merged_max;
+    if (s == RG_OK) s = rg_points_nearest(&p->mem, g.X, g.nv, &p->info.kept_min, NULL);
+    if (s == RG_OK) s = rg_sheet_from_graph(&g, settings->merge * g.size, &p->lines, &p->info, &p->rim);
+    if (s == RG_OK) s = rg_star_init(&star, &p->mem, g.nv, g.ne, g.X, g.E);
+    if (s != RG_OK) {
+        rg_graph_free(&g);
+        rg_star_free(&star);
+        return s;
+    }
+    p->nv = g.nv;
+    p->ne = g.ne;
+    p->X = g.X;
+    p->E = g.E;
+    p->star_start = star.start;
+    p->star = star.edge;
+    count(p);
+    s = rg_check_vertices(p);
+    return s == RG_OK ? rg_closed_find(p) : s;
+}
+
+rg_status rg_pattern_from_lines(rg_lines *lines, const rg_settings *s, rg_pattern **pattern, rg_diag *why)
+{
+    const rg_memory mem = lines->mem;
+    if (!(s->merge >= 0 && s->merge < 0.1)) {
+        rg_lines_free(lines);
+        return rg_fail(RG_EARG, why, 0, "the merge tolerance is not between 0 and 0.1 of the sheet");
+    }
+    struct rg_pattern *p = rg_mem_array(&mem, 1, sizeof *p);
+    if (!p) {
+        rg_lines_free(lines);
+        return rg_fail(RG_ENOMEM, why, 0, "out of memory");
+    }
+    p->mem = mem;
+    p->lines = *lines;
+    memset(lines, 0, sizeof *lines);
+    rg_status status = build(p, s, why);
+    if (status != RG_OK) {
+        rg_pattern_destroy(p);
+        return status == RG_ENOMEM ? rg_fail(status, why, 0, "out of memory") : status;
+    }
+    rg_mem_free(&mem, p->lines.line);
+    p->lines.line = NULL;
+    p->lines.count = 0;
+    p->lines.room = 0;
+    *pattern = p;
+    return RG_OK;
+}
+
+rg_status rg_pattern_parse(const void *bytes, size_t size, const rg_settings *s, rg_pattern **pattern, rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(s->memory);
+    rg_lines lines;
+    rg_status status = rg_opx_read(bytes, size, &mem, &lines, why);
+    if (status == RG_ENOMEM) return rg_fail(status, why, 0, "out of memory");
+    return status == RG_OK ? rg_pattern_from_lines(&lines, s, pattern, why) : status;
+}
+
+rg_status rg_pattern_read(const char *path, const rg_settings *s, rg_pattern **pattern, rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(s->memory);
+    FILE *f = fopen(path, "rb");
+    if (!f) return rg_fail(RG_EREAD, why, 0, "%s", strerror(errno));
+    char *bytes = NULL;
+    size_t room = 0, size = 0, got;
+    rg_status status;
+    do {
+        status = rg_mem_grow(&mem, (void **)&bytes, &room, size + 65536, 1);
+        if (status != RG_OK) break;
+        got = fread(bytes + size, 1, room - size, f);
+        size += got;
+    } while (got > 0);
+    if (status != RG_OK) rg_fail(status, why, 0, "out of memory");
+    else if (ferror(f)) status = rg_fail(RG_EREAD, why, 0, "%s", strerror(errno));
+    fclose(f);
+    if (status == RG_OK) status = rg_pattern_parse(bytes, size, s, pattern, why);
+    rg_mem_free(&mem, bytes);
+    return status;
+}

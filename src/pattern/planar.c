@@ -1,0 +1,404 @@
+#include "pattern/planar.h"
+#include "base/status.h"
+#include "pattern/points.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Splitting moves lines by up to the tolerance, which can make new crossings; each round is rarer than the last. */
+enum { MOST_ROUNDS = 40 };
+/* Warnings of one kind before the rest is counted only. */
+enum { MOST_WARNINGS = 20 };
+/* Cells of the search grid, side by side: memory, and what one long line crosses, stay small. */
+static const double MOST_SIDE = 1024;
+
+typedef struct cut { int32_t edge, vertex; double t; } cut;
+
+typedef struct splitter {
+    rg_memory mem;
+    rg_points points;
+    rg_edge *E;
+    int32_t ne;
+    size_t room;
+    cut *cuts;
+    size_t cut_count, cut_room;
+    /* search grid: edges of cell c are in[start[c]] ... in[start[c + 1] - 1] */
+    rg_vec2 origin;
+    double cell;
+    int32_t side[2];
+    int32_t *start, *in;
+} splitter;
+
+static int clamp(double i, int32_t n) { return i < 0 ? 0 : i >= n ? n - 1 : (int)i; }
+static int32_t column(const splitter *s, double x) { return clamp(floor((x - s->origin.x) / s->cell), s->side[0]); }
+static int32_t row(const splitter *s, double y) { return clamp(floor((y - s->origin.y) / s->cell), s->side[1]); }
+
+/* Visits the cells within the tolerance of an edge: counts it there (in NULL) or puts it in. */
+static void register_edge(splitter *s, int32_t e, int32_t *count, int32_t *in)
+{
+    rg_vec2 a = s->points.X[s->E[e].v[0]], b = s->points.X[s->E[e].v[1]];
+    if (a.x > b.x) {
+        rg_vec2 t = a;
+        a = b;
+        b = t;
+    }
+    const double pad = 2 * s->points.tol + 1e-9 * s->cell; /* more than rounding moves what is computed below */
+    const int32_t first = column(s, a.x - pad), last = column(s, b.x + pad);
+    for (int32_t i = first; i <= last; i++) {
+        double y0 = a.y, y1 = b.y;
+        if (b.x - a.x > pad) { /* the part of it in this column */
+            double left = fmax(a.x, s->origin.x + i * s->cell - pad), right = fmin(b.x, s->origin.x + (i + 1) * s->cell + pad);
+            double slope = (b.y - a.y) / (b.x - a.x);
+            y0 = a.y + slope * (left - a.x);
+            y1 = a.y + slope * (right - a.x);
+        }
+        const int32_t low = row(s, fmin(y0, y1) - pad), high = row(s, fmax(y0, y1) + pad);
+        for (int32_t j = low; j <= high; j++) {
+            int32_t c = i * s->side[1] + j;
+            if (in) in[count[c]++] = e;
+            else count[c]++;
+        }
+    }
+}
+
+static rg_status build_grid(splitter *s, rg_vec2 low, rg_vec2 high)
+{
+    const double w = high.x - low.x, h = high.y - low.y, size = fmax(w, h);
+    const double side = fmin(ceil(sqrt((double)s->ne)) + 1, MOST_SIDE);
+    s->origin = low;
+    s->cell = size / side;
+    s->side[0] = clamp(ceil(w / s->cell), (int32_t)side) + 1;
+    s->side[1] = clamp(ceil(h / s->cell), (int32_t)side) + 1;
+    const size_t cells = (size_t)s->side[0] * (size_t)s->side[1];
+    rg_mem_free(&s->mem, s->start);
+    rg_mem_free(&s->mem, s->in);
+    s->in = NULL;
+    s->start = rg_mem_array(&s->mem, cells + 2, sizeof *s->start);
+    if (!s->start) return RG_ENOMEM;
+    /* counted one to the right, so that the sums are the starts; filling moves each start to its end, so they are put
+     * one further to the right before */
+    for (int32_t e = 0; e < s->ne; e++) register_edge(s, e, s->start + 1, NULL);
+    int64_t total = 0;
+    for (size_t c = 1; c < cells + 2; c++) {
+        total += s->start[c];
+        if (total > INT32_MAX) return RG_ENOMEM;
+        s->start[c] = (int32_t)total;
+    }
+    s->in = rg_mem_array(&s->mem, (size_t)total, sizeof *s->in);
+    if (!s->in) return RG_ENOMEM;
+    for (size_t c = cells + 1; c > 0; c--) s->start[c] = s->start[c - 1];
+    for (int32_t e = 0; e < s->ne; e++) register_edge(s, e, s->start + 1, s->in);
+    return RG_OK;
+}
+
+static rg_status add_cut(splitter *s, int32_t e, int32_t v)
+{
+    if (s->E[e].v[0] == v || s->E[e].v[1] == v) return RG_OK;
+    rg_status status = rg_mem_grow(&s->mem, (void **)&s->cuts, &s->cut_room, s->cut_count + 1, sizeof *s->cuts);
+    if (status != RG_OK) return status;
+    rg_vec2 a = s->points.X[s->E[e].v[0]], d = rg_vec2_sub(s->points.X[s->E[e].v[1]], a);
+    double t = rg_vec2_dot(rg_vec2_sub(s->points.X[v], a), d);
+    s->cuts[s->cut_count++] = (cut){e, v, t};
+    return RG_OK;
+}
+
+/* Where two edges cross inside both, if they do so in cell c. */
+static rg_status cross(splitter *s, int32_t e, int32_t f, int32_t c)
+{
+    const int32_t *p = s->E[e].v, *q = s->E[f].v;
+    if (p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1]) return RG_OK;
+    const rg_vec2 *X = s->points.X, a = X[p[0]], b = X[p[1]], u = X[q[0]], v = X[q[1]];
+    const double au = rg_vec2_turn(u, v, a), bu = rg_vec2_turn(u, v, b), ua = rg_vec2_turn(a, b, u), va = rg_vec2_turn(a, b, v);
+    if (!((au < 0) != (bu < 0) && (ua < 0) != (va < 0))) return RG_OK;
+    const double t = au / (au - bu);
+    if (!(t >= 0 && t <= 1)) return RG_OK;
+    const rg_vec2 x = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+    if (column(s, x.x) * s->side[1] + row(s, x.y) != c) return RG_OK;
+    int32_t vertex;
+    rg_status status = rg_points_add(&s->points, x, &vertex);
+    if (status == RG_OK) status = add_cut(s, e, vertex);
+    if (status == RG_OK) status = add_cut(s, f, vertex);
+    return status;
+}
+
+static int apart(const splitter *s, int32_t e, int32_t f)
+{
+    const rg_vec2 *X = s->points.X, a = X[s->E[e].v[0]], b = X[s->E[e].v[1]], u = X[s->E[f].v[0]], v = X[s->E[f].v[1]];
+    return fmax(a.x, b.x) < fmin(u.x, v.x) || fmax(u.x, v.x) < fmin(a.x, b.x) || fmax(a.y, b.y) < fmin(u.y, v.y) ||
+           fmax(u.y, v.y) < fmin(a.y, b.y);
+}
+
+static rg_status find_crossings(splitter *s)
+{
+    const int32_t cells = s->side[0] * s->side[1];
+    for (int32_t c = 0; c < cells; c++)
+        for (int32_t i = s->start[c]; i < s->start[c + 1]; i++)
+            for (int32_t j = i + 1; j < s->start[c + 1]; j++) {
+                if (apart(s, s->in[i], s->in[j])) continue;
+                rg_status status = cross(s, s->in[i], s->in[j], c);
+                if (status != RG_OK) return status;
+            }
+    return RG_OK;
+}
+
+/* Vertices within the tolerance of an edge's inside. */
+static rg_status find_junctions(splitter *s)
+{
+    for (int32_t v = 0; v < s->points.count; v++) {
+        const rg_vec2 x = s->points.X[v];
+        const int32_t c = column(s, x.x) * s->side[1] + row(s, x.y);
+        for (int32_t i = s->start[c]; i < s->start[c + 1]; i++) {
+            const int32_t e = s->in[i];
+            const rg_vec2 a = s->points.X[s->E[e].v[0]], d = rg_vec2_sub(s->points.X[s->E[e].v[1]], a), r = rg_vec2_sub(x, a);
+            const double length = rg_vec2_length(d), along = rg_vec2_dot(r, d);
+            if (!(along > 0 && along < length * length) || !(fabs(rg_vec2_cross(d, r)) <= s->points.tol * length)) continue;
+            rg_status status = add_cut(s, e, v);
+            if (status != RG_OK) return status;
+        }
+    }
+    return RG_OK;
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const cut *p = a, *q = b;
+    if (p->edge != q->edge) return p->edge < q->edge ? -1 : 1;
+    if (p->t != q->t) return p->t < q->t ? -1 : 1;
+    return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
+}
+
+static rg_status apply_cuts(splitter *s)
+{
+    rg_edge *E = NULL;
+    size_t room = 0;
+    int32_t n = 0;
+    qsort(s->cuts, s->cut_count, sizeof *s->cuts, by_place);
+    rg_status status = rg_mem_grow(&s->mem, (void **)&E, &room, (size_t)s->ne + s->cut_count, sizeof *E);
+    if (status != RG_OK) return status;
+    size_t at = 0;
+    for (int32_t e = 0; e < s->ne; e++) {
+        rg_edge rest = s->E[e];
+        for (; at < s->cut_count && s->cuts[at].edge == e; at++) {
+            if (s->cuts[at].vertex == rest.v[0] || s->cuts[at].vertex == rest.v[1]) continue;
+            E[n] = rest;
+            E[n++].v[1] = rest.v[0] = s->cuts[at].vertex;
+        }
+        E[n++] = rest;
+    }
+    rg_mem_free(&s->mem, s->E);
+    s->E = E;
+    s->room = room;
+    s->ne = n;
+    return RG_OK;
+}
+
+/* ------------------------------------------------------------------------------------------------ doubles */
+
+static int rank(char assignment)
+{
+    return assignment == RG_BORDER ? 0 : assignment == RG_MOUNTAIN || assignment == RG_VALLEY ? 1 : 2;
+}
+
+typedef struct keyed { int32_t low, high, e; int rank; } keyed;
+
+static int by_ends(const void *a, const void *b)
+{
+    const keyed *p = a, *q = b;
+    if (p->low != q->low) return p->low < q->low ? -1 : 1;
+    if (p->high != q->high) return p->high < q->high ? -1 : 1;
+    if (p->rank != q->rank) return p->rank < q->rank ? -1 : 1;
+    return p->e < q->e ? -1 : p->e > q->e;
+}
+
+/* Of edges with the same ends the first of the highest rank stays: border, then mountain and valley, then the rest.
+ * clash: out, by the edge that stays, whether mountain met valley there. */
+static rg_status merge_doubles(splitter *s, rg_lines *lines)
+{
+    keyed *key = rg_mem_array(&s->mem, (size_t)s->ne, sizeof *key);
+    unsigned char *drop = rg_mem_array(&s->mem, (size_t)s->ne, 1);
+    rg_status status = key && drop ? RG_OK : RG_ENOMEM;
+    for (int32_t e = 0; status == RG_OK && e < s->ne; e++) {
+        const int32_t *v = s->E[e].v, low = v[0] < v[1] ? v[0] : v[1];
+        key[e] = (keyed){low, v[0] + v[1] - low, e, rank(s->E[e].assignment)};
+    }
+    if (status == RG_OK) qsort(key, (size_t)s->ne, sizeof *key, by_ends);
+    int told = 0;
+    for (int32_t i = 1, first = 0; status == RG_OK && i < s->ne; i++) {
+        if (key[i].low != key[first].low || key[i].high != key[first].high) {
+            first = i;
+            continue;
+        }
+        const rg_edge *keep = &s->E[key[first].e], *other = &s->E[key[i].e];
+        drop[key[i].e] = 1;
+        if (rank(keep->assignment) != 1 || rank(other->assignment) != 1 || keep->assignment == other->assignment) continue;
+        if (++told > MOST_WARNINGS) continue;
+        rg_vec2 at = s->points.X[keep->v[0]];
+        status = rg_lines_warn(lines, other->where, "mountain and valley drawn on one line from (%.6g, %.6g): the first one stays", at.x, at.y);
+    }
+    if (status == RG_OK) {
+        int32_t n = 0;
+        for (int32_t e = 0; e < s->ne; e++)
+            if (!drop[e]) s->E[n++] = s->E[e];
+        s->ne = n;
+    }
+    rg_mem_free(&s->mem, key);
+    rg_mem_free(&s->mem, drop);
+    return status;
+}
+
+/* --------------------------------------------------------------------------------------------- loose ends */
+
+rg_status rg_graph_compact(rg_graph *g, const unsigned char *drop)
+{
+    int32_t *number = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *number);
+    if (!number) return RG_ENOMEM;
+    int32_t n = 0;
+    for (int32_t e = 0; e < g->ne; e++)
+        if (!drop[e]) g->E[n++] = g->E[e];
+    g->ne = n;
+    for (int32_t e = 0; e < n; e++) number[g->E[e].v[0]] = number[g->E[e].v[1]] = 1;
+    n = 0;
+    for (int32_t v = 0; v < g->nv; v++) {
+        if (!number[v]) continue;
+        g->X[n] = g->X[v];
+        number[v] = n++;
+    }
+    g->nv = n;
+    for (int32_t e = 0; e < g->ne; e++)
+        for (int i = 0; i < 2; i++) g->E[e].v[i] = number[g->E[e].v[i]];
+    rg_mem_free(&g->mem, number);
+    return RG_OK;
+}
+
+/* Edges that end in the middle of a facet, or outside the sheet, from their free ends inwards. `sum[v]` adds up the
+ * edges at v, so that the last one of a vertex is known without a list. */
+static rg_status drop_loose_ends(rg_graph *g, rg_lines *lines)
+{
+    int32_t *degree = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *degree);
+    int64_t *sum = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *sum);
+    unsigned char *drop = rg_mem_array(&g->mem, (size_t)g->ne, 1);
+    rg_status s = degree && sum && drop ? RG_OK : RG_ENOMEM;
+    for (int32_t e = 0; s == RG_OK && e < g->ne; e++)
+        for (int i = 0; i < 2; i++) {
+            degree[g->E[e].v[i]]++;
+            sum[g->E[e].v[i]] += e;
+        }
+    int told = 0, more = 0;
+    for (int32_t start = 0; s == RG_OK && start < g->nv; start++)
+        for (int32_t v = start; s == RG_OK && degree[v] == 1;) {
+            const int32_t e = (int32_t)sum[v], w = g->E[e].v[0] == v ? g->E[e].v[1] : g->E[e].v[0];
+            drop[e] = 1;
+            degree[v]--, degree[w]--;
+            sum[w] -= e;
+            if (told++ < MOST_WARNINGS)
+                s = rg_lines_warn(lines, g->E[e].where, "a loose end at (%.6g, %.6g) is left out", g->X[v].x, g->X[v].y);
+            else more++;
+            v = w;
+        }
+    if (s == RG_OK && more) s = rg_lines_warn(lines, 0, "%d more loose ends are left out", more);
+    if (s == RG_OK) s = rg_graph_compact(g, drop);
+    rg_mem_free(&g->mem, degree);
+    rg_mem_free(&g->mem, sum);
+    rg_mem_free(&g->mem, drop);
+    return s;
+}
+
+/* -------------------------------------------------------------------------------------------------- lines */
+
+static double wish(const rg_line *l)
+{
+    if (isfinite(l->target)) return l->target;
+    return l->assignment == RG_MOUNTAIN ? -RG_PI : l->assignment == RG_VALLEY ? RG_PI : NAN;
+}
+
+static int is_used(const rg_line *l, const rg_settings *s)
+{
+    return l->assignment != RG_CUT && (l->assignment != RG_FLAT || s->aux_creases);
+}
+
+static rg_status add_lines(splitter *s, rg_lines *lines, const rg_settings *settings)
+{
+    int32_t cuts = 0, first_cut = 0;
+    for (int32_t i = 0; i < lines->count; i++) {
+        const rg_line *l = &lines->line[i];
+        if (l->assignment == RG_CUT && !cuts++) first_cut = l->where;
+        if (!is_used(l, settings)) continue;
+        rg_edge e = {{0, 0}, l->assignment == RG_FLAT ? RG_UNASSIGNED : l->assignment, wish(l), l->where};
+        rg_status status = rg_points_add(&s->points, l->a, &e.v[0]);
+        if (status == RG_OK) status = rg_points_add(&s->points, l->b, &e.v[1]);
+        if (status == RG_OK && e.v[0] == e.v[1]) {
+            status = rg_lines_warn(lines, l->where, "a line without length at (%.6g, %.6g) is left out", l->a.x, l->a.y);
+            if (status != RG_OK) return status;
+            continue;
+        }
+        if (status == RG_OK) status = rg_mem_grow(&s->mem, (void **)&s->E, &s->room, (size_t)s->ne + 1, sizeof *s->E);
+        if (status != RG_OK) return status;
+        s->E[s->ne++] = e;
+    }
+    rg_status status = rg_points_settle(&s->points);
+    if (status != RG_OK) return status;
+    return cuts ? rg_lines_warn(lines, first_cut, "%d cuts of the folded model are left out", (int)cuts) : RG_OK;
+}
+
+static rg_status planarise(splitter *s, rg_lines *lines, rg_vec2 low, rg_vec2 high, rg_diag *why)
+{
+    rg_status status = merge_doubles(s, lines);
+    for (int round = 0; status == RG_OK && s->ne > 0; round++) {
+        if (round == MOST_ROUNDS)
+            return rg_fail(RG_EFORMAT, why, 0, "lines lie too close together to tell crossings apart: try another --merge");
+        s->cut_count = 0;
+        status = build_grid(s, low, high);
+        if (status == RG_OK) status = find_crossings(s);
+        if (status == RG_OK) status = find_junctions(s);
+        if (status != RG_OK || !s->cut_count) break;
+        status = apply_cuts(s);
+        if (status == RG_OK) status = merge_doubles(s, lines);
+    }
+    return status;
+}
+
+rg_status rg_planar_from_lines(rg_lines *lines, const rg_settings *settings, rg_graph *g, rg_diag *why)
+{
+    memset(g, 0, sizeof *g);
+    g->mem = lines->mem;
+    rg_vec2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+    for (int32_t i = 0; i < lines->count; i++)
+        for (int end = 0; end < 2 && is_used(&lines->line[i], settings); end++) {
+            rg_vec2 x = end ? lines->line[i].b : lines->line[i].a;
+            low = (rg_vec2){fmin(low.x, x.x), fmin(low.y, x.y)};
+            high = (rg_vec2){fmax(high.x, x.x), fmax(high.y, x.y)};
+        }
+    g->size = high.x >= low.x ? fmax(high.x - low.x, high.y - low.y) : 0;
+    if (!isfinite(g->size * g->size)) return rg_fail(RG_EFORMAT, why, 0, "the coordinates are too large to compute with");
+    if (!(g->size > 0)) return RG_OK;
+    if (g->size < 1e-100) return rg_fail(RG_EFORMAT, why, 0, "the whole drawing is smaller than 1e-100: too small to compute with");
+
+    splitter s = {.mem = g->mem};
+    rg_status status = rg_points_init(&s.points, &s.mem, low, g->size, settings->merge * g->size);
+    if (status == RG_OK) status = add_lines(&s, lines, settings);
+    if (status == RG_OK) status = planarise(&s, lines, low, high, why);
+    if (status == RG_OK) {
+        g->X = s.points.X;
+        g->nv = s.points.count;
+        g->E = s.E;
+        g->ne = s.ne;
+        g->merged_max = s.points.merged_max;
+        s.points.X = NULL;
+        s.E = NULL;
+        status = drop_loose_ends(g, lines);
+    }
+    rg_points_free(&s.points);
+    rg_mem_free(&s.mem, s.E);
+    rg_mem_free(&s.mem, s.cuts);
+    rg_mem_free(&s.mem, s.start);
+    rg_mem_free(&s.mem, s.in);
+    return status;
+}
+
+void rg_graph_free(rg_graph *g)
+{
+    if (!g->mem.resize) return;
+    rg_mem_free(&g->mem, g->X);
+    rg_mem_free(&g->mem, g->E);
+    memset(g, 0, sizeof *g);
+}

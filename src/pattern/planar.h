@@ -1,0 +1,27 @@
+/* planar.h -- lines as drawn to a plane graph: gaps closed, crossings and T-junctions split, doubles merged.
+ * Uses  points.h read/lines.h        Used by  pattern.c */
+#ifndef RG_PLANAR_H
+#define RG_PLANAR_H
+
+#include "pattern/pattern.h"
+
+typedef struct rg_graph {
+    rg_memory mem;
+    rg_vec2 *X; /* [nv] */
+    rg_edge *E; /* [ne], in the order of the lines */
+    int32_t nv, ne;
+    size_t room;
+    double size;       /* longer side of the bounding box */
+    double merged_max; /* largest distance merged, file units */
+} rg_graph;
+
+/* The graph of the lines that are part of the sheet: cuts of the folded model are left out, auxiliary lines too unless
+ * they shall be creases, loose ends as well; what is left out is told in the lines' warnings.
+ * Near-linear time in lines and crossings. RG_EFORMAT: the lines are too many or too close to tell apart, why->text.
+ * Owner: the caller, rg_graph_free, also after a failure. */
+rg_status rg_planar_from_lines(rg_lines *lines, const rg_settings *s, rg_graph *g, rg_diag *why);
+/* Takes out the edges marked drop[e] != 0 and the vertices that then have none. RG_ENOMEM. */
+rg_status rg_graph_compact(rg_graph *g, const unsigned char *drop);
+void rg_graph_free(rg_graph *g);
+
+#endif

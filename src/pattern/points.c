@@ -1,0 +1,133 @@
+#include "pattern/points.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Cells of a sheet's side where the tolerance asks for more: cell numbers stay whole in a double and in 64 bits. */
+static const double MOST_CELLS = 1e9;
+
+rg_status rg_points_init(rg_points *p, const rg_memory *mem, rg_vec2 origin, double size, double tol)
+{
+    memset(p, 0, sizeof *p);
+    p->mem = *mem;
+    p->origin = origin;
+    p->tol = tol;
+    p->cell = fmax(tol, size / MOST_CELLS);
+    p->heads = 64;
+    p->head = rg_mem_array(mem, p->heads, sizeof *p->head);
+    if (!p->head) return RG_ENOMEM;
+    memset(p->head, -1, p->heads * sizeof *p->head);
+    return RG_OK;
+}
+
+void rg_points_free(rg_points *p)
+{
+    if (!p->mem.resize) return;
+    rg_mem_free(&p->mem, p->X);
+    rg_mem_free(&p->mem, p->next);
+    rg_mem_free(&p->mem, p->head);
+    rg_mem_free(&p->mem, p->spread);
+    memset(p, 0, sizeof *p);
+}
+
+static size_t slot(const rg_points *p, int64_t i, int64_t j)
+{
+    uint64_t h = (uint64_t)i * UINT64_C(0x9E3779B97F4A7C15) ^ (uint64_t)j * UINT64_C(0xC2B2AE3D27D4EB4F);
+    h ^= h >> 29;
+    h *= UINT64_C(0xBF58476D1CE4E5B9);
+    return (size_t)(h >> 32) & (p->heads - 1);
+}
+
+static int64_t column(const rg_points *p, double x) { return (int64_t)floor((x - p->origin.x) / p->cell); }
+static int64_t row(const rg_points *p, double y) { return (int64_t)floor((y - p->origin.y) / p->cell); }
+
+static void link(rg_points *p, int32_t v)
+{
+    size_t at = slot(p, column(p, p->X[v].x), row(p, p->X[v].y));
+    p->next[v] = p->head[at];
+    p->head[at] = v;
+}
+
+static rg_status rehash(rg_points *p, size_t heads)
+{
+    int32_t *head = rg_mem_array(&p->mem, heads, sizeof *head);
+    if (!head) return RG_ENOMEM;
+    rg_mem_free(&p->mem, p->head);
+    p->head = head;
+    p->heads = heads;
+    memset(p->head, -1, p->heads * sizeof *p->head);
+    for (int32_t v = 0; v < p->count; v++) link(p, v);
+    return RG_OK;
+}
+
+rg_status rg_points_add(rg_points *p, rg_vec2 x, int32_t *vertex)
+{
+    const int64_t i = column(p, x.x), j = row(p, x.y);
+    double best = INFINITY;
+    int32_t found = -1;
+    for (int64_t di = -1; di <= 1; di++)
+        for (int64_t dj = -1; dj <= 1; dj++)
+            for (int32_t v = p->head[slot(p, i + di, j + dj)]; v >= 0; v = p->next[v]) {
+                double d = rg_vec2_length(rg_vec2_sub(p->X[v], x));
+                if (d > p->tol || d > best || (d == best && v > found)) continue;
+                best = d;
+                found = v;
+            }
+    if (found >= 0) {
+        p->merged_max = fmax(p->merged_max, best);
+        p->spread[found].sum = (rg_vec2){p->spread[found].sum.x + (x.x - p->X[found].x), p->spread[found].sum.y + (x.y - p->X[found].y)};
+        p->spread[found].count++;
+        *vertex = found;
+        return RG_OK;
+    }
+    const size_t need = (size_t)p->count + 1;
+    rg_status s = rg_mem_grow(&p->mem, (void **)&p->X, &p->room, need, sizeof *p->X);
+    if (s == RG_OK) s = rg_mem_grow(&p->mem, (void **)&p->next, &p->next_room, need, sizeof *p->next);
+    if (s == RG_OK) s = rg_mem_grow(&p->mem, (void **)&p->spread, &p->spread_room, need, sizeof *p->spread);
+    if (s == RG_OK && need > p->heads) s = rehash(p, 2 * p->heads);
+    if (s != RG_OK) return s;
+    p->X[p->count] = x;
+    p->spread[p->count] = (rg_spread){{0, 0}, 1};
+    link(p, p->count);
+    *vertex = p->count++;
+    return RG_OK;
+}
+
+rg_status rg_points_settle(rg_points *p)
+{
+    for (int32_t v = 0; v < p->count; v++) {
+        rg_spread *d = &p->spread[v];
+        p->X[v] = (rg_vec2){p->X[v].x + d->sum.x / d->count, p->X[v].y + d->sum.y / d->count};
+        *d = (rg_spread){{0, 0}, 1};
+    }
+    return rehash(p, p->heads);
+}
+
+typedef struct swept { double key; int32_t v; } swept;
+
+static int by_key(const void *a, const void *b)
+{
+    const swept *p = a, *q = b;
+    if (p->key != q->key) return p->key < q->key ? -1 : 1;
+    return p->v < q->v ? -1 : p->v > q->v;
+}
+
+/* Swept along a direction that no drawing is aligned with, so that rows and columns of a grid do not fall together. */
+rg_status rg_points_nearest(const rg_memory *mem, const rg_vec2 *X, int32_t n, double *distance, int32_t *at)
+{
+    static const rg_vec2 along = {0.8253356149096783, 0.5646424733950354}; /* (cos, sin) of 0.6 */
+    swept *line = rg_mem_array(mem, (size_t)n, sizeof *line);
+    if (!line) return RG_ENOMEM;
+    for (int32_t v = 0; v < n; v++) line[v] = (swept){rg_vec2_dot(along, X[v]), v};
+    qsort(line, (size_t)n, sizeof *line, by_key);
+    *distance = INFINITY;
+    for (int32_t i = 0; i < n; i++)
+        for (int32_t j = i + 1; j < n && line[j].key - line[i].key < *distance; j++) {
+            double d = rg_vec2_length(rg_vec2_sub(X[line[i].v], X[line[j].v]));
+            if (!(d < *distance)) continue;
+            *distance = d;
+            if (at) *at = line[i].v;
+        }
+    rg_mem_free(mem, line);
+    return RG_OK;
+}

@@ -1,0 +1,170 @@
+#include "pattern/sheet.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* A vertex that turns its line by more than this is a corner, however short the lines are. */
+static const double STRAIGHT = 1 * RG_DEG;
+
+static void refuse(rg_pattern_info *info, const char *what, rg_vec2 at)
+{
+    if (!info->is_disk) return; /* the first reason is the one to tell */
+    info->is_disk = 0;
+    snprintf(info->not_disk, sizeof info->not_disk, "%s at (%.6g, %.6g)", what, at.x, at.y);
+}
+
+/* The outer border of each piece: its edges, its vertices. More than one piece, a vertex passed twice: not a disk. */
+static rg_status find_rim(const rg_graph *g, const rg_faces *f, unsigned char *rim, unsigned char *outer, rg_pattern_info *info)
+{
+    int32_t sheet = -1, other = -1;
+    for (int32_t k = 0; k < f->count; k++) {
+        if (!(f->area[k] < 0)) continue;
+        if (sheet < 0 || f->area[k] < f->area[sheet]) {
+            other = sheet;
+            sheet = k;
+        } else if (other < 0) {
+            other = k;
+        }
+    }
+    for (int32_t k = 0; k < f->count; k++) {
+        if (!(f->area[k] < 0)) continue;
+        int32_t h = f->first[k];
+        do {
+            const int32_t v = rg_tail(g->E, h);
+            if (rim[v]) refuse(info, "the border touches itself", g->X[v]);
+            rim[v] = 1;
+            if (outer[h >> 1]) refuse(info, "two parts hang together by one line only", g->X[v]);
+            outer[h >> 1] = 1;
+            h = f->next[h];
+        } while (h != f->first[k]);
+    }
+    if (other >= 0) refuse(info, "more than one piece of paper: another one", g->X[rg_tail(g->E, f->first[other])]);
+    return RG_OK;
+}
+
+/* Facets must be simple polygons, and nothing inside the sheet may be a border. */
+static rg_status check_inside(const rg_graph *g, const rg_faces *f, const unsigned char *outer, rg_pattern_info *info)
+{
+    int32_t *seen = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *seen);
+    if (!seen) return RG_ENOMEM;
+    for (int32_t k = 0; k < f->count; k++) {
+        if (f->area[k] < 0) continue;
+        int cut_out = 1;
+        int32_t h = f->first[k], twice = -1;
+        do {
+            const int32_t v = rg_tail(g->E, h);
+            if (seen[v] == k + 1) twice = v;
+            seen[v] = k + 1;
+            if (g->E[h >> 1].assignment != RG_BORDER || outer[h >> 1]) cut_out = 0;
+            h = f->next[h];
+        } while (h != f->first[k]);
+        if (cut_out) refuse(info, "a hole in the paper, with a corner", g->X[rg_tail(g->E, h)]);
+        if (twice >= 0) refuse(info, "a facet touches itself", g->X[twice]);
+    }
+    for (int32_t e = 0; e < g->ne; e++)
+        if (g->E[e].assignment == RG_BORDER && !outer[e]) refuse(info, "a slit in the paper (a border line inside)", g->X[g->E[e].v[0]]);
+    rg_mem_free(&g->mem, seen);
+    return RG_OK;
+}
+
+static int plain(char assignment) { return assignment == RG_UNASSIGNED; }
+
+/* May edges e and f, which meet at v only with each other, become one? Writes what it is then to *e. */
+static int join(const rg_graph *g, int32_t v, const rg_edge *e, const rg_edge *f, double tol, rg_edge *joined)
+{
+    const rg_vec2 x = g->X[v], a = rg_vec2_sub(x, g->X[e->v[e->v[0] == v]]), b = rg_vec2_sub(g->X[f->v[f->v[0] == v]], x);
+    const double turn = rg_vec2_cross(a, b), span = rg_vec2_length((rg_vec2){a.x + b.x, a.y + b.y});
+    if (e->assignment != f->assignment && !plain(e->assignment) && !plain(f->assignment)) return 0;
+    if (e->assignment == f->assignment && !plain(e->assignment) && !(e->target == f->target) && e->assignment != RG_BORDER) return 0;
+    if (!(rg_vec2_dot(a, b) > 0) || !(fabs(turn) <= tol * span)) return 0;
+    if (!(fabs(turn) <= sin(STRAIGHT) * rg_vec2_length(a) * rg_vec2_length(b))) return 0;
+    *joined = plain(e->assignment) ? *f : *e;
+    joined->v[0] = e->v[e->v[0] == v];
+    joined->v[1] = f->v[f->v[0] == v];
+    return 1;
+}
+
+static rg_status dissolve(rg_graph *g, double tol)
+{
+    int32_t *at = rg_mem_array(&g->mem, (size_t)g->nv, 2 * sizeof *at), *degree = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *degree);
+    unsigned char *drop = rg_mem_array(&g->mem, (size_t)g->ne, 1);
+    rg_status s = at && degree && drop ? RG_OK : RG_ENOMEM;
+    for (int32_t e = 0; s == RG_OK && e < g->ne; e++)
+        for (int i = 0; i < 2; i++) {
+            const int32_t v = g->E[e].v[i];
+            if (degree[v] < 2) at[2 * v + degree[v]] = e;
+            degree[v]++;
+        }
+    for (int32_t v = 0; s == RG_OK && v < g->nv; v++) {
+        if (degree[v] != 2 || at[2 * v] == at[2 * v + 1]) continue;
+        const int32_t e = at[2 * v], f = at[2 * v + 1];
+        rg_edge joined;
+        if (!join(g, v, &g->E[e], &g->E[f], tol, &joined) || joined.v[0] == joined.v[1]) continue;
+        g->E[e] = joined;
+        drop[f] = 1;
+        const int32_t w = joined.v[1];
+        for (int i = 0; i < 2; i++)
+            if (at[2 * w + i] == f && degree[w] == 2) at[2 * w + i] = e;
+    }
+    if (s == RG_OK) s = rg_graph_compact(g, drop);
+    rg_mem_free(&g->mem, at);
+    rg_mem_free(&g->mem, degree);
+    rg_mem_free(&g->mem, drop);
+    return s;
+}
+
+/* Drawn as a crease but on the outside, drawn as a border but inside. */
+static rg_status assign_border(rg_graph *g, const unsigned char *outer, rg_lines *lines)
+{
+    int32_t mended = 0, first = 0;
+    rg_vec2 at = {0, 0};
+    for (int32_t e = 0; e < g->ne; e++) {
+        rg_edge *edge = &g->E[e];
+        if (!outer[e] && edge->assignment == RG_BORDER) edge->assignment = RG_CUT;
+        if (!outer[e]) continue;
+        if (edge->assignment != RG_BORDER && !mended++) {
+            first = edge->where;
+            at = g->X[edge->v[0]];
+        }
+        edge->assignment = RG_BORDER;
+        edge->target = NAN;
+    }
+    return mended ? rg_lines_warn(lines, first, "%d creases on the outside of the sheet are taken for its border, the first from (%.6g, %.6g)",
+                                  (int)mended, at.x, at.y)
+                  : RG_OK;
+}
+
+rg_status rg_sheet_from_graph(rg_graph *g, double tol, rg_lines *lines, rg_pattern_info *info, unsigned char **rim_out)
+{
+    rg_star star = {.mem = g->mem};
+    rg_faces faces = {.mem = g->mem};
+    unsigned char *rim = rg_mem_array(&g->mem, (size_t)g->nv, 1), *outer = rg_mem_array(&g->mem, (size_t)g->ne, 1);
+    rg_status s = rim && outer ? RG_OK : RG_ENOMEM;
+    info->is_disk = 1;
+    info->not_disk[0] = 0;
+    if (s == RG_OK) s = rg_star_init(&star, &g->mem, g->nv, g->ne, g->X, g->E);
+    if (s == RG_OK) s = rg_faces_init(&faces, &g->mem, g->nv, g->ne, g->X, g->E, star.start, star.edge);
+    if (s == RG_OK) {
+        info->vertices = g->nv;
+        info->edges = g->ne;
+        for (int32_t k = 0; k < faces.count; k++) info->facets += !(faces.area[k] < 0);
+        if (!g->ne) {
+            info->is_disk = 0;
+            snprintf(info->not_disk, sizeof info->not_disk, "no lines that enclose a sheet");
+        }
+        s = find_rim(g, &faces, rim, outer, info);
+    }
+    if (s == RG_OK) s = check_inside(g, &faces, outer, info);
+    if (s == RG_OK) s = assign_border(g, outer, lines);
+    if (s == RG_OK) s = dissolve(g, tol);
+    rg_mem_free(&g->mem, rim);
+    rg_mem_free(&g->mem, outer);
+    rg_star_free(&star);
+    rg_faces_free(&faces);
+    if (s != RG_OK) return s;
+    *rim_out = rim = rg_mem_array(&g->mem, (size_t)g->nv, 1);
+    if (!rim) return RG_ENOMEM;
+    for (int32_t e = 0; e < g->ne; e++)
+        if (g->E[e].assignment == RG_BORDER) rim[g->E[e].v[0]] = rim[g->E[e].v[1]] = 1;
+    return RG_OK;
+}
