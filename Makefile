@@ -35,7 +35,7 @@ gl_egl    := egl gl
 pkgs += $(gl_$(GL))
 
 # In lower case what the project needs; CPPFLAGS, CFLAGS, LDFLAGS, LDLIBS stay the caller's.
-cppflags := -Iinclude -Isrc -D_POSIX_C_SOURCE=200809L -DRG_GL_$(GL)=1 $(shell pkg-config --cflags $(pkgs) 2>/dev/null)
+cppflags := -Iinclude -Isrc -D_XOPEN_SOURCE=700 -DRG_GL_$(GL)=1 $(shell pkg-config --cflags $(pkgs) 2>/dev/null)
 cflags   := -std=c11 -fPIC -fvisibility=hidden -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes \
             -Wmissing-prototypes -Wvla -Wpointer-arith -Wwrite-strings
 libs     := $(shell pkg-config --libs $(pkgs) 2>/dev/null) -lpthread -lm

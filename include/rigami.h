@@ -58,17 +58,42 @@ typedef struct rg_memory {
     void *ctx;
 } rg_memory;
 
-typedef enum rg_method { RG_METHOD_AUTO, RG_METHOD_EULER, RG_METHOD_NEWTON } rg_method;
+typedef enum rg_method {
+    RG_METHOD_AUTO,
+    RG_METHOD_EULER,   /* the paper's eq. (14), one solve a step */
+    RG_METHOD_NEWTON,  /* Euler steps, each closed to tolerance */
+    RG_METHOD_HEUN,    /* order 2, each step closed */
+    RG_METHOD_RK4,     /* order 4, each step closed */
+    RG_METHOD_ADAPTIVE /* steps by an error estimate, frames from a dense output, each closed */
+} rg_method;
 typedef enum rg_solver { RG_SOLVER_AUTO, RG_SOLVER_CG, RG_SOLVER_CHOLESKY, RG_SOLVER_SVD } rg_solver;
 typedef enum rg_triangulation { RG_TRIANGULATE_AUTO, RG_TRIANGULATE_NONE, RG_TRIANGULATE_ALL } rg_triangulation;
+
+typedef enum rg_effort { RG_EFFORT_FAST, RG_EFFORT_NORMAL, RG_EFFORT_THOROUGH } rg_effort;
+typedef enum rg_format {
+    RG_FORMAT_AUTO, /* by content, then by extension */
+    RG_FORMAT_OPX,
+    RG_FORMAT_CP,
+    RG_FORMAT_FOLD,
+    RG_FORMAT_SVG,
+    RG_FORMAT_DXF
+} rg_format;
+
+#define RG_ADJUST_AUTO (-1.0)
 
 /* Start from rg_settings_default() and change what you need. */
 typedef struct rg_settings {
     const rg_memory *memory;      /* NULL: malloc. Must outlive what is made with it. */
     double merge;                 /* ends nearer than this part of the sheet's size are one vertex; 2e-5 */
     int aux_creases;              /* non-zero: auxiliary lines are creases that may fold; 0 */
+    rg_format format;             /* of the input; auto */
+    int32_t file_frame;           /* FOLD: the frame to read, 0: the key frame; -1: the first that is a crease pattern; -1 */
+    int flip;                     /* non-zero: the file's y runs the other way than is usual for its format; 0 */
+    int targets;                  /* non-zero: aim at the file's own fold angles where it has them; 1 */
     rg_triangulation triangulate; /* added creases; auto: none, and all where that stops short */
-    rg_method method;             /* auto: newton */
+    double adjust;                /* gain of crease adjustment (3.3), 0: off, RG_ADJUST_AUTO: where nothing else folds */
+    rg_effort effort;             /* how much is tried when the plain way stops short; normal */
+    rg_method method;             /* auto: chosen, said in the report */
     rg_solver solver;             /* auto: by size and build */
     double step;                  /* largest change of any crease in one step, radians; 5 degrees */
     double tol;                   /* closure tolerance: rotation angle of F at any vertex, radians; 1e-10 */
@@ -183,6 +208,8 @@ typedef struct rg_report {
     int32_t added_creases, unknowns, constraints, components; /* the model */
     const char *triangulation;                                /* "none" or "all", and why, below */
     const char *why_triangulated;
+    char strategy[120];                                       /* what got it there: triangulation, adjustment, drive */
+    double adjust_gain;                                       /* 0: the pattern was not moved */
     const char *method, *solver;
     int64_t steps, solves, cg_iterations, factorizations, assemblies;
     double seconds_total, seconds_solving;
@@ -193,6 +220,8 @@ typedef struct rg_report {
     double max_edge_strain;      /* over frames and edges: | 3D length / pattern length - 1 | */
     double max_facet_gap;        /* over frames: distance of two placements of one vertex, over the sheet's size */
     double max_overfold_deg;
+    double max_adjustment;           /* largest displacement of a vertex from the pattern given, over the sheet's size */
+    double max_strain_from_original; /* over frames and edges: | 3D length / length in the pattern given - 1 | */
     int32_t wrong_side_creases;  /* driven creases that ended on the other side of flat than they should */
     int32_t blocking_vertex_count, blocking_crease_count;
     const int32_t *blocking_vertices, *blocking_creases; /* borrowed; vertex numbers and crease numbers of the mesh */
@@ -222,6 +251,8 @@ RG_API void rg_motion_get_sheet(const rg_motion *m, rg_sheet *sheet);
 RG_API rg_status rg_motion_pose(const rg_motion *m, int32_t frame, double (*xyz)[3]);
 /* Fold angles of a frame, [creases], radians; borrowed; NULL: no such frame. */
 RG_API const double *rg_motion_angles(const rg_motion *m, int32_t frame);
+/* The pattern of a frame, [vertices]: rg_sheet.flat unless creases were adjusted (3.3); borrowed; NULL: no such frame. */
+RG_API const double (*rg_motion_flat(const rg_motion *m, int32_t frame))[2];
 
 /* ------------------------------------------------------------------------------------- write, render ---- */
 

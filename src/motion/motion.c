@@ -23,9 +23,9 @@ static void free_run(rg_motion *m)
 {
     rg_mesh_free(&m->mesh);
     rg_tree_free(&m->tree);
-    void *block[] = {m->rho, m->frame, m->blocking_vertex, m->blocking_crease, m->blocking_at};
-    for (int i = 0; i < 5; i++) rg_mem_free(&m->mem, block[i]);
-    m->rho = NULL, m->frame = NULL, m->blocking_vertex = NULL, m->blocking_crease = NULL, m->blocking_at = NULL;
+    void *block[] = {m->rho, m->flat, m->frame, m->blocking_vertex, m->blocking_crease, m->blocking_at};
+    for (int i = 0; i < 6; i++) rg_mem_free(&m->mem, block[i]);
+    m->rho = NULL, m->flat = NULL, m->frame = NULL, m->blocking_vertex = NULL, m->blocking_crease = NULL, m->blocking_at = NULL;
 }
 
 void rg_motion_destroy(rg_motion *m)
@@ -51,12 +51,23 @@ const double *rg_motion_angles(const rg_motion *m, int32_t frame)
     return frame < 0 || frame >= m->report.frame_count ? NULL : m->rho + (size_t)frame * (size_t)m->mesh.N;
 }
 
+const rg_vec2 *rg_motion_pattern(const rg_motion *m, int32_t frame)
+{
+    return m->flat ? m->flat + (size_t)frame * (size_t)m->mesh.nv : m->mesh.X;
+}
+
+const double (*rg_motion_flat(const rg_motion *m, int32_t frame))[2]
+{
+    return rg_motion_angles(m, frame) ? (const double(*)[2])rg_motion_pattern(m, frame) : NULL;
+}
+
 rg_status rg_motion_place(const rg_motion *m, int32_t frame, rg_vec3 *x)
 {
     rg_place *place = rg_mem_array(&m->mem, (size_t)m->mesh.nf, sizeof *place);
     if (!place) return RG_ENOMEM;
-    rg_pose_facets(&m->mesh, &m->tree, rg_motion_angles(m, frame), place);
-    rg_pose_vertices(&m->mesh, &m->tree, place, x);
+    const rg_vec2 *X = rg_motion_pattern(m, frame);
+    rg_pose_facets(&m->mesh, X, &m->tree, rg_motion_angles(m, frame), place);
+    rg_pose_vertices(&m->mesh, X, &m->tree, place, x);
     rg_mem_free(&m->mem, place);
     return RG_OK;
 }
@@ -90,10 +101,12 @@ static rg_status measure(rg_motion *m, rg_fold *f)
         m->frame[k].percent = f->drive.count ? sum / f->drive.count : k ? 100 : 0;
         m->frame[k].closure_residual = rg_constraint_closure(&f->K, rho, NULL);
         r->max_closure_residual = larger(r->max_closure_residual, m->frame[k].closure_residual);
-        rg_pose_facets(&m->mesh, &m->tree, rho, place);
-        rg_pose_vertices(&m->mesh, &m->tree, place, x);
-        r->max_edge_strain = larger(r->max_edge_strain, rg_pose_strain(&m->mesh, x));
-        r->max_facet_gap = larger(r->max_facet_gap, rg_pose_gap(&m->mesh, place) / m->mesh.size);
+        const rg_vec2 *X = rg_motion_pattern(m, k);
+        rg_pose_facets(&m->mesh, X, &m->tree, rho, place);
+        rg_pose_vertices(&m->mesh, X, &m->tree, place, x);
+        r->max_edge_strain = larger(r->max_edge_strain, rg_pose_strain(&m->mesh, X, x));
+        r->max_strain_from_original = larger(r->max_strain_from_original, rg_pose_strain(&m->mesh, m->mesh.X, x));
+        r->max_facet_gap = larger(r->max_facet_gap, rg_pose_gap(&m->mesh, X, place) / m->mesh.size);
         r->folded_percent = m->frame[k].percent;
         r->least_folded_percent = f->drive.count ? least : r->folded_percent;
         r->wrong_side_creases = wrong;

@@ -13,12 +13,15 @@ struct rg_motion {
     rg_tree tree;
     char *title, *author;  /* of the pattern; NULL: none */
     double *rho;           /* [report.frame_count][mesh.N] radians */
+    rg_vec2 *flat;         /* [report.frame_count][mesh.nv] the pattern of each frame; NULL: mesh.X in all of them */
     rg_frame *frame;       /* [report.frame_count] */
     int32_t *blocking_vertex, *blocking_crease;
     double (*blocking_at)[2];
     rg_report report;
 };
 
+/* The pattern of a frame, [mesh.nv]. */
+const rg_vec2 *rg_motion_pattern(const rg_motion *m, int32_t f);
 /* x[mesh.nv]: out, positions in frame f, 0 <= f < report.frame_count. RG_ENOMEM. */
 rg_status rg_motion_place(const rg_motion *m, int32_t f, rg_vec3 *x);
 

@@ -76,7 +76,7 @@ static rg_vec3 put(const rg_place *p, rg_vec2 x)
     return rg_vec3_axpy(x.x, p->R.c[0], rg_vec3_axpy(x.y, p->R.c[1], p->t));
 }
 
-void rg_pose_facets(const rg_mesh *m, const rg_tree *t, const double *rho, rg_place *place)
+void rg_pose_facets(const rg_mesh *m, const rg_vec2 *X, const rg_tree *t, const double *rho, rg_place *place)
 {
     for (int32_t at = 0; at < t->nf; at++) {
         int32_t f = t->order[at], e = t->via[f];
@@ -88,7 +88,7 @@ void rg_pose_facets(const rg_mesh *m, const rg_tree *t, const double *rho, rg_pl
          * the edge's direction. The other way round the edge runs backwards too, so the sign is the same. */
         int left = m->edge_facet[e][0] == f;
         const rg_place *from = &place[m->edge_facet[e][left]];
-        rg_vec2 a = m->X[m->edge[e][!left]], u = rg_vec2_sub(m->X[m->edge[e][left]], a);
+        rg_vec2 a = X[m->edge[e][!left]], u = rg_vec2_sub(X[m->edge[e][left]], a);
         double length = rg_vec2_length(u);
         u = (rg_vec2){u.x / length, u.y / length};
         place[f].R = rg_mat3_mul(from->R, about(u, rho[m->edge_crease[e]]));
@@ -98,23 +98,23 @@ void rg_pose_facets(const rg_mesh *m, const rg_tree *t, const double *rho, rg_pl
     }
 }
 
-void rg_pose_vertices(const rg_mesh *m, const rg_tree *t, const rg_place *place, rg_vec3 *x)
+void rg_pose_vertices(const rg_mesh *m, const rg_vec2 *X, const rg_tree *t, const rg_place *place, rg_vec3 *x)
 {
     for (int32_t at = t->nf - 1; at >= 0; at--) { /* from the leaves, so that the facet nearest the root has the last word */
         int32_t f = t->order[at];
         for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++)
-            x[m->facet_vertex[j]] = put(&place[f], m->X[m->facet_vertex[j]]);
+            x[m->facet_vertex[j]] = put(&place[f], X[m->facet_vertex[j]]);
     }
 }
 
-double rg_pose_gap(const rg_mesh *m, const rg_place *place)
+double rg_pose_gap(const rg_mesh *m, const rg_vec2 *X, const rg_place *place)
 {
     double gap = 0;
     for (int32_t e = 0; e < m->ne; e++) {
         int32_t f = m->edge_facet[e][0], g = m->edge_facet[e][1];
         if (f < 0 || g < 0) continue;
         for (int end = 0; end < 2; end++) {
-            rg_vec2 v = m->X[m->edge[e][end]];
+            rg_vec2 v = X[m->edge[e][end]];
             double d = rg_vec3_length(rg_vec3_sub(put(&place[f], v), put(&place[g], v)));
             if (!(d <= gap)) gap = d;
         }
@@ -122,12 +122,12 @@ double rg_pose_gap(const rg_mesh *m, const rg_place *place)
     return gap;
 }
 
-double rg_pose_strain(const rg_mesh *m, const rg_vec3 *x)
+double rg_pose_strain(const rg_mesh *m, const rg_vec2 *X, const rg_vec3 *x)
 {
     double worst = 0;
     for (int32_t e = 0; e < m->ne; e++) {
         int32_t a = m->edge[e][0], b = m->edge[e][1];
-        double s = fabs(rg_vec3_length(rg_vec3_sub(x[b], x[a])) / rg_vec2_length(rg_vec2_sub(m->X[b], m->X[a])) - 1);
+        double s = fabs(rg_vec3_length(rg_vec3_sub(x[b], x[a])) / rg_vec2_length(rg_vec2_sub(X[b], X[a])) - 1);
         if (!(s <= worst)) worst = s;
     }
     return worst;

@@ -19,13 +19,14 @@ void rg_tree_free(rg_tree *t);
 
 typedef struct rg_place { rg_mat3 R; rg_vec3 t; } rg_place; /* x -> R x + t */
 
-/* place[nf]: out, where each facet goes; the fixed facet stays in z = 0.   rho[N]: radians. */
-void rg_pose_facets(const rg_mesh *m, const rg_tree *t, const double *rho, rg_place *place);
+/* X[nv]: the pattern, m->X or what adjusting made of it.
+ * place[nf]: out, where each facet goes; the fixed facet stays in z = 0.   rho[N]: radians. */
+void rg_pose_facets(const rg_mesh *m, const rg_vec2 *X, const rg_tree *t, const double *rho, rg_place *place);
 /* x[nv]: out, vertex positions, each taken from the facet nearest the tree's root that has it. */
-void rg_pose_vertices(const rg_mesh *m, const rg_tree *t, const rg_place *place, rg_vec3 *x);
+void rg_pose_vertices(const rg_mesh *m, const rg_vec2 *X, const rg_tree *t, const rg_place *place, rg_vec3 *x);
 /* Largest distance between two placements of one vertex by different facets, file units. */
-double rg_pose_gap(const rg_mesh *m, const rg_place *place);
+double rg_pose_gap(const rg_mesh *m, const rg_vec2 *X, const rg_place *place);
 /* Largest | 3D length / pattern length - 1 | over the edges, with vertices as placed by x. */
-double rg_pose_strain(const rg_mesh *m, const rg_vec3 *x);
+double rg_pose_strain(const rg_mesh *m, const rg_vec2 *X, const rg_vec3 *x);
 
 #endif
