@@ -4,9 +4,11 @@
 
 #include <limits.h>
 #include <locale.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include <libxml/SAX2.h>
 #include <libxml/parser.h>
 #include <libxml/tree.h>
 
@@ -20,11 +22,8 @@ static int is(const xmlNode *n, const char *name)
     return n->type == XML_ELEMENT_NODE && strcmp((const char *)n->name, name) == 0;
 }
 
-static int line_of(const xmlNode *n)
-{
-    long line = xmlGetLineNo((xmlNode *)n);
-    return line > 0 && line <= INT_MAX ? (int)line : 0;
-}
+/* Kept by start_element(): libxml2's own number ends at 65535. */
+static int line_of(const xmlNode *n) { return (int)(intptr_t)n->_private; }
 
 static const xmlNode *first(const xmlNode *n)
 {
@@ -206,7 +205,6 @@ static rg_status data_set(reader *r, const xmlNode *object)
 static rg_status document(reader *r, xmlDoc *doc)
 {
     const xmlNode *root = xmlDocGetRootElement(doc);
-    if (doc->intSubset || doc->extSubset) return rg_fail(RG_EFORMAT, r->why, 1, "a document type is declared: no ORIPA file has one");
     if (!root || !is(root, "java"))
         return rg_fail(RG_EFORMAT, r->why, root ? line_of(root) : 1, "the root is <%.40s>, not ORIPA's <java>",
                        root ? (const char *)root->name : "");
@@ -220,6 +218,24 @@ static rg_status document(reader *r, xmlDoc *doc)
     return rg_fail(RG_EFORMAT, r->why, line_of(root), "no object of class oripa.DataSet");
 }
 
+static void start_element(void *ctx, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri, int namespaces,
+                          const xmlChar **namespace, int attributes, int defaulted, const xmlChar **values)
+{
+    xmlParserCtxt *parser = ctx;
+    xmlSAX2StartElementNs(ctx, name, prefix, uri, namespaces, namespace, attributes, defaulted, values);
+    if (parser->node && parser->input) parser->node->_private = (void *)(intptr_t)parser->input->line;
+}
+
+/* Nothing good comes after a document type: entities that open into gigabytes, files from elsewhere. */
+static void refuse_document_type(void *ctx, const xmlChar *name, const xmlChar *public_id, const xmlChar *system_id)
+{
+    xmlParserCtxt *parser = ctx;
+    int *line = parser->_private;
+    (void)name, (void)public_id, (void)system_id;
+    *line = parser->input ? parser->input->line : 1;
+    xmlStopParser(parser);
+}
+
 rg_status rg_opx_read(const void *bytes, size_t size, const rg_memory *mem, rg_lines *out, rg_diag *why)
 {
     rg_lines_init(out, mem);
@@ -227,10 +243,19 @@ rg_status rg_opx_read(const void *bytes, size_t size, const rg_memory *mem, rg_l
     if (size > INT_MAX) return rg_fail(RG_EFORMAT, why, 0, "the file is larger than 2 GB");
     xmlParserCtxt *parser = xmlNewParserCtxt();
     if (!parser) return RG_ENOMEM;
-    const int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_BIG_LINES | XML_PARSE_NOCDATA;
+    int document_type = 0; /* the line it is declared at */
+    parser->_private = &document_type;
+    parser->sax->internalSubset = refuse_document_type;
+    parser->sax->startElementNs = start_element;
+    parser->sax->comment = NULL; /* so that a text is one node, whatever stands in it */
+    parser->sax->processingInstruction = NULL;
+    const int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_NOCDATA;
     xmlDoc *doc = xmlCtxtReadMemory(parser, bytes, (int)size, NULL, NULL, options);
     rg_status s;
-    if (doc) {
+    if (document_type) {
+        s = rg_fail(RG_EFORMAT, why, document_type, "a document type is declared: no ORIPA file has one");
+        xmlFreeDoc(doc);
+    } else if (doc) {
         reader r = {out, why, NULL};
         s = document(&r, doc);
         xmlFreeDoc(doc);
