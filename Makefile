@@ -66,7 +66,7 @@ compile = $(CC) $(cppflags) $(CPPFLAGS) $(cflags) $(CFLAGS)
 link    = $(CC) $(ldflags) $(LDFLAGS)
 
 src   := $(sort $(wildcard src/*/*.c))
-cmd   := $(sort $(wildcard tools/rigami.c tools/cmd_*.c))
+cmd   := $(filter-out tools/make_%,$(sort $(wildcard tools/*.c)))
 tests := $(sort $(wildcard tests/test_*.c))
 bench := $(sort $(wildcard tests/bench/*.c))
 lib_o := $(src:%.c=$B/%.o)
@@ -101,7 +101,7 @@ $B/rigami: $(cmd_o) $B/librigami.a
 	$Q$(link) -o $@ $^ $(libs) $(LDLIBS)
 
 # Tests see the library's inside, so they link the archive.
-$B/tests/test_%: $B/tests/test_%.o $B/librigami.a $B/rigami
+$B/tests/test_%: $B/tests/test_%.o $B/librigami.a
 	$(call say,link,$@)
 	$Q$(link) -o $@ $(filter %.o %.a,$^) -lcmocka $(if $(filter 1,$(GPL)),-lgsl -lgslcblas) $(libs) $(LDLIBS)
 

@@ -1,0 +1,171 @@
+/* rigami fold -- folds a crease pattern, writes the motion, says how it went. */
+#include "commands.h"
+#include "input.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "say.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { BLOCKING_SHOWN = 4 };
+
+/* ------------------------------------------------------------------------------------ before it starts ---- */
+
+static int same_file(const char *a, const char *b)
+{
+    struct stat is, other;
+    if (strcmp(a, b) == 0) return 1;
+    return stat(a, &is) == 0 && stat(b, &other) == 0 && is.st_dev == other.st_dev && is.st_ino == other.st_ino &&
+           S_ISREG(is.st_mode);
+}
+
+/* `name` is written for its own: no input, no output before it. */
+static int check_alone(const options *o, const char *name, int outputs)
+{
+    for (int i = 0; i < o->operands; i++) {
+        if (strcmp(name, "-") == 0 || !same_file(name, o->operand[i])) continue;
+        say("%s: is the input, and would be written over", name);
+        return ENDS_USAGE;
+    }
+    for (int i = 0; i < outputs; i++) {
+        if (!same_file(name, o->output[i])) continue;
+        say("%s: is to be written twice", name);
+        return ENDS_USAGE;
+    }
+    return ENDS_WELL;
+}
+
+/* What can be known now of a file that is to be written. */
+static int check_place(const char *name)
+{
+    const char *slash = strrchr(name, '/');
+    char folder[4096] = ".";
+    struct stat is;
+    if (slash) snprintf(folder, sizeof folder, "%.*s", slash == name ? 1 : (int)(slash - name), name);
+    const int there = strcmp(name, "-") == 0 || stat(name, &is) == 0;
+    if (there && strcmp(name, "-") != 0 && S_ISDIR(is.st_mode)) errno = EISDIR;
+    else if (there || access(folder, W_OK | X_OK) == 0) return ENDS_WELL;
+    say("%s: %s", name, strerror(errno));
+    return ENDS_UNWRITTEN;
+}
+
+static int check(const options *o)
+{
+    int status = ENDS_WELL;
+    if (o->operands > 1) {
+        say("fold: a sequence of several patterns is not supported yet; name one");
+        return ENDS_USAGE;
+    }
+    for (int i = 0; i < o->outputs && status == ENDS_WELL; i++) {
+        rg_diag why = {0, ""};
+        rg_status s = rg_output_check(o->output[i], &why);
+        status = s == RG_OK ? check_alone(o, o->output[i], i) : say_status(s, o->output[i], &why);
+    }
+    if (status == ENDS_WELL && o->report) status = check_alone(o, o->report, o->outputs);
+    if (status == ENDS_WELL && o->report) status = check_place(o->report);
+    return status;
+}
+
+/* --------------------------------------------------------------------------------------------- afterwards ---- */
+
+static void say_short(const char *name, const rg_report *r)
+{
+    char places[400] = "";
+    size_t n = 0;
+    const int32_t shown = r->blocking_vertex_count < BLOCKING_SHOWN ? r->blocking_vertex_count : BLOCKING_SHOWN;
+    say("%s: stopped at %.1f %% folded: %s", name, r->folded_percent, r->reason);
+    for (int32_t i = 0; i < shown && n < sizeof places; i++)
+        n += (size_t)snprintf(places + n, sizeof places - n, "%s(%.6g, %.6g)", i ? ", " : "", r->blocking_at[i][0],
+                              r->blocking_at[i][1]);
+    if (shown < r->blocking_vertex_count && n < sizeof places)
+        snprintf(places + n, sizeof places - n, " and %d more", (int)(r->blocking_vertex_count - shown));
+    if (shown > 0) say("%s: what blocks: the %s at %s", name, r->blocking_vertex_count > 1 ? "vertices" : "vertex", places);
+}
+
+static void summarize(const char *name, const rg_report *r)
+{
+    printf("%s: %s, %.1f %% (least of any crease %.1f %%), %d frames in %.2f s\n", name,
+           r->outcome == RG_FOLDED ? "folded" : "stopped short", r->folded_percent, r->least_folded_percent,
+           (int)r->frame_count, r->seconds_total);
+    printf("  closure   %.1e rad at the worst vertex, edge strain %.1e, facet gap %.1e\n", r->max_closure_residual,
+           r->max_edge_strain, r->max_facet_gap);
+    printf("  model     %d creases (%d added: %s), %d constraints\n", (int)r->unknowns, (int)r->added_creases,
+           r->why_triangulated, (int)r->constraints);
+    printf("  method    %s, solver %s, %lld steps%s%s\n", r->method, r->solver, (long long)r->steps,
+           r->strategy[0] ? ", " : "", r->strategy);
+    if (r->adjust_gain > 0)
+        printf("  adjusted  gain %g: moved by at most %.2g of the sheet, strain %.2g against the pattern given\n",
+               r->adjust_gain, r->max_adjustment, r->max_strain_from_original);
+}
+
+/* The most memory that this process had resident. What Linux keeps in /proc is of this program alone; getrusage also
+ * counts what the caller had when it started us. */
+static double peak_bytes(void)
+{
+    char line[200];
+    double kilobytes = 0;
+    FILE *f = fopen("/proc/self/status", "r");
+    while (f && fgets(line, sizeof line, f))
+        if (sscanf(line, "VmHWM: %lf kB", &kilobytes) == 1) break;
+    if (f) fclose(f);
+    struct rusage used;
+    if (!(kilobytes > 0) && getrusage(RUSAGE_SELF, &used) == 0) kilobytes = (double)used.ru_maxrss;
+    return 1024 * kilobytes;
+}
+
+/* All outputs are tried, whatever becomes of one; the report comes last, as it tells how long they took. */
+static int write_all(const options *o, const rg_motion *m, progress *bar)
+{
+    const double from = progress_seconds();
+    rg_diag why = {0, ""};
+    rg_status s;
+    int status = ENDS_WELL;
+    for (int i = 0; i < o->outputs; i++) {
+        why = (rg_diag){0, ""};
+        progress_say(bar, "writing", o->output[i]);
+        s = rg_motion_write(m, o->output[i], &o->picture, &why);
+        progress_erase(bar);
+        if (s != RG_OK) say_status(s, o->output[i], &why), status = ENDS_UNWRITTEN;
+    }
+    if (!o->report) return status;
+    why = (rg_diag){0, ""};
+    s = rg_report_write(m, progress_seconds() - from, peak_bytes(), o->report, &why);
+    if (s != RG_OK) say_status(s, o->report, &why), status = ENDS_UNWRITTEN;
+    return status;
+}
+
+/* Several patterns: a sequence of states. */
+static int fold_states(const options *o, const rg_pattern *const *state, progress *bar, rg_motion **m)
+{
+    rg_diag why = {0, ""};
+    interrupt_hold();
+    rg_status s = rg_motion_create(state[0], &o->settings, progress_show, bar, m, &why);
+    progress_erase(bar);
+    return s == RG_OK ? ENDS_WELL : say_status(s, o->operand[0], &why);
+}
+
+int cmd_fold(const options *o)
+{
+    rg_pattern *state[1] = {NULL};
+    rg_motion *m = NULL;
+    progress bar;
+    progress_init(&bar, o->quiet && o->progress < 0 ? 0 : o->progress);
+    int status = check(o);
+    if (status == ENDS_WELL) status = input_read(o, 0, &state[0]);
+    if (status == ENDS_WELL) status = fold_states(o, (const rg_pattern *const *)state, &bar, &m);
+    if (status == ENDS_WELL) {
+        const rg_report *r = rg_motion_report(m);
+        status = write_all(o, m, &bar);
+        if (r->outcome != RG_FOLDED) say_short(o->operand[0], r);
+        if (!o->quiet && !(o->report && strcmp(o->report, "-") == 0)) summarize(o->operand[0], r);
+        if (status == ENDS_WELL && r->outcome != RG_FOLDED) status = ENDS_SHORT;
+    }
+    rg_motion_destroy(m);
+    rg_pattern_destroy(state[0]);
+    return status;
+}

@@ -1,0 +1,31 @@
+/* rigami gen -- writes an example crease pattern. */
+#include "commands.h"
+#include "say.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const int LARGEST = 100000;
+
+static int size_of(const char *text, int32_t *n)
+{
+    const size_t digits = strspn(text, "0123456789");
+    *n = digits > 0 && digits < 7 && text[digits] == 0 ? (int32_t)atol(text) : 0;
+    if (*n >= 1 && *n <= LARGEST) return ENDS_WELL;
+    say("gen: \"%s\" is not a size, a whole number from 1 to %d", text, LARGEST);
+    return ENDS_USAGE;
+}
+
+int cmd_gen(const options *o)
+{
+    int32_t n = 0, m = 0;
+    rg_diag why = {0, ""};
+    if (o->operands > 1 && size_of(o->operand[1], &n) != ENDS_WELL) return ENDS_USAGE;
+    if (o->operands > 2 && size_of(o->operand[2], &m) != ENDS_WELL) return ENDS_USAGE;
+    if (o->outputs != 1) {
+        say(o->outputs ? "gen: one -o OUT is enough" : "gen: -o OUT is missing; - is standard output");
+        return ENDS_USAGE;
+    }
+    rg_status s = rg_generate(o->operand[0], n, m, o->angle, o->output[0], &why);
+    return s == RG_OK ? ENDS_WELL : say_status(s, s == RG_EARG ? "gen" : o->output[0], &why);
+}

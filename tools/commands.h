@@ -1,0 +1,13 @@
+/* commands.h -- the commands: one function each, in tools/cmd_<name>.c; rigami.c lists them.
+ * Used by  rigami.c, every command */
+#ifndef COMMANDS_H
+#define COMMANDS_H
+
+#include "options.h"
+
+/* Each returns an exit status and has said what went wrong. */
+int cmd_fold(const options *o);
+int cmd_info(const options *o);
+int cmd_gen(const options *o);
+
+#endif

@@ -1,0 +1,329 @@
+#include "options.h"
+#include "say.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DEG (3.14159265358979323846 / 180)
+
+/* How the value of an option is read, and where to. */
+typedef enum kind { SWITCH, WHOLE, REAL, ABOVE, CHOICE, TEXT, OUTPUT, SIZE, CAMERA, ADJUST } kind;
+
+typedef struct rule {
+    int commands;            /* FOR_... */
+    const char *name;
+    char letter;             /* 0: none */
+    const char *value;       /* what stands for it in the help; NULL: it takes none */
+    kind kind;
+    size_t at;               /* in options */
+    double low, high;        /* ABOVE: low itself is refused; SWITCH: low is what it sets */
+    double unit;             /* REAL, ABOVE: what the number is multiplied with */
+    const char *const *list; /* CHOICE: names, by value */
+    const char *help;
+} rule;
+
+static const char *const formats[] = {[RG_FORMAT_AUTO] = "auto", [RG_FORMAT_OPX] = "opx", [RG_FORMAT_CP] = "cp",
+                                      [RG_FORMAT_FOLD] = "fold", [RG_FORMAT_SVG] = "svg", [RG_FORMAT_DXF] = "dxf", NULL};
+static const char *const methods[] = {[RG_METHOD_AUTO] = "auto", [RG_METHOD_EULER] = "euler",
+                                      [RG_METHOD_NEWTON] = "newton", [RG_METHOD_HEUN] = "heun",
+                                      [RG_METHOD_RK4] = "rk4", [RG_METHOD_ADAPTIVE] = "adaptive", NULL};
+static const char *const solvers[] = {[RG_SOLVER_AUTO] = "auto", [RG_SOLVER_CG] = "cg",
+                                      [RG_SOLVER_CHOLESKY] = "cholesky", [RG_SOLVER_SVD] = "svd", NULL};
+static const char *const triangulations[] = {[RG_TRIANGULATE_AUTO] = "auto", [RG_TRIANGULATE_NONE] = "none",
+                                             [RG_TRIANGULATE_ALL] = "all", NULL};
+static const char *const efforts[] = {[RG_EFFORT_FAST] = "fast", [RG_EFFORT_NORMAL] = "normal",
+                                      [RG_EFFORT_THOROUGH] = "thorough", NULL};
+
+#define AT(field) offsetof(options, field)
+#define READS (FOR_FOLD | FOR_INFO | FOR_CONVERT | FOR_CHART)
+#define EVERY (READS | FOR_GEN)
+#define NOTHING 0, 0, 1, NULL
+
+static const rule rules[] = {
+    {FOR_FOLD, "output", 'o', "OUT", OUTPUT, 0, NOTHING, "write the motion to OUT, see below; may be given many times"},
+    {FOR_CONVERT | FOR_GEN, "output", 'o', "OUT", OUTPUT, 0, NOTHING, "the file to write, - for standard output"},
+    {FOR_CHART, "output", 'o', "DIR", OUTPUT, 0, NOTHING, "the folder to write to"},
+    {FOR_FOLD, "frames", 0, "N", WHOLE, AT(settings.frames), 2, 1e6, 1, NULL,
+     "frames from start to end, both included, evenly spaced in folded percent (60)"},
+    {FOR_FOLD, "to", 0, "PCT", REAL, AT(settings.to), -100, 100, 0.01, NULL,
+     "how far to fold, in percent; negative: mountain and valley exchanged (100)"},
+    {FOR_FOLD, "targets", 0, NULL, SWITCH, AT(settings.targets), 1, 0, 1, NULL,
+     "aim at the file's own fold angles where it has them (on)"},
+    {FOR_FOLD, "no-targets", 0, NULL, SWITCH, AT(settings.targets), 0, 0, 1, NULL, "aim at 180 degrees everywhere"},
+    {FOR_FOLD, "method", 0, "NAME", CHOICE, AT(method), 0, 0, 1, methods, "how steps are made (auto):"},
+    {FOR_FOLD, "step", 0, "DEG", ABOVE, AT(settings.step), 0, 180, DEG, NULL, "largest step of any crease, degrees (5)"},
+    {FOR_FOLD, "tol", 0, "T", REAL, AT(settings.tol), 1e-14, 0.1, 1, NULL, "closure tolerance, radians (1e-10)"},
+    {FOR_FOLD, "solver", 0, "NAME", CHOICE, AT(solver), 0, 0, 1, solvers, "linear solver (auto):"},
+    {FOR_FOLD, "triangulate", 0, "WHAT", CHOICE, AT(triangulate), 0, 0, 1, triangulations,
+     "added creases; auto: only what the pattern needs (auto):"},
+    {FOR_FOLD, "adjust", 0, "GAIN", ADJUST, 0, 0, 1000, 1, NULL,
+     "move vertices so that closed ones open: auto (where nothing else folds), off, or how strongly, such as 0.1 (auto)"},
+    {FOR_FOLD, "effort", 0, "HOW", CHOICE, AT(effort), 0, 0, 1, efforts,
+     "how much is tried when the plain way stops short (normal):"},
+    {FOR_FOLD, "fixed", 0, "FACET", WHOLE, AT(settings.fixed_facet), 0, INT32_MAX, 1, NULL,
+     "the facet that stays where it is (the one nearest the middle)"},
+    {READS, "from", 0, "FORMAT", CHOICE, AT(format), 0, 0, 1, formats,
+     "the input's format; auto: by content, then by name (auto):"},
+    {READS, "frame", 0, "K", WHOLE, AT(settings.file_frame), 0, INT32_MAX, 1, NULL,
+     "FOLD files: the frame to read, 0 is the key frame (the first crease pattern)"},
+    {READS, "flip", 0, NULL, SWITCH, AT(settings.flip), 1, 0, 1, NULL,
+     "the file's y runs the other way than is usual for its format"},
+    {READS, "merge", 0, "TOL", REAL, AT(settings.merge), 0, 0.1, 1, NULL,
+     "ends nearer than this part of the sheet's size are one vertex (2e-5)"},
+    {READS, "aux", 0, NULL, SWITCH, AT(settings.aux_creases), 1, 0, 1, NULL, "auxiliary lines are creases that may fold"},
+    {FOR_FOLD, "size", 0, "WxH", SIZE, 0, 1, 16384, 1, NULL, "pictures: width and height in pixels (960x720)"},
+    {FOR_FOLD, "camera", 0, "AZ,EL[,ZOOM]", CAMERA, 0, NOTHING,
+     "pictures: azimuth and elevation in degrees, and zoom; 1 just shows the whole motion (-60,35,1)"},
+    {FOR_FOLD, "fps", 0, "N", ABOVE, AT(picture.fps), 0, 1000, 1, NULL, "animations: frames a second (30)"},
+    {FOR_FOLD, "report", 0, "FILE", TEXT, AT(report), NOTHING, "write a report as JSON, - for standard output"},
+    {FOR_INFO, "json", 0, NULL, SWITCH, AT(json), 1, 0, 1, NULL, "print one JSON object instead of text"},
+    {FOR_GEN, "angle", 0, "DEG", ABOVE, AT(angle), 0, 180, DEG, NULL, "the kind's angle, degrees (its own)"},
+    {EVERY, "quiet", 'q', NULL, SWITCH, AT(quiet), 1, 0, 1, NULL, "no warnings, no summary, no progress"},
+    {FOR_FOLD, "progress", 0, NULL, SWITCH, AT(progress), 1, 0, 1, NULL,
+     "show progress on standard error (on a terminal)"},
+    {FOR_FOLD, "no-progress", 0, NULL, SWITCH, AT(progress), 0, 0, 1, NULL, "do not show it"},
+    {EVERY, "help", 'h', NULL, SWITCH, AT(help), 1, 0, 1, NULL, "print this"},
+    {EVERY, "version", 0, NULL, SWITCH, AT(version), 1, 0, 1, NULL, "print the version"},
+};
+enum { RULES = sizeof rules / sizeof *rules };
+
+/* ------------------------------------------------------------------------------------------------ values ---- */
+
+/* A decimal number and nothing else: no blanks, no hexadecimal, no infinity. Stops at the byte after it. */
+static int number(const char *text, double *value, const char **end)
+{
+    const size_t n = strspn(text, "0123456789+-.eE");
+    char *stop;
+    *value = strtod(text, &stop);
+    *end = stop;
+    return n > 0 && stop == text + n && isfinite(*value);
+}
+
+static int whole_text(const char *text, double *value)
+{
+    const char *end;
+    return number(text, value, &end) && *end == 0;
+}
+
+static int refuse(const rule *r, const char *text, const char *what)
+{
+    say("--%s: \"%s\" is not %s", r->name, text, what);
+    return ENDS_USAGE;
+}
+
+static int refuse_range(const rule *r, const char *text)
+{
+    char what[80];
+    snprintf(what, sizeof what, "a %snumber %s %.10g %s %.10g", r->kind == WHOLE ? "whole " : "",
+             r->kind == ABOVE ? "above" : "from", r->low, r->kind == ABOVE ? "and up to" : "to", r->high);
+    return refuse(r, text, what);
+}
+
+static int set_number(const rule *r, const char *text, void *to)
+{
+    double v;
+    if (!whole_text(text, &v) || !(v >= r->low && v <= r->high) || (r->kind == ABOVE && !(v > r->low)))
+        return refuse_range(r, text);
+    if (r->kind != WHOLE) *(double *)to = v * r->unit;
+    else if (text[strspn(text, "0123456789")] != 0) return refuse_range(r, text);
+    else *(int32_t *)to = (int32_t)v;
+    return ENDS_WELL;
+}
+
+/* "auto, euler or newton" */
+static void join(const char *const *list, char *out, size_t room)
+{
+    size_t n = 0;
+    for (int i = 0; list[i] && n < room; i++)
+        n += (size_t)snprintf(out + n, room - n, "%s%s", i == 0 ? "" : list[i + 1] ? ", " : " or ", list[i]);
+}
+
+static int set_choice(const rule *r, const char *text, int *to)
+{
+    char names[120] = "one of ";
+    for (*to = 0; r->list[*to]; ++*to)
+        if (strcmp(r->list[*to], text) == 0) return ENDS_WELL;
+    join(r->list, names + 7, sizeof names - 7);
+    return refuse(r, text, names);
+}
+
+static int set_size(const rule *r, const char *text, rg_picture *p)
+{
+    const size_t w = strspn(text, "0123456789"), h = text[w] ? strspn(text + w + 1, "0123456789") : 0;
+    if (w > 0 && w < 9 && text[w] == 'x' && h > 0 && h < 9 && text[w + 1 + h] == 0) {
+        p->width = (int32_t)atol(text);
+        p->height = (int32_t)atol(text + w + 1);
+        if (p->width >= r->low && p->width <= r->high && p->height >= r->low && p->height <= r->high) return ENDS_WELL;
+    }
+    return refuse(r, text, "a size such as 960x720, each from 1 to 16384");
+}
+
+static int set_camera(const rule *r, const char *text, rg_picture *p)
+{
+    double v[3] = {0, 0, p->zoom};
+    const char *c = text;
+    for (int i = 0; i < 3; i++) {
+        const char *end;
+        if (!number(c, &v[i], &end)) break;
+        if (*end == 0 && i > 0 && fabs(v[0]) <= 360 && fabs(v[1]) <= 90 && v[2] >= 0.01 && v[2] <= 100) {
+            p->azimuth = v[0] * DEG;
+            p->elevation = v[1] * DEG;
+            p->zoom = v[2];
+            return ENDS_WELL;
+        }
+        if (*end != ',') break;
+        c = end + 1;
+    }
+    return refuse(r, text, "AZ,EL or AZ,EL,ZOOM: -360 to 360 and -90 to 90 degrees, zoom 0.01 to 100");
+}
+
+static int set_adjust(const rule *r, const char *text, rg_settings *s)
+{
+    double v = strcmp(text, "auto") == 0 ? RG_ADJUST_AUTO : 0;
+    if (strcmp(text, "auto") != 0 && strcmp(text, "off") != 0 && (!whole_text(text, &v) || !(v >= r->low && v <= r->high)))
+        return refuse(r, text, "auto, off, or a number from 0 to 1000");
+    s->adjust = v;
+    return ENDS_WELL;
+}
+
+static int set(options *o, const rule *r, const char *text)
+{
+    void *to = (char *)o + r->at;
+    switch (r->kind) {
+    case SWITCH: *(int *)to = (int)r->low; return ENDS_WELL;
+    case CHOICE: return set_choice(r, text, to);
+    case TEXT: *(const char **)to = text; return ENDS_WELL;
+    case OUTPUT: o->output[o->outputs++] = text; return ENDS_WELL;
+    case SIZE: return set_size(r, text, &o->picture);
+    case CAMERA: return set_camera(r, text, &o->picture);
+    case ADJUST: return set_adjust(r, text, &o->settings);
+    default: return set_number(r, text, to);
+    }
+}
+
+/* ------------------------------------------------------------------------------------------------- parse ---- */
+
+/* What getopt_long is to know of the command's options; its values are places in `rules`, above any letter. */
+enum { FIRST = 256 };
+static void tell_getopt(int bit, struct option *longs, char *shorts)
+{
+    int n = 0;
+    shorts += sprintf(shorts, "-:"); /* operands in their order, whatever POSIXLY_CORRECT says; errors left to us */
+    for (int i = 0; i < RULES; i++) {
+        if (!(rules[i].commands & bit)) continue;
+        longs[n++] = (struct option){rules[i].name, rules[i].value ? required_argument : no_argument, NULL, FIRST + i};
+        if (rules[i].letter) shorts += sprintf(shorts, "%c%s", rules[i].letter, rules[i].value ? ":" : "");
+    }
+    memset(&longs[n], 0, sizeof *longs);
+}
+
+static const rule *rule_of(int bit, int code)
+{
+    if (code >= FIRST) return &rules[code - FIRST];
+    for (int i = 0; code && i < RULES; i++)
+        if ((rules[i].commands & bit) && rules[i].letter == code) return &rules[i];
+    return NULL;
+}
+
+static int refuse_option(const command *c, int code, const char *word)
+{
+    const rule *r = rule_of(c->bit, optopt);
+    if (code == ':' && r) say("--%s needs a value: %s", r->name, r->value);
+    else if (r) say("--%s takes no value", r->name);
+    else if (optopt) say("unknown option -%c; try rigami %s --help", optopt, c->name);
+    else say("unknown option %s; try rigami %s --help", word, c->name);
+    return ENDS_USAGE;
+}
+
+static int check_operands(const options *o, const command *c)
+{
+    int inputs = 0;
+    if (o->operands < c->least) say("%s: nothing is named; usage: rigami %s %s", c->name, c->name, c->operands);
+    else if (o->operands > c->most) say("%s: \"%s\" is one too many", c->name, o->operand[c->most]);
+    for (int i = 0; i < o->operands; i++) inputs += strcmp(o->operand[i], "-") == 0;
+    if (inputs > 1) say("standard input can be read only once");
+    return o->operands < c->least || o->operands > c->most || inputs > 1 ? ENDS_USAGE : ENDS_WELL;
+}
+
+static void settle(options *o)
+{
+    o->settings.format = (rg_format)o->format;
+    o->settings.method = (rg_method)o->method;
+    o->settings.solver = (rg_solver)o->solver;
+    o->settings.triangulate = (rg_triangulation)o->triangulate;
+    o->settings.effort = (rg_effort)o->effort;
+}
+
+int options_parse(options *o, const command *c, int argc, char **argv)
+{
+    struct option longs[RULES + 1];
+    char shorts[3 * RULES + 3];
+    *o = (options){.settings = rg_settings_default(), .picture = rg_picture_default(), .progress = -1,
+                   .effort = RG_EFFORT_NORMAL};
+    o->operand = calloc((size_t)argc + 1, sizeof *o->operand);
+    o->output = calloc((size_t)argc + 1, sizeof *o->output);
+    if (!o->operand || !o->output) {
+        say("out of memory");
+        return ENDS_UNWRITTEN;
+    }
+    tell_getopt(c->bit, longs, shorts);
+    opterr = 0;
+    optind = 1;
+    for (int code; (code = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
+        const rule *r = code == 1 ? NULL : rule_of(c->bit, code);
+        if (code == '?' || code == ':') return refuse_option(c, code, argv[optind - 1]);
+        if (code == 1) o->operand[o->operands++] = optarg;
+        else if (r && set(o, r, optarg) != ENDS_WELL) return ENDS_USAGE;
+        if (o->help || o->version) return ENDS_WELL;
+    }
+    while (optind < argc) o->operand[o->operands++] = argv[optind++];
+    settle(o);
+    return check_operands(o, c);
+}
+
+void options_free(options *o)
+{
+    free(o->operand);
+    free(o->output);
+    memset(o, 0, sizeof *o);
+}
+
+/* -------------------------------------------------------------------------------------------------- help ---- */
+
+enum { COLUMN = 25, WIDTH = 79 };
+
+static void wrap(const char *text, FILE *out)
+{
+    int at = COLUMN;
+    while (*text) {
+        const int n = (int)strcspn(text, " ");
+        if (at + 1 + n > WIDTH) at = fprintf(out, "\n%*s", COLUMN, "") - 1;
+        at += fprintf(out, "%s%.*s", at == COLUMN ? "" : " ", n, text);
+        text += n + (text[n] == ' ');
+    }
+}
+
+/* "  -o, --output OUT", then the help beside it or, where that is too long, below it. */
+static void help_option(const rule *r, FILE *out)
+{
+    char text[400], names[120] = "";
+    int at = r->letter ? fprintf(out, "  -%c, --%s", r->letter, r->name) : fprintf(out, "      --%s", r->name);
+    if (r->value) at += fprintf(out, " %s", r->value);
+    if (at >= COLUMN) fputc('\n', out), at = 0;
+    fprintf(out, "%*s", COLUMN - at, "");
+    if (r->list) join(r->list, names, sizeof names);
+    snprintf(text, sizeof text, "%s%s%s", r->help, r->list ? " " : "", names);
+    wrap(text, out);
+    fputc('\n', out);
+}
+
+void options_help(const command *c, FILE *out)
+{
+    fprintf(out, "Usage: rigami %s %s\n%s\n\n", c->name, c->operands, c->summary);
+    for (int i = 0; i < RULES; i++)
+        if (rules[i].commands & c->bit) help_option(&rules[i], out);
+    if (c->notes[0]) fprintf(out, "\n%s", c->notes);
+}

@@ -1,0 +1,41 @@
+/* options.h -- what may stand on the command line: one table that parsing and help are made from.
+ * Uses  say.h        Used by  every command */
+#ifndef OPTIONS_H
+#define OPTIONS_H
+
+#include "rigami.h"
+#include <stdio.h>
+
+/* Which commands an option is for. */
+enum { FOR_FOLD = 1, FOR_INFO = 2, FOR_CONVERT = 4, FOR_GEN = 8, FOR_CHART = 16 };
+
+typedef struct options {
+    rg_settings settings;
+    rg_picture picture;
+    double angle; /* of gen, radians; 0: the kind's own */
+    const char **operand, **output;
+    int operands, outputs;
+    const char *report;                                   /* NULL: none */
+    int quiet, json, progress;                            /* progress: 1 yes, 0 no, -1 on a terminal */
+    int help, version;                                    /* asked for: nothing after it was looked at */
+    int format, method, solver, triangulate, effort;      /* places in the lists of names; in `settings` at the end */
+} options;
+
+/* A command as its user sees it. */
+typedef struct command {
+    const char *name;
+    int bit;              /* FOR_... */
+    const char *operands; /* of the usage line */
+    int least, most;      /* how many operands */
+    const char *summary;
+    const char *notes;    /* what the help says after the options */
+    int (*run)(const options *o);
+} command;
+
+/* Parses argv[1] ... argv[argc - 1] after the command's name argv[0]. Returns an exit status; what is wrong has been
+ * said. Strings are borrowed from argv. Call options_free in any case. */
+int options_parse(options *o, const command *c, int argc, char **argv);
+void options_free(options *o);
+void options_help(const command *c, FILE *out);
+
+#endif

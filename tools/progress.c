@@ -1,0 +1,69 @@
+#include "progress.h"
+#include "interrupt.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { BAR = 40 };
+static const double BETWEEN_DRAWINGS = 0.1; /* seconds */
+static const double BEFORE_GUESSING = 1;    /* seconds of a run before the rest is guessed from it */
+
+double progress_seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void progress_init(progress *p, int wanted)
+{
+    const char *terminal = getenv("TERM");
+    *p = (progress){.shown = wanted, .began = progress_seconds()};
+    if (wanted < 0) p->shown = isatty(STDERR_FILENO) && terminal && strcmp(terminal, "dumb") != 0;
+}
+
+static void draw(progress *p, double now)
+{
+    const int full = (int)(BAR * p->reached);
+    const double gone = now - p->began;
+    char bar[BAR + 1] = "", left[40] = "";
+    memset(bar, '#', (size_t)full);
+    memset(bar + full, '.', (size_t)(BAR - full));
+    if (gone >= BEFORE_GUESSING && p->reached > 0.01)
+        snprintf(left, sizeof left, ", %.0f s left", gone * (1 - p->reached) / p->reached);
+    fprintf(stderr, "\r%5.1f %% folded [%s]%s\033[K", 100 * p->reached, bar, left);
+    fflush(stderr);
+    p->on_screen = 1;
+    p->drawn = now;
+}
+
+int progress_show(void *ctx, double part)
+{
+    progress *p = ctx;
+    if (p->shown && part >= 0 && part <= 1) {
+        const double now = progress_seconds();
+        if (part < p->reached) p->began = now; /* a new try, from flat */
+        p->reached = part;
+        if (now - p->drawn >= BETWEEN_DRAWINGS) draw(p, now);
+    }
+    return interrupt_came();
+}
+
+void progress_say(progress *p, const char *doing, const char *what)
+{
+    if (!p->shown) return;
+    fprintf(stderr, "\r%s %.60s\033[K", doing, what);
+    fflush(stderr);
+    p->on_screen = 1;
+}
+
+void progress_erase(progress *p)
+{
+    if (!p->on_screen) return;
+    fputs("\r\033[K", stderr);
+    fflush(stderr);
+    p->on_screen = 0;
+}

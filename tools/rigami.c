@@ -1,0 +1,100 @@
+/* rigami -- the command line: which commands there are. */
+#include "commands.h"
+#include "interrupt.h"
+#include "say.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+
+#define STATUSES                                                                              \
+    "Exit status: 0 every driven crease is within 1 % of its target; 1 stopped short, all\n" \
+    "outputs are written, the report and standard error say where and why; 2 wrong usage,\n" \
+    "or an input that cannot be read; 3 an output that cannot be written, or no memory.\n"
+
+static const char fold_notes[] =
+    "IN is a crease pattern, - standard input. OUT, by its shape and extension:\n"
+    "  dir/  name-%04d.png          one PNG a frame\n"
+    "  x.png                        the last frame\n"
+    "  x.gif x.apng x.mp4 x.webm    the animation (video by the program ffmpeg)\n"
+    "  x.obj x.stl                  the last frame; with %04d one a frame\n"
+    "  x.glb x.gltf                 one animated model\n"
+    "  x.fold                       FOLD 1.2, the motion in file_frames\n"
+    "  x.csv                        fold angles in degrees, a row a frame, a column a crease\n"
+    "  x.svg                        the crease pattern as folded\n"
+    "  x.html                       a page to turn, fold and unfold it, all in one file\n"
+    "Without -o it folds and says how it went.\n\n" STATUSES;
+
+static const command commands[] = {
+    {"fold", FOR_FOLD, "IN [-o OUT]...", 1, 1000, "Folds a crease pattern and writes the motion.", fold_notes, cmd_fold},
+    {"info", FOR_INFO, "IN", 1, 1, "Says what a crease pattern is, and whether and why it may not fold.",
+     "IN is a crease pattern, - standard input. Exit status: 0 when it was read, whatever is\n"
+     "said of it; 2 when not.\n",
+     cmd_info},
+    {"gen", FOR_GEN, "KIND [N [M]] -o OUT", 1, 3, "Writes an example crease pattern as .opx, of N by M parts.", "", cmd_gen},
+};
+enum { COMMANDS = sizeof commands / sizeof *commands };
+
+static void help(FILE *out)
+{
+    fputs("Usage: rigami COMMAND ...\nFolds origami crease patterns as rigid plates.\n\n", out);
+    for (int i = 0; i < COMMANDS; i++)
+        fprintf(out, "  rigami %s %s\n        %s\n", commands[i].name, commands[i].operands, commands[i].summary);
+    fputs("\nrigami COMMAND --help lists the command's options; rigami --version prints the version.\n\n" STATUSES, out);
+}
+
+/* Descriptors 0, 1, 2 that the caller closed are made such that using them fails; else the first file that is opened
+ * would take their place. Standard error may fail unseen. */
+static void fill_descriptors(void)
+{
+    static const int modes[] = {O_WRONLY, O_RDONLY, O_RDWR};
+    for (int fd = 0; fd < 3; fd++)
+        if (fcntl(fd, F_GETFD) < 0 && errno == EBADF) (void)!open("/dev/null", modes[fd]);
+}
+
+static int run(const command *c, int argc, char **argv)
+{
+    options o;
+    int status = options_parse(&o, c, argc, argv);
+    if (status == ENDS_WELL && o.help) {
+        options_help(c, stdout);
+        if (c->bit == FOR_GEN) {
+            fputs("\nKIND is one of:", stdout);
+            for (const char *const *kind = rg_generate_kinds(); *kind; kind++) printf(" %s", *kind);
+            fputs("\n", stdout);
+        }
+    } else if (status == ENDS_WELL && o.version) {
+        printf("rigami %s\n", rg_version());
+    } else if (status == ENDS_WELL) {
+        status = c->run(&o);
+    }
+    options_free(&o);
+    return status;
+}
+
+static int dispatch(int argc, char **argv)
+{
+    const char *word = argc > 1 ? argv[1] : "";
+    for (int i = 0; i < COMMANDS; i++)
+        if (strcmp(word, commands[i].name) == 0) return run(&commands[i], argc - 1, argv + 1);
+    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) help(stdout);
+    else if (strcmp(word, "--version") == 0) printf("rigami %s\n", rg_version());
+    else {
+        if (argc < 2) help(stderr);
+        else say("\"%s\" is no command; try rigami --help", word);
+        return ENDS_USAGE;
+    }
+    return ENDS_WELL;
+}
+
+int main(int argc, char **argv)
+{
+    fill_descriptors();
+    interrupt_init();
+    const int status = dispatch(argc, argv);
+    errno = 0;
+    if (fflush(stdout) == 0 && !ferror(stdout)) return status;
+    say("standard output: %s", errno ? strerror(errno) : "not written");
+    return ENDS_UNWRITTEN;
+}
