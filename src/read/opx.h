@@ -1,5 +1,5 @@
 /* opx.h -- ORIPA's .opx: a Java bean, written as XML by two dialects of Java's encoder.
- * Paper    section 4 ("crease pattern data is given in ORIPA format")        Uses  libxml2        Used by  pattern.c
+ * Paper    section 4 ("crease pattern data is given in ORIPA format")        Uses  xml.h        Used by  read.c
  *
  * Java 6 and older write <void property="lines">, Java 7 and newer <void method="getField"><string>lines</string>. A
  * property that has its default, 0, is not written; an entry of an array that is null is left out, so that its index

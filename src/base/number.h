@@ -1,0 +1,20 @@
+/* number.h -- decimal numbers as text, the same whatever the locale says of decimal points.
+ * Used by  readers, writers.  Thread safety: as long as nobody changes the locale meanwhile. */
+#ifndef RG_NUMBER_H
+#define RG_NUMBER_H
+
+#include <stddef.h>
+
+/* Reads the longest number that s[0 ... n-1] begins with: sign, digits, point, exponent. Returns how many characters it
+ * takes, 0 where there is none. Too large: +-INFINITY. No number of more than 400 characters is one. */
+size_t rg_number_scan(const char *s, size_t n, double *value);
+/* All of s, but for blanks around, is a number; also Java's NaN, Infinity and -Infinity. */
+int rg_number_parse(const char *s, size_t n, double *value);
+/* All of s, but for blanks around, is a whole number that fits. */
+int rg_number_whole(const char *s, size_t n, long *value);
+
+enum { RG_NUMBER_ROOM = 40 };
+/* The shortest text that reads back as the same number; -0 is written as 0. Returns `text`. */
+const char *rg_number_print(char text[RG_NUMBER_ROOM], double value);
+
+#endif
