@@ -1,0 +1,20 @@
+/* utf8.h -- where characters begin and end, in text that may be anything.
+ * Used by  json.c svgfile.c */
+#ifndef RG_UTF8_H
+#define RG_UTF8_H
+
+#include <stddef.h>
+
+/* Bytes of the UTF-8 character that begins at s, which ends with 0; 0 if none does. */
+static inline size_t rg_utf8_character(const unsigned char *s)
+{
+    const unsigned char a = s[0];
+    const size_t n = a < 0x80 ? 1 : a >= 0xc2 && a < 0xe0 ? 2 : a >= 0xe0 && a < 0xf0 ? 3 : a >= 0xf0 && a < 0xf5 ? 4 : 0;
+    for (size_t i = 1; i < n; i++)
+        if ((s[i] & 0xc0) != 0x80) return 0;
+    const int overlong = (a == 0xe0 && s[1] < 0xa0) || (a == 0xf0 && s[1] < 0x90);
+    const int surrogate = a == 0xed && s[1] >= 0xa0, beyond = a == 0xf4 && s[1] >= 0x90;
+    return overlong || surrogate || beyond ? 0 : n;
+}
+
+#endif
