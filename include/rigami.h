@@ -263,6 +263,7 @@ typedef struct rg_picture {
     unsigned char front[3], back[3];   /* paper colours */
     unsigned char background[3];
     int creases;                       /* non-zero: draw creases and edges */
+    double fps;                        /* of animations: frames a second, 0.01 ... 1000; 30 */
 } rg_picture;
 
 RG_API rg_picture rg_picture_default(void);

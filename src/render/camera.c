@@ -24,6 +24,7 @@ rg_picture rg_picture_default(void)
         .back = {252, 248, 240},
         .background = {236, 240, 244},
         .creases = 1,
+        .fps = 30,
     };
 }
 

@@ -1,5 +1,5 @@
 /* camera.h -- one still camera for a whole motion: nothing jumps, nothing is cut off.
- * Paper    section 4        Uses  motion.h        Used by  render.c film.c */
+ * Paper    section 4        Uses  motion.h        Used by  render.c frames.c */
 #ifndef RG_CAMERA_H
 #define RG_CAMERA_H
 

@@ -20,21 +20,21 @@ struct rg_layers {
     rg_stack stack;
 };
 
-rg_status rg_layers_create(const rg_motion *m, const rg_triangles *t, rg_layers **layers)
+rg_status rg_layers_create(const rg_memory *mem, const rg_motion *m, const rg_triangles *t, rg_layers **layers)
 {
     const size_t nf = (size_t)m->mesh.nf;
-    rg_layers *l = rg_mem_array(&m->mem, 1, sizeof *l);
+    rg_layers *l = rg_mem_array(mem, 1, sizeof *l);
     if (!l) return RG_ENOMEM;
-    *l = (rg_layers){.mem = m->mem, .motion = m};
-    l->place = rg_mem_array(&m->mem, nf, sizeof *l->place);
-    l->was = rg_mem_array(&m->mem, nf, sizeof *l->was);
-    l->back = rg_mem_array(&m->mem, nf, sizeof *l->back);
-    l->rho = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *l->rho);
-    l->lift = rg_mem_array(&m->mem, nf, sizeof *l->lift);
-    l->level = rg_mem_array(&m->mem, nf, sizeof *l->level);
+    *l = (rg_layers){.mem = *mem, .motion = m};
+    l->place = rg_mem_array(mem, nf, sizeof *l->place);
+    l->was = rg_mem_array(mem, nf, sizeof *l->was);
+    l->back = rg_mem_array(mem, nf, sizeof *l->back);
+    l->rho = rg_mem_array(mem, (size_t)m->mesh.N, sizeof *l->rho);
+    l->lift = rg_mem_array(mem, nf, sizeof *l->lift);
+    l->level = rg_mem_array(mem, nf, sizeof *l->level);
     rg_status s = l->place && l->was && l->back && l->rho && l->lift && l->level ? RG_OK : RG_ENOMEM;
-    if (s == RG_OK) s = rg_coplanar_init(&l->coplanar, &m->mem, &m->mesh);
-    if (s == RG_OK) s = rg_stack_init(&l->stack, &m->mem, &m->mesh, t);
+    if (s == RG_OK) s = rg_coplanar_init(&l->coplanar, mem, &m->mesh);
+    if (s == RG_OK) s = rg_stack_init(&l->stack, mem, &m->mesh, t);
     if (s != RG_OK) {
         rg_layers_destroy(l);
         return s;

@@ -1,5 +1,5 @@
 /* layers.h -- facets that lie on each other, moved apart for the eye, so that each frame shows paper on paper.
- * Paper    section 4        Uses  motion.h coplanar.h stack.h        Used by  film.c
+ * Paper    section 4        Uses  motion.h coplanar.h stack.h        Used by  frames.c
  *
  * Who is on top follows from the motion: facets that come to lie in one plane are ordered by where they lay a little
  * before, and stay in that order for as long as they lie there. So frames are taken one after the other. */
@@ -12,7 +12,7 @@
 typedef struct rg_layers rg_layers;
 
 /* `m` and `t` are kept by reference. RG_ENOMEM. Owner: the caller, rg_layers_destroy (NULL is fine). */
-rg_status rg_layers_create(const rg_motion *m, const rg_triangles *t, rg_layers **layers);
+rg_status rg_layers_create(const rg_memory *mem, const rg_motion *m, const rg_triangles *t, rg_layers **layers);
 /* The next frame, the first call takes frame 0:
  *   x[nv]     out, positions
  *   lift[nf]  out, how far each facet is to be moved when it is drawn; no more than RG_LAYERS_LIFT of the sheet's size

@@ -1,5 +1,5 @@
 /* render.h -- one frame of a fold as a picture: two-sided paper, soft light, creases drawn.
- * Paper    section 4        Uses  gl.h camera.h triangles.h        Used by  film.c */
+ * Paper    section 4        Uses  gl.h camera.h triangles.h        Used by  frames.c */
 #ifndef RG_RENDER_H
 #define RG_RENDER_H
 
