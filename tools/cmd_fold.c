@@ -40,12 +40,13 @@ static int check_alone(const options *o, const char *name, int outputs)
     return ENDS_WELL;
 }
 
-/* What can be known now of a file that is to be written. */
+/* What can be known now of a file that is to be written; folders, dir/, are their writer's. */
 static int check_place(const char *name)
 {
     const char *slash = strrchr(name, '/');
     char folder[4096] = ".";
     struct stat is;
+    if (slash && !slash[1]) return ENDS_WELL;
     if (slash) snprintf(folder, sizeof folder, "%.*s", slash == name ? 1 : (int)(slash - name), name);
     const int there = strcmp(name, "-") == 0 || stat(name, &is) == 0;
     if (there && strcmp(name, "-") != 0 && S_ISDIR(is.st_mode)) errno = EISDIR;
@@ -65,6 +66,7 @@ static int check(const options *o)
         rg_diag why = {0, ""};
         rg_status s = rg_output_check(o->output[i], &why);
         status = s == RG_OK ? check_alone(o, o->output[i], i) : say_status(s, o->output[i], &why);
+        if (status == ENDS_WELL) status = check_place(o->output[i]);
     }
     if (status == ENDS_WELL && o->report) status = check_alone(o, o->report, o->outputs);
     if (status == ENDS_WELL && o->report) status = check_place(o->report);
@@ -146,7 +148,9 @@ static int fold_states(const options *o, const rg_pattern *const *state, progres
     interrupt_hold();
     rg_status s = rg_motion_create(state[0], &o->settings, progress_show, bar, m, &why);
     progress_erase(bar);
-    return s == RG_OK ? ENDS_WELL : say_status(s, o->operand[0], &why);
+    if (s == RG_OK) return ENDS_WELL;
+    const int status = say_status(s, o->operand[0], &why);
+    return s == RG_EABSENT ? ENDS_USAGE : status; /* a solver that this build lacks is an option that it lacks */
 }
 
 int cmd_fold(const options *o)

@@ -77,7 +77,7 @@ static const rule rules[] = {
     {FOR_FOLD, "size", 0, "WxH", SIZE, 0, 1, 16384, 1, NULL, "pictures: width and height in pixels (960x720)"},
     {FOR_FOLD, "camera", 0, "AZ,EL[,ZOOM]", CAMERA, 0, NOTHING,
      "pictures: azimuth and elevation in degrees, and zoom; 1 just shows the whole motion (-60,35,1)"},
-    {FOR_FOLD, "fps", 0, "N", ABOVE, AT(picture.fps), 0, 1000, 1, NULL, "animations: frames a second (30)"},
+    {FOR_FOLD, "fps", 0, "N", REAL, AT(picture.fps), 0.01, 1000, 1, NULL, "animations: frames a second (30)"},
     {FOR_FOLD, "report", 0, "FILE", TEXT, AT(report), NOTHING, "write a report as JSON, - for standard output"},
     {FOR_INFO, "json", 0, NULL, SWITCH, AT(json), 1, 0, 1, NULL, "print one JSON object instead of text"},
     {FOR_GEN, "angle", 0, "DEG", ABOVE, AT(angle), 0, 180, DEG, NULL, "the kind's angle, degrees (its own)"},
@@ -241,11 +241,12 @@ static int refuse_option(const command *c, int code, const char *word)
 static int check_operands(const options *o, const command *c)
 {
     int inputs = 0;
+    for (int i = 0; i < o->operands; i++) inputs += strcmp(o->operand[i], "-") == 0;
     if (o->operands < c->least) say("%s: nothing is named; usage: rigami %s %s", c->name, c->name, c->operands);
     else if (o->operands > c->most) say("%s: \"%s\" is one too many", c->name, o->operand[c->most]);
-    for (int i = 0; i < o->operands; i++) inputs += strcmp(o->operand[i], "-") == 0;
-    if (inputs > 1) say("standard input can be read only once");
-    return o->operands < c->least || o->operands > c->most || inputs > 1 ? ENDS_USAGE : ENDS_WELL;
+    else if (inputs > 1) say("%s: standard input can be read only once", c->name);
+    else return ENDS_WELL;
+    return ENDS_USAGE;
 }
 
 static void settle(options *o)
