@@ -87,6 +87,15 @@ $B/%.o: %.c
 	$(call say,cc,$<)
 	$Q$(compile) -MMD -MP -c -o $@ $<
 
+# The page of write/html.c, as the elements of an array.
+$B/made/write/page.h: src/write/page.html
+	@mkdir -p $(@D)
+	$(call say,page,$<)
+	$Qod -An -v -tu1 $< | sed 's/[0-9][0-9]*/&,/g' >$@
+
+$B/src/write/html.o: $B/made/write/page.h
+$B/src/write/html.o: cppflags += -I$B/made
+
 $B/librigami.a: $(lib_o)
 	@rm -f $@
 	$(call say,ar,$@)

@@ -1,0 +1,22 @@
+/* gltf.h -- the motion as one animated glTF 2.0 model, in one file: binary .glb, or .gltf with its bytes in itself.
+ * Uses  motion.h pose/turn.h render/triangles.h        Used by  output.c
+ *
+ * A facet is a node that turns and moves, with a key for every frame; its mesh lies about the facet's centre, so that single
+ * precision costs little: against x.obj of the same frame positions are within 1e-6 of the sheet. Where creases were
+ * adjusted, facets change shape and no turn does that; measured on adjusted sheets the best turn misses by percents of
+ * the sheet. Then the whole sheet is one mesh with a morph target for every frame, as exact, and straight between frames.
+ *
+ * Both sides of the paper are there, each its own material, seen from its side only. Coordinates are those of all the other
+ * outputs: the flat sheet faces +z. A viewer that plays no animations sees the last frame. */
+#ifndef RG_GLTF_H
+#define RG_GLTF_H
+
+#include "motion/motion.h"
+#include <stdio.h>
+
+/* All frames, 30 a second, in the paper colours of *p; `frame` is not looked at. RG_ENOMEM; RG_EARG: too large for the
+ * format (4 GiB). */
+rg_status rg_gltf_write(const rg_motion *m, int32_t frame, const rg_picture *p, FILE *out);
+rg_status rg_gltf_write_binary(const rg_motion *m, int32_t frame, const rg_picture *p, FILE *out);
+
+#endif

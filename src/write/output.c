@@ -1,0 +1,102 @@
+/* The forms of output: which writer a path's shape and extension ask for, and that each file appears whole or not. */
+#include "base/file.h"
+#include "base/status.h"
+#include "write/csv.h"
+#include "write/foldfile.h"
+#include "write/gltf.h"
+#include "write/html.h"
+#include "write/obj.h"
+#include "write/stl.h"
+#include "write/svgfile.h"
+
+#include <string.h>
+#include <strings.h>
+
+typedef struct form {
+    const char *extension;
+    int per_frame; /* one state: the last frame, or a file a frame for name-%04d */
+    rg_status (*write)(const rg_motion *m, int32_t frame, const rg_picture *p, FILE *out);
+} form;
+
+static const form FORMS[] = {
+    {".csv", 0, rg_csv_write},      {".fold", 0, rg_foldfile_write},  {".glb", 0, rg_gltf_write_binary},
+    {".gltf", 0, rg_gltf_write},    {".html", 0, rg_html_write},      {".obj", 1, rg_obj_write},
+    {".stl", 1, rg_stl_write},      {".svg", 0, rg_svgfile_write},
+};
+
+/* Where a path has %d or %04d: the frame's number goes there. */
+typedef struct numbered {
+    int before, width; /* characters before it, least digits */
+    const char *after;
+} numbered;
+
+static int is_numbered(const char *path, numbered *n)
+{
+    for (const char *at = strchr(path, '%'); at; at = strchr(at + 1, '%')) {
+        const size_t digits = strspn(at + 1, "0123456789");
+        if (at[1 + digits] != 'd' || digits > 2 || (digits > 0 && at[1] != '0')) continue;
+        *n = (numbered){(int)(at - path), 0, at + digits + 2};
+        for (size_t i = 1; i <= digits; i++) n->width = 10 * n->width + (at[i] - '0');
+        return 1;
+    }
+    return 0;
+}
+
+static rg_status find_form(const char *path, const form **found, rg_diag *why)
+{
+    const char *name = strrchr(path, '/'), *dot;
+    name = name ? name + 1 : path;
+    dot = strrchr(name, '.');
+    *found = NULL;
+    for (size_t i = 0; dot && dot > name && i < sizeof FORMS / sizeof *FORMS; i++)
+        if (strcasecmp(dot, FORMS[i].extension) == 0) *found = &FORMS[i];
+    numbered n;
+    if (*found && !(*found)->per_frame && is_numbered(name, &n))
+        return rg_fail(RG_EARG, why, 0, "%.100s: one %s holds all frames: no number in its name", path, (*found)->extension);
+    if (*found) return RG_OK;
+    if (strcmp(path, "-") == 0)
+        return rg_fail(RG_EARG, why, 0, "standard output has no extension that says what to write: name a file");
+    return rg_fail(RG_EARG, why, 0, "%.80s: no such form of output; there are DIR/ NAME-%%04d.png .png .gif .apng .mp4 .webm "
+                   ".obj .stl .glb .gltf .fold .csv .svg .html", path);
+}
+
+rg_status rg_output_check(const char *path, rg_diag *why)
+{
+    const form *f;
+    return find_form(path, &f, why);
+}
+
+static rg_status write_one(const rg_motion *m, const form *f, int32_t frame, const rg_picture *p, const char *path, rg_diag *why)
+{
+    rg_file file;
+    rg_status s = rg_file_begin(&file, &m->mem, path, why);
+    if (s != RG_OK) return s;
+    s = f->write(m, frame, p, file.stream);
+    if (s == RG_OK) return rg_file_commit(&file, why);
+    rg_file_abandon(&file);
+    return rg_fail(s, why, 0, "%.100s: %s", path, rg_status_text(s));
+}
+
+static rg_status write_each(const rg_motion *m, const form *f, const char *path, numbered n, const rg_picture *p, rg_diag *why)
+{
+    const size_t room = strlen(path) + 100; /* a width of two digits */
+    char *name = rg_mem_array(&m->mem, room, 1);
+    rg_status s = name ? RG_OK : rg_fail(RG_ENOMEM, why, 0, "%.100s: out of memory", path);
+    for (int32_t k = 0; s == RG_OK && k < m->report.frame_count; k++) {
+        snprintf(name, room, "%.*s%0*d%s", n.before, path, n.width, (int)k, n.after);
+        s = write_one(m, f, k, p, name, why);
+    }
+    rg_mem_free(&m->mem, name);
+    return s;
+}
+
+rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_picture *picture, rg_diag *why)
+{
+    const rg_picture usual = rg_picture_default(), *p = picture ? picture : &usual;
+    const form *f;
+    numbered n;
+    rg_status s = find_form(path, &f, why);
+    if (s != RG_OK) return s;
+    return f->per_frame && is_numbered(path, &n) ? write_each(m, f, path, n, p, why)
+                                                 : write_one(m, f, m->report.frame_count - 1, p, path, why);
+}
