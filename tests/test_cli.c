@@ -233,6 +233,7 @@ static void wrong_usage_is_refused(void **state)
     says(ends(2, run("info", "good.opx", "short.opx")), "rigami: ", "short.opx");
     says(ends(2, run("fold", "good.opx", "--frobnicate")), "rigami: ", "--frobnicate");
     says(ends(2, run("fold", "good.opx", "-z")), "rigami: ", "-z");
+    says(ends(2, run("fold", "good.opx", "--t", "50")), "rigami: ", "several");
     says(ends(2, run("fold", "good.opx", "--frames")), "rigami: ", "--frames");
     says(ends(2, run("fold", "good.opx", "--quiet=1")), "rigami: ", "--quiet");
     says(ends(2, run("fold", "good.opx", "-o")), "rigami: ", "-");

@@ -81,6 +81,7 @@ static void say_short(const char *name, const rg_report *r)
     size_t n = 0;
     const int32_t shown = r->blocking_vertex_count < BLOCKING_SHOWN ? r->blocking_vertex_count : BLOCKING_SHOWN;
     say("%s: stopped at %.1f %% folded: %s", name, r->folded_percent, r->reason);
+    if (interrupt_came()) return;
     for (int32_t i = 0; i < shown && n < sizeof places; i++)
         n += (size_t)snprintf(places + n, sizeof places - n, "%s(%.6g, %.6g)", i ? ", " : "", r->blocking_at[i][0],
                               r->blocking_at[i][1]);

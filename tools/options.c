@@ -228,12 +228,22 @@ static const rule *rule_of(int bit, int code)
     return NULL;
 }
 
+/* How many of the command's options begin with that word. */
+static int beginning(int bit, const char *word)
+{
+    int n = 0;
+    for (int i = 0; i < RULES && strncmp(word, "--", 2) == 0; i++)
+        n += (rules[i].commands & bit) && strncmp(rules[i].name, word + 2, strcspn(word + 2, "=")) == 0;
+    return n;
+}
+
 static int refuse_option(const command *c, int code, const char *word)
 {
     const rule *r = rule_of(c->bit, optopt);
     if (code == ':' && r) say("--%s needs a value: %s", r->name, r->value);
     else if (r) say("--%s takes no value", r->name);
-    else if (optopt) say("unknown option -%c; try rigami %s --help", optopt, c->name);
+    else if (optopt && strncmp(word, "--", 2) != 0) say("unknown option -%c; try rigami %s --help", optopt, c->name);
+    else if (beginning(c->bit, word) > 1) say("option %s could be several; try rigami %s --help", word, c->name);
     else say("unknown option %s; try rigami %s --help", word, c->name);
     return ENDS_USAGE;
 }
