@@ -146,14 +146,15 @@ typedef struct rg_closed {
     double inside_angle; /* radians: between c and whichever of a, b has the assignment opposite to c's */
 } rg_closed;
 
-typedef enum rg_theorem { RG_KAWASAKI, RG_MAEKAWA, RG_DEGREE } rg_theorem;
+typedef enum rg_theorem { RG_KAWASAKI, RG_MAEKAWA, RG_DEGREE, RG_BIG_LITTLE_BIG } rg_theorem;
 
-/* An interior vertex that cannot fold flat. */
+/* An interior vertex that cannot fold flat; it may be listed once for each theorem. */
 typedef struct rg_unfoldable {
     int32_t vertex;
     double x, y;
     rg_theorem theorem; /* RG_DEGREE: an odd number of creases */
-    double by;          /* degrees for Kawasaki, |M - V| for Maekawa, the number of creases for the degree */
+    double by;          /* degrees for Kawasaki, |M - V| for Maekawa, the number of creases for the degree; big-little-big:
+                         * degrees by which a sector between two creases folded the same way is smaller than both others */
 } rg_unfoldable;
 
 /* Lists are borrowed from the pattern. */
@@ -280,6 +281,8 @@ RG_API rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_
 RG_API rg_status rg_report_write(const rg_motion *m, double seconds_writing, double peak_bytes, const char *file,
                                  rg_diag *why);
 RG_API rg_status rg_info_write(const rg_pattern *p, const char *file, rg_diag *why);
+/* The same for people: counts, what may keep it from folding and where, what triangulating adds, warnings. */
+RG_API rg_status rg_info_text(const rg_pattern *p, const char *file, rg_diag *why);
 
 #ifdef __cplusplus
 }

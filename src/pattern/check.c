@@ -24,6 +24,20 @@ static rg_status add(struct rg_pattern *p, size_t *room, int32_t v, rg_theorem t
     return s;
 }
 
+/* The sector that is strictly the smallest among its neighbours has its two creases folded the same way: they would shut
+ * it in from both sides. Returns by how much it is smaller where that is most, 0 where all is well. */
+static double big_little_big(const struct rg_pattern *p, int32_t v, const double *theta)
+{
+    const int32_t *star = p->star + p->star_start[v], n = p->star_start[v + 1] - p->star_start[v];
+    double most = 0;
+    for (int32_t i = 0; n > 2 && i < n; i++) {
+        const char a = p->E[star[i]].assignment, b = p->E[star[(i + 1) % n]].assignment;
+        const double less = fmin(theta[(i + n - 1) % n], theta[(i + 1) % n]) - theta[i];
+        if (a == b && (a == RG_MOUNTAIN || a == RG_VALLEY) && less > KAWASAKI) most = fmax(most, less);
+    }
+    return most;
+}
+
 rg_status rg_check_vertices(struct rg_pattern *p)
 {
     int32_t most = 1;
@@ -55,6 +69,8 @@ rg_status rg_check_vertices(struct rg_pattern *p)
         p->info.kawasaki_max_deg = fmax(p->info.kawasaki_max_deg, fabs(alternating) / RG_DEG);
         if (!(fabs(alternating) <= KAWASAKI)) s = add(p, &room, v, RG_KAWASAKI, fabs(alternating) / RG_DEG);
         if (s == RG_OK && !maekawa) s = add(p, &room, v, RG_MAEKAWA, excess);
+        const double shut_in = big_little_big(p, v, theta);
+        if (s == RG_OK && shut_in > 0) s = add(p, &room, v, RG_BIG_LITTLE_BIG, shut_in / RG_DEG);
     }
     rg_mem_free(&p->mem, theta);
     return s;

@@ -1,4 +1,4 @@
-/* check.h -- can a vertex fold flat: degree, Kawasaki's theorem, Maekawa's theorem.
+/* check.h -- can a vertex fold flat: degree, Kawasaki's theorem, Maekawa's theorem, big-little-big.
  * Paper    section 3.3, eq. (16) is Kawasaki's        Uses  pattern.h        Used by  pattern.c */
 #ifndef RG_CHECK_H
 #define RG_CHECK_H

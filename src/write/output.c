@@ -2,9 +2,11 @@
 #include "base/file.h"
 #include "base/status.h"
 #include "write/csv.h"
+#include "write/film.h"
 #include "write/foldfile.h"
 #include "write/gltf.h"
 #include "write/html.h"
+#include "write/numbered.h"
 #include "write/obj.h"
 #include "write/stl.h"
 #include "write/svgfile.h"
@@ -24,24 +26,6 @@ static const form FORMS[] = {
     {".stl", 1, rg_stl_write},      {".svg", 0, rg_svgfile_write},
 };
 
-/* Where a path has %d or %04d: the frame's number goes there. */
-typedef struct numbered {
-    int before, width; /* characters before it, least digits */
-    const char *after;
-} numbered;
-
-static int is_numbered(const char *path, numbered *n)
-{
-    for (const char *at = strchr(path, '%'); at; at = strchr(at + 1, '%')) {
-        const size_t digits = strspn(at + 1, "0123456789");
-        if (at[1 + digits] != 'd' || digits > 2 || (digits > 0 && at[1] != '0')) continue;
-        *n = (numbered){(int)(at - path), 0, at + digits + 2};
-        for (size_t i = 1; i <= digits; i++) n->width = 10 * n->width + (at[i] - '0');
-        return 1;
-    }
-    return 0;
-}
-
 static rg_status find_form(const char *path, const form **found, rg_diag *why)
 {
     const char *name = strrchr(path, '/'), *dot;
@@ -50,9 +34,11 @@ static rg_status find_form(const char *path, const form **found, rg_diag *why)
     *found = NULL;
     for (size_t i = 0; dot && dot > name && i < sizeof FORMS / sizeof *FORMS; i++)
         if (strcasecmp(dot, FORMS[i].extension) == 0) *found = &FORMS[i];
-    numbered n;
-    if (*found && !(*found)->per_frame && is_numbered(name, &n))
-        return rg_fail(RG_EARG, why, 0, "%.100s: one %s holds all frames: no number in its name", path, (*found)->extension);
+    rg_numbered n;
+    const int numbers = rg_numbered_find(path, &n);
+    if (*found && numbers > (*found)->per_frame)
+        return rg_fail(RG_EARG, why, 0, "%.100s: %s", path, numbers > 1 ? "more than one place for a number in its name"
+                                                                       : "one such file holds all frames: no number in its name");
     if (*found) return RG_OK;
     if (strcmp(path, "-") == 0)
         return rg_fail(RG_EARG, why, 0, "standard output has no extension that says what to write: name a file");
@@ -63,7 +49,7 @@ static rg_status find_form(const char *path, const form **found, rg_diag *why)
 rg_status rg_output_check(const char *path, rg_diag *why)
 {
     const form *f;
-    return find_form(path, &f, why);
+    return rg_film_is_form(path) ? rg_film_check(path, why) : find_form(path, &f, why);
 }
 
 static rg_status write_one(const rg_motion *m, const form *f, int32_t frame, const rg_picture *p, const char *path, rg_diag *why)
@@ -77,13 +63,13 @@ static rg_status write_one(const rg_motion *m, const form *f, int32_t frame, con
     return rg_fail(s, why, 0, "%.100s: %s", path, rg_status_text(s));
 }
 
-static rg_status write_each(const rg_motion *m, const form *f, const char *path, numbered n, const rg_picture *p, rg_diag *why)
+static rg_status write_each(const rg_motion *m, const form *f, const rg_numbered *n, const rg_picture *p, rg_diag *why)
 {
-    const size_t room = strlen(path) + 100; /* a width of two digits */
+    const size_t room = rg_numbered_room(n);
     char *name = rg_mem_array(&m->mem, room, 1);
-    rg_status s = name ? RG_OK : rg_fail(RG_ENOMEM, why, 0, "%.100s: out of memory", path);
+    rg_status s = name ? RG_OK : rg_fail(RG_ENOMEM, why, 0, "%.100s: out of memory", n->path);
     for (int32_t k = 0; s == RG_OK && k < m->report.frame_count; k++) {
-        snprintf(name, room, "%.*s%0*d%s", n.before, path, n.width, (int)k, n.after);
+        rg_numbered_name(n, k, name, room);
         s = write_one(m, f, k, p, name, why);
     }
     rg_mem_free(&m->mem, name);
@@ -94,9 +80,10 @@ rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_picture
 {
     const rg_picture usual = rg_picture_default(), *p = picture ? picture : &usual;
     const form *f;
-    numbered n;
+    rg_numbered n;
+    if (rg_film_is_form(path)) return rg_film_write(m, path, p, why);
     rg_status s = find_form(path, &f, why);
     if (s != RG_OK) return s;
-    return f->per_frame && is_numbered(path, &n) ? write_each(m, f, path, n, p, why)
-                                                 : write_one(m, f, m->report.frame_count - 1, p, path, why);
+    return rg_numbered_find(path, &n) ? write_each(m, f, &n, p, why)
+                                      : write_one(m, f, m->report.frame_count - 1, p, path, why);
 }

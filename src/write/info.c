@@ -1,0 +1,182 @@
+/* What is known of a pattern before it is folded, as JSON and for people. */
+#include "base/file.h"
+#include "pattern/pattern.h"
+#include "write/report.h"
+
+#include <string.h>
+
+static const char *theorem_name(rg_theorem t)
+{
+    switch (t) {
+    case RG_KAWASAKI: return "Kawasaki";
+    case RG_MAEKAWA: return "Maekawa";
+    case RG_DEGREE: return "even degree";
+    case RG_BIG_LITTLE_BIG: return "big-little-big";
+    }
+    return "";
+}
+
+/* Creases that cutting every facet of a disk into triangles adds: N - 3M is N0 - 3 afterwards. */
+static int32_t triangulating_adds(const rg_pattern_info *i)
+{
+    return 3 * i->interior_vertices + i->boundary_edges - 3 - i->creases;
+}
+
+/* Vertices, not entries: one may break more than one theorem. */
+static int32_t unfoldable_vertices(const rg_pattern *p)
+{
+    int32_t n = 0;
+    for (int32_t k = 0; k < p->unfoldables; k++) n += k == 0 || p->unfoldable[k].vertex != p->unfoldable[k - 1].vertex;
+    return n;
+}
+
+/* ------------------------------------------------------------------------------------------------- JSON ---- */
+
+static void point(rg_json *j, const char *key, double x, double y) { rg_json_numbers(j, key, (const double[]){x, y}, 2); }
+
+static void closed(rg_json *j, const rg_closed *c)
+{
+    rg_json_open_line(j, NULL, '{');
+    rg_json_integer(j, "vertex", c->vertex);
+    point(j, "coordinates", c->x, c->y);
+    rg_json_open(j, "creases", '[');
+    point(j, NULL, c->a[0], c->a[1]);
+    point(j, NULL, c->c[0], c->c[1]);
+    point(j, NULL, c->b[0], c->b[1]);
+    rg_json_close(j);
+    rg_json_number(j, "inside_angle_deg", c->inside_angle / RG_DEG);
+    rg_json_close(j);
+}
+
+static void unfoldable(rg_json *j, const rg_unfoldable *u)
+{
+    rg_json_open_line(j, NULL, '{');
+    rg_json_integer(j, "vertex", u->vertex);
+    point(j, "coordinates", u->x, u->y);
+    rg_json_string(j, "theorem", theorem_name(u->theorem));
+    rg_json_number(j, "by", u->by);
+    rg_json_string(j, "unit", u->theorem == RG_KAWASAKI || u->theorem == RG_BIG_LITTLE_BIG ? "degrees" : "creases");
+    rg_json_close(j);
+}
+
+static void warning(rg_json *j, const rg_diag *w)
+{
+    rg_json_open_line(j, NULL, '{');
+    rg_json_integer(j, "line", w->line);
+    rg_json_string(j, "text", w->text);
+    rg_json_close(j);
+}
+
+rg_status rg_info_write(const rg_pattern *p, const char *file, rg_diag *why)
+{
+    rg_json j;
+    rg_file out;
+    rg_status s = rg_file_begin(&out, &p->mem, file, why);
+    if (s != RG_OK) return s;
+    rg_json_begin(&j, out.stream);
+    rg_json_open(&j, NULL, '{');
+    rg_json_string(&j, "rigami", RG_VERSION);
+    rg_report_pattern(&j, &p->info);
+    if (p->info.is_disk) rg_json_integer(&j, "triangulating_adds", triangulating_adds(&p->info));
+    rg_json_open(&j, "closed", '[');
+    for (int32_t k = 0; k < p->closed_triples; k++) closed(&j, &p->closed[k]);
+    rg_json_close(&j);
+    rg_json_open(&j, "unfoldable", '[');
+    for (int32_t k = 0; k < p->unfoldables; k++) unfoldable(&j, &p->unfoldable[k]);
+    rg_json_close(&j);
+    rg_json_open(&j, "warnings", '[');
+    for (int32_t k = 0; k < p->lines.warnings; k++) warning(&j, &p->lines.warning[k]);
+    rg_json_close(&j);
+    rg_json_close(&j);
+    return rg_file_commit(&out, why);
+}
+
+/* ------------------------------------------------------------------------------------------- for people ---- */
+
+static const char *plural(int32_t n, const char *one, const char *more) { return n == 1 ? one : more; }
+
+static void title(const rg_pattern_info *i, FILE *out)
+{
+    if (*i->title) fprintf(out, "%s", i->title);
+    if (*i->title && *i->author) fprintf(out, ", ");
+    if (*i->author) fprintf(out, "by %s", i->author);
+    if (*i->title || *i->author) fputc('\n', out);
+}
+
+static void counts(const rg_pattern_info *i, FILE *out)
+{
+    fprintf(out, "graph       %d %s, %d %s, %d %s; size %.6g\n", (int)i->vertices, plural(i->vertices, "vertex", "vertices"),
+            (int)i->edges, plural(i->edges, "edge", "edges"), (int)i->facets, plural(i->facets, "facet", "facets"), i->size);
+    fprintf(out, "creases     %d: %d mountain, %d valley", (int)i->creases, (int)i->mountains, (int)i->valleys);
+    if (i->unassigned) fprintf(out, ", %d unassigned", (int)i->unassigned);
+    if (i->flat) fprintf(out, ", %d flat", (int)i->flat);
+    fprintf(out, "\nmodel       M = %d interior %s, N = %d, N0 = %d border %s; degrees of freedom N - 3M = %d\n",
+            (int)i->interior_vertices, plural(i->interior_vertices, "vertex", "vertices"), (int)i->creases, (int)i->boundary_edges,
+            plural(i->boundary_edges, "edge", "edges"), (int)i->degrees_of_freedom);
+    if (i->is_disk)
+        fprintf(out, "            cut into triangles: %d more %s, %d degrees of freedom\n", (int)triangulating_adds(i),
+                plural(triangulating_adds(i), "crease", "creases"), (int)i->boundary_edges - 3);
+    fprintf(out, "drawing     largest gap closed %.3g, smallest distance kept %.3g\n", i->merged_max, i->kept_min);
+}
+
+static void broken_theorem(const rg_unfoldable *u, FILE *out)
+{
+    fprintf(out, "            (%.6g, %.6g): ", u->x, u->y);
+    switch (u->theorem) {
+    case RG_KAWASAKI: fprintf(out, "Kawasaki: every other angle adds up to 180 degrees but for %.4g\n", u->by); break;
+    case RG_MAEKAWA: fprintf(out, "Maekawa: mountains and valleys differ by %.0f, not by 2\n", u->by); break;
+    case RG_DEGREE: fprintf(out, "%.0f creases meet, an odd number\n", u->by); break;
+    case RG_BIG_LITTLE_BIG:
+        fprintf(out, "big-little-big: a smallest angle, by %.4g degrees, lies between two creases of one kind\n", u->by);
+        break;
+    }
+}
+
+static void closed_vertices(const rg_pattern *p, FILE *out)
+{
+    fprintf(out, "closed      %d %s (a crease halves the angle of two that are folded opposite ways)\n",
+            (int)p->info.closed_vertices, plural(p->info.closed_vertices, "vertex", "vertices"));
+    for (int32_t k = 0; k < p->closed_triples; k++) {
+        const rg_closed *c = &p->closed[k];
+        fprintf(out, "            (%.6g, %.6g): creases to (%.6g, %.6g), (%.6g, %.6g), (%.6g, %.6g), inside angle %.4g degrees\n", c->x,
+                c->y, c->a[0], c->a[1], c->c[0], c->c[1], c->b[0], c->b[1], c->inside_angle / RG_DEG);
+    }
+}
+
+static const char *verdict(const rg_pattern_info *i, int32_t bad)
+{
+    if (!i->is_disk) return "It cannot be folded here: it is not one sheet without holes.";
+    if (i->creases == 0) return "There is no crease to fold.";
+    if (bad) return "It does not fold flat: at the vertices named it cannot; it may still fold part of the way.";
+    if (i->mountains + i->valleys == 0) return "No crease says which way it folds: nothing will move.";
+    if (i->closed_vertices)
+        return "Each vertex folds flat by itself, but the closed ones lock rigid facets: it needs creases added or adjusted.";
+    if (i->degrees_of_freedom <= 0)
+        return "Nothing here speaks against it, but there are as many conditions as creases or more: it folds if they agree.";
+    return "It is likely to fold: nothing here speaks against it.";
+}
+
+rg_status rg_info_text(const rg_pattern *p, const char *file, rg_diag *why)
+{
+    const rg_pattern_info *i = &p->info;
+    const int32_t bad = unfoldable_vertices(p);
+    rg_file f;
+    rg_status s = rg_file_begin(&f, &p->mem, file, why);
+    if (s != RG_OK) return s;
+    FILE *out = f.stream;
+    title(i, out);
+    counts(i, out);
+    fprintf(out, "sheet       %s%s\n", i->is_disk ? "one, without holes" : "not one without holes: ", i->is_disk ? "" : i->not_disk);
+    fprintf(out, "flat        %d of %d interior %s cannot fold flat\n", (int)bad, (int)i->interior_vertices,
+            plural(i->interior_vertices, "vertex", "vertices"));
+    for (int32_t k = 0; k < p->unfoldables; k++) broken_theorem(&p->unfoldable[k], out);
+    closed_vertices(p, out);
+    if (p->lines.warnings) fprintf(out, "warnings    %d\n", (int)p->lines.warnings);
+    for (int32_t k = 0; k < p->lines.warnings; k++) {
+        fprintf(out, "            ");
+        if (p->lines.warning[k].line) fprintf(out, "line %d: ", p->lines.warning[k].line);
+        fprintf(out, "%s\n", p->lines.warning[k].text);
+    }
+    fprintf(out, "\n%s\n", verdict(i, bad));
+    return rg_file_commit(&f, why);
+}

@@ -1,0 +1,116 @@
+#include "write/report.h"
+#include "base/file.h"
+#include "base/status.h"
+#include "motion/motion.h"
+
+void rg_report_pattern(rg_json *j, const rg_pattern_info *info)
+{
+    rg_json_integer(j, "vertices", info->vertices);
+    rg_json_integer(j, "edges", info->edges);
+    rg_json_integer(j, "creases", info->creases);
+    rg_json_integer(j, "facets", info->facets);
+    rg_json_integer(j, "interior_vertices", info->interior_vertices);
+    rg_json_integer(j, "boundary_edges", info->boundary_edges);
+    rg_json_integer(j, "degrees_of_freedom", info->degrees_of_freedom);
+    rg_json_integer(j, "closed_vertices", info->closed_vertices);
+    rg_json_number(j, "kawasaki_max_deg", info->kawasaki_max_deg);
+    rg_json_integer(j, "maekawa_violations", info->maekawa_violations);
+    rg_json_integer(j, "mountains", info->mountains);
+    rg_json_integer(j, "valleys", info->valleys);
+    rg_json_integer(j, "unassigned", info->unassigned);
+    rg_json_integer(j, "flat", info->flat);
+    rg_json_number(j, "size", info->size);
+    rg_json_number(j, "merged_max", info->merged_max);
+    rg_json_number(j, "kept_min", info->kept_min);
+    rg_json_bool(j, "is_disk", info->is_disk);
+    rg_json_string(j, "not_disk", info->is_disk ? "" : info->not_disk);
+    rg_json_string(j, "title", info->title);
+    rg_json_string(j, "author", info->author);
+}
+
+static void model(rg_json *j, const rg_report *r)
+{
+    rg_json_open(j, "model", '{');
+    rg_json_integer(j, "added_creases", r->added_creases);
+    rg_json_integer(j, "unknowns", r->unknowns);
+    rg_json_integer(j, "constraints", r->constraints);
+    rg_json_integer(j, "components", r->components);
+    rg_json_string(j, "triangulation", r->triangulation);
+    rg_json_string(j, "why_triangulated", r->why_triangulated);
+    rg_json_close(j);
+}
+
+static void run(rg_json *j, const rg_report *r, double seconds_writing, double peak_bytes)
+{
+    rg_json_open(j, "run", '{');
+    rg_json_string(j, "method", r->method);
+    rg_json_string(j, "solver", r->solver);
+    rg_json_string(j, "strategy", r->strategy);
+    rg_json_number(j, "adjust_gain", r->adjust_gain);
+    rg_json_integer(j, "steps", r->steps);
+    rg_json_integer(j, "solves", r->solves);
+    rg_json_integer(j, "cg_iterations", r->cg_iterations);
+    rg_json_integer(j, "factorizations", r->factorizations);
+    rg_json_integer(j, "assemblies", r->assemblies);
+    rg_json_number(j, "seconds_total", r->seconds_total);
+    rg_json_number(j, "seconds_solving", r->seconds_solving);
+    rg_json_number(j, "seconds_writing", seconds_writing);
+    rg_json_number(j, "peak_bytes", peak_bytes);
+    rg_json_close(j);
+}
+
+static void blocking(rg_json *j, const rg_report *r)
+{
+    rg_json_integers(j, "blocking_vertices", r->blocking_vertices, r->blocking_vertex_count);
+    rg_json_open_line(j, "blocking_at", '[');
+    for (int32_t k = 0; k < r->blocking_vertex_count; k++) rg_json_numbers(j, NULL, r->blocking_at[k], 2);
+    rg_json_close(j);
+    rg_json_integers(j, "blocking_creases", r->blocking_creases, r->blocking_crease_count);
+}
+
+static void result(rg_json *j, const rg_report *r)
+{
+    rg_json_open(j, "result", '{');
+    rg_json_string(j, "outcome", r->outcome == RG_FOLDED ? "folded" : "stopped");
+    rg_json_string(j, "reason", r->reason);
+    rg_json_number(j, "folded_percent", r->folded_percent);
+    rg_json_number(j, "least_folded_percent", r->least_folded_percent);
+    rg_json_number(j, "max_closure_residual", r->max_closure_residual);
+    rg_json_number(j, "max_edge_strain", r->max_edge_strain);
+    rg_json_number(j, "max_facet_gap", r->max_facet_gap);
+    rg_json_number(j, "max_overfold_deg", r->max_overfold_deg);
+    rg_json_number(j, "max_adjustment", r->max_adjustment);
+    rg_json_number(j, "max_strain_from_original", r->max_strain_from_original);
+    rg_json_integer(j, "wrong_side_creases", r->wrong_side_creases);
+    blocking(j, r);
+    rg_json_number(j, "first_contact_frame", NAN); /* null: contact of facets is not looked for */
+    rg_json_close(j);
+}
+
+rg_status rg_report_write(const rg_motion *m, double seconds_writing, double peak_bytes, const char *file, rg_diag *why)
+{
+    const rg_report *r = &m->report;
+    rg_json j;
+    rg_file out;
+    rg_status s = rg_file_begin(&out, &m->mem, file, why);
+    if (s != RG_OK) return s;
+    rg_json_begin(&j, out.stream);
+    rg_json_open(&j, NULL, '{');
+    rg_json_string(&j, "rigami", RG_VERSION);
+    rg_json_open(&j, "pattern", '{');
+    rg_report_pattern(&j, &r->pattern);
+    rg_json_close(&j);
+    model(&j, r);
+    run(&j, r, seconds_writing, peak_bytes);
+    result(&j, r);
+    rg_json_open(&j, "frames", '[');
+    for (int32_t k = 0; k < r->frame_count; k++) {
+        rg_json_open_line(&j, NULL, '{');
+        rg_json_number(&j, "percent", r->frames[k].percent);
+        rg_json_number(&j, "closure_residual", r->frames[k].closure_residual);
+        rg_json_close(&j);
+    }
+    rg_json_close(&j);
+    rg_json_close(&j);
+    return rg_file_commit(&out, why);
+}
