@@ -29,7 +29,7 @@ endif
 
 B := build/$(config)$(if $(filter-out osmesa,$(GL)),-gl-$(GL))$(if $(filter 0,$(GPL)),-nogpl)$(if $(filter clang%,$(CC)),-clang)$(if $(filter 1,$(WERROR)),-werror)
 
-pkgs := libxml-2.0 jansson libpng
+pkgs := libxml-2.0 jansson libpng zlib
 gl_osmesa := osmesa
 gl_egl    := egl gl
 pkgs += $(gl_$(GL))
@@ -38,7 +38,7 @@ pkgs += $(gl_$(GL))
 cppflags := -Iinclude -Isrc -D_XOPEN_SOURCE=700 -DRG_GL_$(GL)=1 $(shell pkg-config --cflags $(pkgs) 2>/dev/null)
 cflags   := -std=c11 -fPIC -fvisibility=hidden -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes \
             -Wmissing-prototypes -Wvla -Wpointer-arith -Wwrite-strings
-libs     := $(shell pkg-config --libs $(pkgs) 2>/dev/null) -lpthread -lm
+libs     := $(shell pkg-config --libs $(pkgs) 2>/dev/null) -lgif -lpthread -lm
 ifeq ($(GPL),1)
 cppflags += -DRG_GPL=1 -I/usr/include/suitesparse
 libs     := -lcholmod -lsuitesparseconfig -lgsl -lgslcblas $(libs)

@@ -11,6 +11,9 @@
 #define DEPTH_ROOM 0.02
 /* Beyond this zoom one looks at less than a pixel's worth of a large sheet. */
 #define MAX_ZOOM 1000.0
+/* Frames a second: what the formats of animations can say. */
+#define MIN_RATE 0.01
+#define MAX_RATE 1000.0
 
 rg_picture rg_picture_default(void)
 {
@@ -37,6 +40,8 @@ rg_status rg_camera_check(const rg_picture *p, rg_diag *why)
         return rg_fail(RG_EARG, why, 0, "the camera's azimuth and elevation have to be finite");
     if (!(p->zoom > 0 && p->zoom <= MAX_ZOOM))
         return rg_fail(RG_EARG, why, 0, "a zoom of %g: it may be up to %g, and above 0", p->zoom, MAX_ZOOM);
+    if (!(p->fps >= MIN_RATE && p->fps <= MAX_RATE))
+        return rg_fail(RG_EARG, why, 0, "%g frames a second: it may be %g to %g", p->fps, MIN_RATE, MAX_RATE);
     return RG_OK;
 }
 

@@ -16,7 +16,7 @@ typedef struct rg_camera {
     double half_width, half_height; /* pixels */
 } rg_camera;
 
-/* RG_EARG: a size or an angle is out of range, why->text says which. */
+/* RG_EARG: a size, an angle, the zoom or the rate is out of range, why->text says which. */
 rg_status rg_camera_check(const rg_picture *p, rg_diag *why);
 /* Frames all frames of the motion. RG_EARG as above; RG_ENOMEM. */
 rg_status rg_camera_fit(const rg_motion *m, const rg_picture *p, rg_camera *c, rg_diag *why);

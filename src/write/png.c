@@ -43,6 +43,10 @@ static rg_status write_all(png_structp png, png_infop info, int32_t width, int32
     /* Flat areas: a row that is like the one above turns into zeros. */
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    /* Not const in libpng, and not changed by it. */
+    static char keyword[] = "Software", program[] = RG_PNG_SOFTWARE;
+    const png_text by = {.compression = PNG_TEXT_COMPRESSION_NONE, .key = keyword, .text = program};
+    png_set_text(png, info, &by, 1);
     png_write_info(png, info);
     for (int32_t y = 0; y < height; y++) png_write_row(png, rgb + 3 * (size_t)width * (size_t)y);
     png_write_end(png, info);

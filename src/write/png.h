@@ -1,10 +1,12 @@
 /* png.h -- one picture as PNG.
- * Uses  base        Used by  pictures.c, animations */
+ * Uses  base        Used by  film.c */
 #ifndef RG_PNG_H
 #define RG_PNG_H
 
 #include "rigami.h"
 #include <stdio.h>
+
+#define RG_PNG_SOFTWARE "rigami" /* what each file says that it was made by, near its beginning */
 
 /* rgb: height rows of width pixels of 3 bytes, top row first. The same picture gives the same bytes.
  * RG_EWRITE: why->text says why; the file is then of no use. RG_ENOMEM. The file stays open and the caller's. */

@@ -1,0 +1,292 @@
+#include "write/film.h"
+#include "base/file.h"
+#include "base/status.h"
+#include "render/camera.h"
+#include "render/frames.h"
+#include "render/gl.h"
+#include "write/apng.h"
+#include "write/gif.h"
+#include "write/numbered.h"
+#include "write/png.h"
+#include "write/video.h"
+
+#include <errno.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* To choose a GIF's colours, that many frames are looked at, drawn that much smaller. */
+enum { LOOK_AT = 60, SMALLER = 4 };
+
+typedef enum shape { NOTHING, FOLDER, NUMBERED, LAST, GIF, APNG, MP4, WEBM } shape;
+
+static shape shape_of(const char *path)
+{
+    static const struct { const char *extension; shape shape; } shapes[] = {
+        {".png", LAST}, {".gif", GIF}, {".apng", APNG}, {".mp4", MP4}, {".webm", WEBM}};
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
+    struct stat is;
+    rg_numbered n;
+    if (slash && !*name) return FOLDER;
+    for (size_t i = 0; dot && dot > name && i < sizeof shapes / sizeof *shapes; i++)
+        if (strcasecmp(dot, shapes[i].extension) == 0)
+            return shapes[i].shape == LAST && rg_numbered_find(path, &n) ? NUMBERED : shapes[i].shape;
+    return stat(path, &is) == 0 && S_ISDIR(is.st_mode) ? FOLDER : NOTHING;
+}
+
+int rg_film_is_form(const char *path) { return shape_of(path) != NOTHING; }
+
+rg_status rg_film_check(const char *path, rg_diag *why)
+{
+    const shape is = shape_of(path);
+    rg_numbered n;
+    if (is == NOTHING) return rg_fail(RG_EARG, why, 0, "%.150s is no name of a picture", path);
+    if (is == NUMBERED && rg_numbered_find(path, &n) > 1)
+        return rg_fail(RG_EARG, why, 0, "%.150s: one number in a name is enough", path);
+    if (is >= GIF && rg_numbered_find(path, &n) > 0)
+        return rg_fail(RG_EARG, why, 0, "%.150s: one %s holds all frames: no number in its name", path, strrchr(path, '.'));
+    const rg_status s = rg_gl_check(why);
+    return s == RG_OK && (is == MP4 || is == WEBM) ? rg_video_check(why) : s;
+}
+
+/* Puts a file's name before what is wrong with it. */
+static rg_status name_it(rg_status s, const char *path, rg_diag *why)
+{
+    if (s == RG_OK || !why) return s;
+    char text[sizeof why->text];
+    memcpy(text, why->text, sizeof text);
+    return rg_fail(s, why, 0, "%.150s: %s", path, text);
+}
+
+/* ---- pictures, each in its file */
+
+static rg_status write_png(const rg_memory *mem, const char *path, const rg_picture *p, const unsigned char *rgb, rg_diag *why)
+{
+    rg_file file;
+    rg_status s = rg_file_begin(&file, mem, path, why);
+    if (s != RG_OK) return s;
+    s = rg_png_write(file.stream, p->width, p->height, rgb, why);
+    if (s == RG_OK) return rg_file_commit(&file, why);
+    rg_file_abandon(&file);
+    return name_it(s, path, why);
+}
+
+typedef struct album {
+    const rg_picture *picture;
+    rg_numbered name;
+    const char *path; /* NULL: one file a frame, by its number */
+} album;
+
+static rg_status paste(void *ctx, const rg_memory *mem, int32_t frame, const unsigned char *rgb, rg_diag *why)
+{
+    const album *a = ctx;
+    if (a->path) return write_png(mem, a->path, a->picture, rgb, why);
+    const size_t room = rg_numbered_room(&a->name);
+    char *name = rg_mem_array(mem, room, 1);
+    if (!name) return rg_fail(RG_ENOMEM, why, 0, "out of memory for a file name");
+    rg_numbered_name(&a->name, frame, name, room);
+    const rg_status s = write_png(mem, name, a->picture, rgb, why);
+    rg_mem_free(mem, name);
+    return s;
+}
+
+static int is_ours(const char *path)
+{
+    static const char mark[] = "tEXtSoftware\0" RG_PNG_SOFTWARE;
+    char head[256];
+    struct stat is;
+    if (lstat(path, &is) != 0 || !S_ISREG(is.st_mode)) return 0;
+    FILE *f = fopen(path, "rb");
+    const size_t n = f ? fread(head, 1, sizeof head, f) : 0;
+    if (f) fclose(f);
+    for (size_t i = 0; i + sizeof mark - 1 <= n; i++)
+        if (memcmp(head + i, mark, sizeof mark - 1) == 0) return 1;
+    return 0;
+}
+
+/* Frames of a longer run before this one would be taken for its end. */
+static rg_status remove_stale(const rg_motion *m, const rg_numbered *n, rg_diag *why)
+{
+    const size_t room = rg_numbered_room(n);
+    char *name = rg_mem_array(&m->mem, room, 1);
+    if (!name) return rg_fail(RG_ENOMEM, why, 0, "out of memory for a file name");
+    rg_status s = RG_OK;
+    for (int32_t frame = m->report.frame_count; s == RG_OK; frame++) {
+        rg_numbered_name(n, frame, name, room);
+        if (!is_ours(name)) break;
+        if (unlink(name) != 0)
+            s = rg_fail(RG_EWRITE, why, 0, "%.150s, of an earlier run, cannot be removed: %s", name, strerror(errno));
+    }
+    rg_mem_free(&m->mem, name);
+    return s;
+}
+
+static rg_status write_numbered(const rg_motion *m, const char *path, rg_frames *f, rg_diag *why)
+{
+    album a = {.picture = &f->picture};
+    rg_numbered_find(path, &a.name);
+    f->take = paste;
+    f->ctx = &a;
+    const rg_status s = rg_frames_draw(m, f, why);
+    return s == RG_OK ? remove_stale(m, &a.name, why) : s;
+}
+
+static rg_status write_last(const rg_motion *m, const char *path, rg_frames *f, rg_diag *why)
+{
+    album a = {.picture = &f->picture, .path = path};
+    f->first = m->report.frame_count - 1;
+    f->take = paste;
+    f->ctx = &a;
+    return rg_frames_draw(m, f, why);
+}
+
+static rg_status write_folder(const rg_motion *m, const char *path, rg_frames *f, rg_diag *why)
+{
+    static const char name[] = "/%04d.png";
+    const size_t n = strlen(path);
+    struct stat is;
+    char *pattern = rg_mem_array(&m->mem, n + sizeof name, 1);
+    if (!pattern) return rg_fail(RG_ENOMEM, why, 0, "out of memory for a file name");
+    memcpy(pattern, path, n);
+    strcpy(pattern + n, path[n - 1] == '/' ? name + 1 : name);
+    rg_status s = RG_OK;
+    const int made = mkdir(path, 0777) == 0;
+    if (!made && (stat(path, &is) != 0 || !S_ISDIR(is.st_mode)))
+        s = rg_fail(RG_EWRITE, why, 0, "%.150s: cannot make this folder: %s", path, strerror(errno == EEXIST ? ENOTDIR : errno));
+    if (s == RG_OK) s = write_numbered(m, pattern, f, why);
+    if (s != RG_OK && made) rmdir(path); /* stays if there is something in it */
+    rg_mem_free(&m->mem, pattern);
+    return s;
+}
+
+/* ---- animations, all frames in one file */
+
+typedef struct sight {
+    rg_palette *palette;
+    size_t pixels;
+} sight;
+
+static rg_status see(void *ctx, const rg_memory *mem, int32_t frame, const unsigned char *rgb, rg_diag *why)
+{
+    const sight *at = ctx;
+    (void)mem, (void)frame, (void)why;
+    rg_palette_see(at->palette, rgb, at->pixels);
+    return RG_OK;
+}
+
+static int32_t smaller(int32_t pixels) { return (pixels + SMALLER - 1) / SMALLER; }
+
+/* The last frame and others before it, evenly spaced. */
+static rg_status choose_colours(const rg_motion *m, const rg_frames *f, rg_palette *p, rg_diag *why)
+{
+    rg_frames look = *f;
+    look.picture.width = smaller(f->picture.width);
+    look.picture.height = smaller(f->picture.height);
+    look.step = (m->report.frame_count + LOOK_AT - 1) / LOOK_AT;
+    look.first = (m->report.frame_count - 1) % look.step;
+    look.in_order = 1;
+    look.take = see;
+    sight at = {p, (size_t)look.picture.width * (size_t)look.picture.height};
+    look.ctx = &at;
+    rg_status s = rg_palette_init(p, &m->mem);
+    if (s == RG_OK) s = rg_frames_draw(m, &look, why);
+    else rg_fail(s, why, 0, "out of memory for the colours");
+    if (s != RG_OK) return s;
+    s = rg_palette_choose(p);
+    return s == RG_OK ? s : rg_fail(s, why, 0, "out of memory for the colours");
+}
+
+static rg_status add_gif(void *ctx, const rg_memory *mem, int32_t frame, const unsigned char *rgb, rg_diag *why)
+{
+    (void)mem, (void)frame;
+    return rg_gif_add(ctx, rgb, why);
+}
+
+static rg_status write_gif(const rg_motion *m, rg_file *file, rg_frames *f, rg_diag *why)
+{
+    const rg_picture *p = &f->picture;
+    rg_palette palette;
+    rg_gif *gif = NULL;
+    rg_status s = choose_colours(m, f, &palette, why);
+    if (s == RG_OK) s = rg_gif_create(&m->mem, file->stream, p->width, p->height, p->fps, &palette, &gif, why);
+    f->take = add_gif;
+    f->ctx = gif;
+    if (s == RG_OK) s = rg_frames_draw(m, f, why);
+    if (s == RG_OK) s = rg_gif_finish(gif, why);
+    rg_gif_destroy(gif);
+    rg_palette_free(&palette);
+    return s;
+}
+
+static rg_status add_apng(void *ctx, const rg_memory *mem, int32_t frame, const unsigned char *rgb, rg_diag *why)
+{
+    (void)mem, (void)frame;
+    return rg_apng_add(ctx, rgb, why);
+}
+
+static rg_status write_apng(const rg_motion *m, rg_file *file, rg_frames *f, rg_diag *why)
+{
+    const rg_picture *p = &f->picture;
+    rg_apng *apng = NULL;
+    rg_status s = rg_apng_create(&m->mem, file->stream, p->width, p->height, p->fps, m->report.frame_count, &apng, why);
+    f->take = add_apng;
+    f->ctx = apng;
+    if (s == RG_OK) s = rg_frames_draw(m, f, why);
+    if (s == RG_OK) s = rg_apng_finish(apng, why);
+    rg_apng_destroy(apng);
+    return s;
+}
+
+static rg_status add_video(void *ctx, const rg_memory *mem, int32_t frame, const unsigned char *rgb, rg_diag *why)
+{
+    (void)mem, (void)frame;
+    return rg_video_add(ctx, rgb, why);
+}
+
+static rg_status write_video(const rg_motion *m, rg_file *file, const char *container, rg_frames *f, rg_diag *why)
+{
+    const rg_picture *p = &f->picture;
+    const char *path = file->temporary ? file->temporary : file->path;
+    rg_video *video = NULL;
+    rg_status s = rg_video_create(&m->mem, path, container, p->width, p->height, p->fps, p->background, &video, why);
+    f->take = add_video;
+    f->ctx = video;
+    if (s == RG_OK) s = rg_frames_draw(m, f, why);
+    if (s == RG_OK) s = rg_video_finish(video, why);
+    rg_video_destroy(video);
+    return s;
+}
+
+static rg_status write_animation(const rg_motion *m, shape is, const char *path, rg_frames *f, rg_diag *why)
+{
+    rg_file file;
+    rg_status s = rg_file_begin(&file, &m->mem, path, why);
+    if (s != RG_OK) return s;
+    f->in_order = 1;
+    s = is == GIF ? write_gif(m, &file, f, why) : is == APNG ? write_apng(m, &file, f, why)
+      : write_video(m, &file, is == MP4 ? "mp4" : "webm", f, why);
+    if (s == RG_OK) return rg_file_commit(&file, why);
+    rg_file_abandon(&file);
+    return name_it(s, path, why);
+}
+
+rg_status rg_film_write_by(const rg_motion *m, const char *path, const rg_picture *p, int32_t threads, rg_diag *why)
+{
+    rg_status s = rg_film_check(path, why);
+    if (s == RG_OK) s = rg_camera_check(p, why);
+    if (s != RG_OK) return s;
+    rg_frames f = {.picture = *p, .step = 1, .threads = threads};
+    const shape is = shape_of(path);
+    switch (is) {
+    case FOLDER: return write_folder(m, path, &f, why);
+    case NUMBERED: return write_numbered(m, path, &f, why);
+    case LAST: return write_last(m, path, &f, why);
+    default: return write_animation(m, is, path, &f, why);
+    }
+}
+
+rg_status rg_film_write(const rg_motion *m, const char *path, const rg_picture *p, rg_diag *why)
+{
+    return rg_film_write_by(m, path, p, 0, why);
+}
