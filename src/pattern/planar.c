@@ -150,8 +150,10 @@ static rg_status find_junctions(splitter *s)
         for (int32_t i = s->start[c]; i < s->start[c + 1]; i++) {
             const int32_t e = s->in[i];
             const rg_vec2 a = s->points.X[s->E[e].v[0]], d = rg_vec2_sub(s->points.X[s->E[e].v[1]], a), r = rg_vec2_sub(x, a);
-            const double length = rg_vec2_length(d), along = rg_vec2_dot(r, d);
+            const double length = rg_vec2_length(d), along = rg_vec2_dot(r, d), from = rg_vec2_dot(r, r);
             if (!(along > 0 && along < length * length) || !(fabs(rg_vec2_cross(d, r)) <= s->points.tol * length)) continue;
+            /* Both parts must be shorter than the whole: a vertex beside an end would be cut in again and again. */
+            if (!(from < length * length) || !(from < 2 * along)) continue;
             rg_status status = add_cut(s, e, v);
             if (status != RG_OK) return status;
         }
@@ -167,6 +169,18 @@ static int by_place(const void *a, const void *b)
     return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
 }
 
+static double length_of(const splitter *s, int32_t u, int32_t v) { return rg_vec2_length(rg_vec2_sub(s->points.X[u], s->points.X[v])); }
+
+/* How many of n cuts of an edge to make now: all, or the first alone where vertices lie so near both sides of a short edge
+ * that a part between two of them is longer than the whole. Parts get shorter and shorter then, and the rounds end. */
+static size_t cuts_to_make(const splitter *s, const rg_edge *e, const cut *cuts, size_t n)
+{
+    const double whole = length_of(s, e->v[0], e->v[1]);
+    for (size_t i = 1; i < n; i++)
+        if (!(length_of(s, cuts[i - 1].vertex, cuts[i].vertex) < whole)) return 1;
+    return n;
+}
+
 static rg_status apply_cuts(splitter *s)
 {
     rg_edge *E = NULL;
@@ -178,12 +192,16 @@ static rg_status apply_cuts(splitter *s)
     size_t at = 0;
     for (int32_t e = 0; e < s->ne; e++) {
         rg_edge rest = s->E[e];
-        for (; at < s->cut_count && s->cuts[at].edge == e; at++) {
+        size_t end = at;
+        while (end < s->cut_count && s->cuts[end].edge == e) end++;
+        const size_t made = at + cuts_to_make(s, &rest, s->cuts + at, end - at);
+        for (; at < made; at++) {
             if (s->cuts[at].vertex == rest.v[0] || s->cuts[at].vertex == rest.v[1]) continue;
             E[n] = rest;
             E[n++].v[1] = rest.v[0] = s->cuts[at].vertex;
         }
         E[n++] = rest;
+        at = end;
     }
     rg_mem_free(&s->mem, s->E);
     s->E = E;
@@ -231,10 +249,12 @@ static rg_status merge_doubles(splitter *s, rg_lines *lines)
         const rg_edge *keep = &s->E[key[first].e], *other = &s->E[key[i].e];
         drop[key[i].e] = 1;
         if (rank(keep->assignment) != 1 || rank(other->assignment) != 1 || keep->assignment == other->assignment) continue;
-        if (++told > MOST_WARNINGS) continue;
+        if (told++ >= MOST_WARNINGS) continue;
         rg_vec2 at = s->points.X[keep->v[0]];
         status = rg_lines_warn(lines, other->where, "mountain and valley drawn on one line from (%.6g, %.6g): the first one stays", at.x, at.y);
     }
+    if (status == RG_OK && told > MOST_WARNINGS)
+        status = rg_lines_warn(lines, 0, "%d more lines are drawn as mountain and as valley", told - MOST_WARNINGS);
     if (status == RG_OK) {
         int32_t n = 0;
         for (int32_t e = 0; e < s->ne; e++)
@@ -316,28 +336,60 @@ static int is_used(const rg_line *l, const rg_settings *s)
     return l->assignment != RG_CUT && (l->assignment != RG_FLAT || s->aux_creases);
 }
 
+/* Warns of a line without length; from the MOST_WARNINGS'th on they are only counted. */
+static rg_status without_length(rg_lines *lines, int32_t where, rg_vec2 at, int *told)
+{
+    if (++*told > MOST_WARNINGS) return RG_OK;
+    return rg_lines_warn(lines, where, "a line without length at (%.6g, %.6g) is left out", at.x, at.y);
+}
+
+/* The line's edge, unless it has no length; a vertex that was made for it goes with it. */
+static rg_status add_line(splitter *s, rg_lines *lines, const rg_line *l, int *told)
+{
+    const int32_t count = s->points.count;
+    rg_edge e = {{0, 0}, l->assignment == RG_FLAT ? RG_UNASSIGNED : l->assignment, wish(l), l->where};
+    rg_status status = rg_points_add(&s->points, l->a, &e.v[0]);
+    if (status == RG_OK) status = rg_points_add(&s->points, l->b, &e.v[1]);
+    if (status == RG_OK && e.v[0] == e.v[1]) {
+        if (s->points.count > count) rg_points_forget(&s->points);
+        return without_length(lines, l->where, l->a, told);
+    }
+    if (status == RG_OK) status = rg_mem_grow(&s->mem, (void **)&s->E, &s->room, (size_t)s->ne + 1, sizeof *s->E);
+    if (status == RG_OK) s->E[s->ne++] = e;
+    return status;
+}
+
+/* Ends that came to lie within the tolerance of each other when vertices moved to the mean of theirs. */
+static rg_status settle(splitter *s, rg_lines *lines, int *told)
+{
+    int32_t *now = rg_mem_array(&s->mem, (size_t)s->points.count, sizeof *now), n = 0;
+    rg_status status = now ? rg_points_settle(&s->points, now) : RG_ENOMEM;
+    for (int32_t e = 0; status == RG_OK && e < s->ne; e++) {
+        rg_edge edge = s->E[e];
+        for (int i = 0; i < 2; i++) edge.v[i] = now[edge.v[i]];
+        if (edge.v[0] != edge.v[1]) s->E[n++] = edge;
+        else status = without_length(lines, edge.where, s->points.X[edge.v[0]], told);
+    }
+    s->ne = n;
+    rg_mem_free(&s->mem, now);
+    return status;
+}
+
 static rg_status add_lines(splitter *s, rg_lines *lines, const rg_settings *settings)
 {
     int32_t cuts = 0, first_cut = 0;
-    for (int32_t i = 0; i < lines->count; i++) {
+    int told = 0;
+    rg_status status = RG_OK;
+    for (int32_t i = 0; status == RG_OK && i < lines->count; i++) {
         const rg_line *l = &lines->line[i];
         if (l->assignment == RG_CUT && !cuts++) first_cut = l->where;
-        if (!is_used(l, settings)) continue;
-        rg_edge e = {{0, 0}, l->assignment == RG_FLAT ? RG_UNASSIGNED : l->assignment, wish(l), l->where};
-        rg_status status = rg_points_add(&s->points, l->a, &e.v[0]);
-        if (status == RG_OK) status = rg_points_add(&s->points, l->b, &e.v[1]);
-        if (status == RG_OK && e.v[0] == e.v[1]) {
-            status = rg_lines_warn(lines, l->where, "a line without length at (%.6g, %.6g) is left out", l->a.x, l->a.y);
-            if (status != RG_OK) return status;
-            continue;
-        }
-        if (status == RG_OK) status = rg_mem_grow(&s->mem, (void **)&s->E, &s->room, (size_t)s->ne + 1, sizeof *s->E);
-        if (status != RG_OK) return status;
-        s->E[s->ne++] = e;
+        if (is_used(l, settings)) status = add_line(s, lines, l, &told);
     }
-    rg_status status = rg_points_settle(&s->points);
-    if (status != RG_OK) return status;
-    return cuts ? rg_lines_warn(lines, first_cut, "%d cuts of the folded model are left out", (int)cuts) : RG_OK;
+    if (status == RG_OK) status = settle(s, lines, &told);
+    if (status == RG_OK && told > MOST_WARNINGS)
+        status = rg_lines_warn(lines, 0, "%d more lines without length are left out", told - MOST_WARNINGS);
+    if (status == RG_OK && cuts) status = rg_lines_warn(lines, first_cut, "%d cuts of the folded model are left out", (int)cuts);
+    return status;
 }
 
 static rg_status planarise(splitter *s, rg_lines *lines, rg_vec2 low, rg_vec2 high, rg_diag *why)

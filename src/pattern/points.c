@@ -93,14 +93,49 @@ rg_status rg_points_add(rg_points *p, rg_vec2 x, int32_t *vertex)
     return RG_OK;
 }
 
-rg_status rg_points_settle(rg_points *p)
+void rg_points_forget(rg_points *p)
+{
+    const int32_t v = --p->count;
+    p->head[slot(p, column(p, p->X[v].x), row(p, p->X[v].y))] = p->next[v]; /* the newest stands first in its chain */
+}
+
+static void centre(rg_points *p)
 {
     for (int32_t v = 0; v < p->count; v++) {
         rg_spread *d = &p->spread[v];
         p->X[v] = (rg_vec2){p->X[v].x + d->sum.x / d->count, p->X[v].y + d->sum.y / d->count};
         *d = (rg_spread){{0, 0}, 1};
     }
-    return rehash(p, p->heads);
+}
+
+/* Vertices anew, from those that there are: X of a vertex is read before anything is written at or after it. */
+static rg_status merge_vertices(rg_points *p, int32_t *now)
+{
+    const int32_t n = p->count;
+    p->count = 0;
+    memset(p->head, -1, p->heads * sizeof *p->head);
+    for (int32_t v = 0; v < n; v++) {
+        rg_status s = rg_points_add(p, p->X[v], &now[v]);
+        if (s != RG_OK) return s;
+    }
+    return RG_OK;
+}
+
+rg_status rg_points_settle(rg_points *p, int32_t *now)
+{
+    const int32_t n = p->count;
+    int32_t *next = rg_mem_array(&p->mem, (size_t)n, sizeof *next);
+    if (!next) return RG_ENOMEM;
+    rg_status s = RG_OK;
+    for (int32_t v = 0; v < n; v++) now[v] = v;
+    for (int32_t before = -1; s == RG_OK && p->count != before;) {
+        before = p->count;
+        centre(p);
+        s = merge_vertices(p, next);
+        for (int32_t v = 0; s == RG_OK && v < n; v++) now[v] = next[now[v]];
+    }
+    rg_mem_free(&p->mem, next);
+    return s;
 }
 
 typedef struct swept { double key; int32_t v; } swept;

@@ -1,0 +1,635 @@
+/* pattern/planar.c: the graph of lines as drawn, against exact arithmetic, formulas of counting, and brute force. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "near.h"
+
+#include "draw.h"
+#include "pattern/faces.h"
+#include "pattern/planar.h"
+
+static rg_graph graph_of(rg_lines *l, double merge)
+{
+    rg_settings s = rg_settings_default();
+    rg_graph g;
+    rg_diag why = {0, ""};
+    s.merge = merge;
+    rg_status status = rg_planar_from_lines(l, &s, &g, &why);
+    if (status != RG_OK) print_error("%s\n", why.text);
+    assert_int_equal(status, RG_OK);
+    return g;
+}
+
+/* Facets with the paper on their left, found by walking. */
+static int32_t count_facets(const rg_graph *g)
+{
+    rg_star star;
+    rg_faces faces;
+    int32_t n = 0;
+    assert_int_equal(rg_star_init(&star, &g->mem, g->nv, g->ne, g->X, g->E), RG_OK);
+    assert_int_equal(rg_faces_init(&faces, &g->mem, g->nv, g->ne, g->X, g->E, star.start, star.edge), RG_OK);
+    for (int32_t k = 0; k < faces.count; k++) n += !(faces.area[k] < 0);
+    rg_star_free(&star);
+    rg_faces_free(&faces);
+    return n;
+}
+
+static int root(int *up, int v)
+{
+    while (up[v] != v) v = up[v] = up[up[v]];
+    return v;
+}
+
+static int32_t count_pieces(const rg_graph *g)
+{
+    int *up = malloc((size_t)(g->nv + 1) * sizeof *up), n = g->nv;
+    for (int v = 0; v < g->nv; v++) up[v] = v;
+    for (int32_t e = 0; e < g->ne; e++) {
+        const int a = root(up, g->E[e].v[0]), b = root(up, g->E[e].v[1]);
+        if (a != b) up[a] = b, n--;
+    }
+    free(up);
+    return n;
+}
+
+/* --------------------------------------------------------------------------- an exact graph, by rational points ---- */
+
+enum { MOST = 40, POINTS = 3000 };
+
+typedef struct ratio { int64_t x, y, d; } ratio; /* (x / d, y / d), in lowest terms */
+typedef struct segment { int64_t a[2], b[2]; char letter; } segment;
+typedef struct exact_edge { int v[2], line; } exact_edge;
+typedef struct exact { ratio p[POINTS]; int points; exact_edge e[POINTS]; int edges, degree[POINTS]; } exact;
+
+static int64_t divisor(int64_t a, int64_t b)
+{
+    a = a < 0 ? -a : a, b = b < 0 ? -b : b;
+    while (b) {
+        const int64_t t = a % b;
+        a = b, b = t;
+    }
+    return a;
+}
+
+static int point(exact *g, int64_t x, int64_t y, int64_t d)
+{
+    if (d < 0) x = -x, y = -y, d = -d;
+    const int64_t k = divisor(divisor(x, y), d);
+    const ratio r = {x / k, y / k, d / k};
+    for (int i = 0; i < g->points; i++)
+        if (g->p[i].x == r.x && g->p[i].y == r.y && g->p[i].d == r.d) return i;
+    assert_true(g->points < POINTS);
+    g->p[g->points] = r;
+    return g->points++;
+}
+
+static int weight(char letter) { return letter == 'B' ? 2 : letter == 'M' || letter == 'V'; }
+
+static void exact_segment(exact *g, const segment *s, int n, int i)
+{
+    const int64_t rx = s[i].b[0] - s[i].a[0], ry = s[i].b[1] - s[i].a[1];
+    int on[4 * MOST], count = 0;
+    if (!rx && !ry) return;
+    on[count++] = point(g, s[i].a[0], s[i].a[1], 1);
+    on[count++] = point(g, s[i].b[0], s[i].b[1], 1);
+    for (int j = 0; j < n; j++) {
+        const int64_t qx = s[j].b[0] - s[j].a[0], qy = s[j].b[1] - s[j].a[1], wx = s[j].a[0] - s[i].a[0], wy = s[j].a[1] - s[i].a[1];
+        int64_t d = rx * qy - ry * qx, t = wx * qy - wy * qx, u = wx * ry - wy * rx;
+        if (j == i || (!qx && !qy)) continue;
+        if (d == 0 && u == 0) { /* on one line: the other's ends, where they are within this one */
+            for (int end = 0; end < 2; end++) {
+                const int64_t *x = end ? s[j].b : s[j].a, along = (x[0] - s[i].a[0]) * rx + (x[1] - s[i].a[1]) * ry;
+                if (along >= 0 && along <= rx * rx + ry * ry) on[count++] = point(g, x[0], x[1], 1);
+            }
+            continue;
+        }
+        if (d < 0) d = -d, t = -t, u = -u;
+        if (d == 0 || t < 0 || t > d || u < 0 || u > d) continue;
+        on[count++] = point(g, s[i].a[0] * d + t * rx, s[i].a[1] * d + t * ry, d);
+    }
+    for (int k = 1; k < count; k++) /* by place along the segment */
+        for (int m = k; m > 0; m--) {
+            const ratio *p = &g->p[on[m - 1]], *q = &g->p[on[m]];
+            if ((p->x * rx + p->y * ry) * q->d <= (q->x * rx + q->y * ry) * p->d) break;
+            const int t = on[m];
+            on[m] = on[m - 1], on[m - 1] = t;
+        }
+    for (int k = 1; k < count; k++) {
+        const int low = on[k - 1] < on[k] ? on[k - 1] : on[k], high = on[k - 1] + on[k] - low;
+        int e = 0;
+        if (low == high) continue;
+        while (e < g->edges && (g->e[e].v[0] != low || g->e[e].v[1] != high)) e++;
+        assert_true(e < POINTS);
+        if (e == g->edges) g->e[g->edges++] = (exact_edge){{low, high}, i};
+        else if (weight(s[i].letter) > weight(s[g->e[e].line].letter)) g->e[e].line = i;
+    }
+}
+
+static void exact_peel(exact *g)
+{
+    for (int more = 1; more;) {
+        more = 0;
+        memset(g->degree, 0, sizeof g->degree);
+        for (int e = 0; e < g->edges; e++) g->degree[g->e[e].v[0]]++, g->degree[g->e[e].v[1]]++;
+        for (int e = 0; e < g->edges; e++) {
+            if (g->degree[g->e[e].v[0]] > 1 && g->degree[g->e[e].v[1]] > 1) continue;
+            g->e[e--] = g->e[--g->edges];
+            more = 1;
+            break;
+        }
+    }
+}
+
+/* The vertex of the graph at an exact point. */
+static int32_t vertex_at(const rg_graph *g, const ratio *p)
+{
+    const rg_vec2 x = {(double)p->x / (double)p->d, (double)p->y / (double)p->d};
+    for (int32_t v = 0; v < g->nv; v++)
+        if (rg_vec2_length(rg_vec2_sub(g->X[v], x)) < 1e-9) return v;
+    fail_msg("no vertex at (%.9g, %.9g)", x.x, x.y);
+    return -1;
+}
+
+static void compare(const rg_graph *g, const exact *x)
+{
+    int32_t vertices = 0;
+    for (int v = 0; v < x->points; v++) vertices += x->degree[v] > 0;
+    assert_int_equal(g->nv, vertices);
+    assert_int_equal(g->ne, x->edges);
+    assert_int_equal(count_facets(g), g->ne - g->nv + count_pieces(g)); /* V - E + F = 1 + pieces, F with the outside */
+    for (int e = 0; e < x->edges; e++) {
+        const int32_t a = vertex_at(g, &x->p[x->e[e].v[0]]), b = vertex_at(g, &x->p[x->e[e].v[1]]);
+        int32_t i = 0;
+        while (i < g->ne && !((g->E[i].v[0] == a && g->E[i].v[1] == b) || (g->E[i].v[0] == b && g->E[i].v[1] == a))) i++;
+        if (i == g->ne) fail_msg("an edge from (%g, %g) is missing", g->X[a].x, g->X[a].y);
+        assert_int_equal(g->E[i].where, x->e[e].line + 1);
+    }
+}
+
+/* Ends on a coarse grid: lines that overlap, end on each other, cross three at a time, lie double. Fractions of a grid
+ * of 16 are no nearer to each other than 4e-6, so that a tolerance of 1e-9 merges what is equal and nothing else. */
+static void against_exact_arithmetic(void **state)
+{
+    (void)state;
+    unsigned seed = 2385;
+    static exact x;
+    int with_edges = 0;
+    for (int round = 0; round < 600; round++) {
+        const int n = 4 + round % (MOST - 4), span = 3 + round % 14;
+        segment s[MOST];
+        rg_lines l = drawing();
+        memset(&x, 0, sizeof x);
+        for (int i = 0; i < n; i++) {
+            for (int k = 0; k < 2; k++) s[i].a[k] = whole_noise(&seed, span), s[i].b[k] = whole_noise(&seed, span);
+            if (i % 3 == 0) s[i].b[i % 2] = s[i].a[i % 2]; /* many on one line */
+            s[i].letter = "BMVU"[whole_noise(&seed, 4)];
+            draw(&l, s[i].letter, (double)s[i].a[0], (double)s[i].a[1], (double)s[i].b[0], (double)s[i].b[1]);
+        }
+        for (int i = 0; i < n; i++) exact_segment(&x, s, n, i);
+        exact_peel(&x);
+        rg_graph g = graph_of(&l, 1e-9);
+        compare(&g, &x);
+        with_edges += x.edges > 20;
+        rg_graph_free(&g);
+        rg_lines_free(&l);
+    }
+    assert_true(with_edges > 200);
+}
+
+/* --------------------------------------------------------------------------------------------------- many lines ---- */
+
+static int64_t side(const int64_t *a, const int64_t *b, const int64_t *c)
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+static int crossing(const segment *s, const segment *t)
+{
+    for (int k = 0; k < 2; k++) {
+        const int64_t low = s->a[k] < s->b[k] ? s->a[k] : s->b[k], high = s->a[k] + s->b[k] - low;
+        if ((t->a[k] < low && t->b[k] < low) || (t->a[k] > high && t->b[k] > high)) return 0;
+    }
+    const int64_t sa = side(t->a, t->b, s->a), sb = side(t->a, t->b, s->b), ta = side(s->a, s->b, t->a), tb = side(s->a, s->b, t->b);
+    assert_true(sa && sb && ta && tb); /* the seed gives no line that ends on another */
+    return (sa < 0) != (sb < 0) && (ta < 0) != (tb < 0);
+}
+
+/* 6,667 triangles strewn about: every crossing adds one vertex and two edges. Counted pair by pair in whole numbers. */
+static void twenty_thousand_lines(void **state)
+{
+    (void)state;
+    enum { TRIANGLES = 6667, LINES = 3 * TRIANGLES };
+    static segment s[LINES];
+    static int up[TRIANGLES];
+    unsigned seed = 125;
+    rg_lines l = drawing();
+    for (int t = 0; t < TRIANGLES; t++) {
+        int64_t x[3][2];
+        const int64_t cx = whole_noise(&seed, 1 << 24), cy = whole_noise(&seed, 1 << 24);
+        for (int k = 0; k < 3; k++) {
+            x[k][0] = cx + whole_noise(&seed, 1 << 20), x[k][1] = cy + whole_noise(&seed, 1 << 20);
+        }
+        for (int k = 0; k < 3; k++) {
+            segment *side_k = &s[3 * t + k];
+            memcpy(side_k->a, x[k], sizeof x[k]);
+            memcpy(side_k->b, x[(k + 1) % 3], sizeof x[k]);
+            draw(&l, RG_MOUNTAIN, (double)side_k->a[0], (double)side_k->a[1], (double)side_k->b[0], (double)side_k->b[1]);
+        }
+        up[t] = t;
+    }
+    int32_t crossings = 0, pieces = TRIANGLES;
+    for (int i = 0; i < LINES; i++)
+        for (int j = i - i % 3 + 3; j < LINES; j++) {
+            if (!crossing(&s[i], &s[j])) continue;
+            crossings++;
+            const int a = root(up, i / 3), b = root(up, j / 3);
+            if (a != b) up[a] = b, pieces--;
+        }
+    rg_graph g = graph_of(&l, 1e-13);
+    assert_true(crossings > 50000 && pieces > 10);
+    assert_int_equal(g.nv, LINES + crossings);
+    assert_int_equal(g.ne, LINES + 2 * crossings);
+    assert_int_equal(count_facets(&g), g.ne - g.nv + pieces);
+    rg_graph_free(&g);
+    rg_lines_free(&l);
+}
+
+/* A size that a comparison of every pair would not end at: 5 * 10^10 pairs. */
+static void a_large_grid(void **state)
+{
+    (void)state;
+    const int n = 400;
+    rg_lines l = drawing();
+    for (int i = 0; i <= n; i++)
+        for (int j = 0; j < n; j++) {
+            const int rim = i == 0 || i == n;
+            draw(&l, rim ? RG_BORDER : RG_VALLEY, j, i, j + 1, i);
+            draw(&l, rim ? RG_BORDER : RG_MOUNTAIN, i, j, i, j + 1);
+        }
+    rg_graph g = graph_of(&l, 2e-5);
+    assert_int_equal(g.nv, (n + 1) * (n + 1));
+    assert_int_equal(g.ne, 2 * n * (n + 1));
+    assert_int_equal(count_facets(&g), n * n);
+    near(g.merged_max, 0, 0);
+    rg_graph_free(&g);
+    rg_lines_free(&l);
+}
+
+/* Box pleats drawn with long lines: n lines each way and both diagonals of every cell, which meet in the cells' middle. */
+static void long_lines_on_a_grid(void **state)
+{
+    (void)state;
+    const int n = 40;
+    rg_lines l = drawing();
+    for (int i = 0; i <= n; i++) {
+        draw(&l, i % n ? RG_VALLEY : RG_BORDER, 0, i / 7.0, n / 7.0, i / 7.0);
+        draw(&l, i % n ? RG_VALLEY : RG_BORDER, i / 7.0, 0, i / 7.0, n / 7.0);
+    }
+    for (int i = 1 - n; i < n; i++) {
+        const double low = i > 0 ? i : 0, high = i > 0 ? n : n + i;
+        draw(&l, RG_MOUNTAIN, low / 7, (low - i) / 7, high / 7, (high - i) / 7);
+        draw(&l, RG_MOUNTAIN, (n - low) / 7, (low - i) / 7, (n - high) / 7, (high - i) / 7);
+    }
+    rg_graph g = graph_of(&l, 2e-5);
+    assert_int_equal(g.nv, (n + 1) * (n + 1) + n * n);
+    assert_int_equal(g.ne, 2 * n * (n + 1) + 4 * n * n);
+    assert_int_equal(count_facets(&g), 4 * n * n);
+    rg_graph_free(&g);
+    rg_lines_free(&l);
+}
+
+/* Lines that meet at thousandths of a degree, from left to right: two of them cross where their order is turned over. */
+static void nearly_parallel_lines(void **state)
+{
+    (void)state;
+    enum { N = 60 };
+    for (unsigned round = 0; round < 20; round++) {
+        unsigned seed = round;
+        int to[N], crossings = 0;
+        const double apart = round % 2 ? 1e-5 : 1e-3;
+        rg_lines l = drawing();
+        draw_box(&l, 0, 0, 1, 1);
+        for (int i = 0; i < N; i++) to[i] = i;
+        for (int i = N - 1; i > 0; i--) {
+            const int j = whole_noise(&seed, i + 1), t = to[i];
+            to[i] = to[j], to[j] = t;
+        }
+        for (int i = 0; i < N; i++) /* no three through one point */
+            draw(&l, RG_VALLEY, 0, 0.4 + apart * (i + 0.3 * noise(&seed)), 1, 0.4 + apart * (to[i] + 0.3 * noise(&seed)));
+        for (int i = 0; i < N; i++)
+            for (int j = i + 1; j < N; j++) crossings += to[i] > to[j];
+        rg_graph g = graph_of(&l, 1e-13);
+        assert_int_equal(g.nv, 4 + 2 * N + crossings);
+        assert_int_equal(g.ne, 4 + 3 * N + 2 * crossings);
+        assert_int_equal(count_facets(&g), 1 + N + crossings);
+        rg_graph_free(&g);
+        rg_lines_free(&l);
+    }
+}
+
+/* ----------------------------------------------------------------------------------------------------- tolerance ---- */
+
+/* A crease that ends short of its neighbour, or beyond it, by `gap` parts of the tolerance. */
+static void gaps(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 4; kind++)
+        for (int far = 0; far < 2; far++) {
+            const double tol = 10 * 2e-5, gap = (far ? 1.7 : 0.6) * tol;
+            rg_lines l = drawing();
+            draw_box(&l, 0, 0, 10, 10);
+            draw(&l, RG_VALLEY, 0, 3.1, 4.25, 5.5);
+            if (kind == 0) draw(&l, RG_VALLEY, 4.25 + 0.6 * gap, 5.5 + 0.8 * gap, 10, 6); /* end to end */
+            if (kind == 1) draw(&l, RG_VALLEY, 4.25, 5.5, 10 - gap, 6);                   /* short of the border */
+            if (kind == 2) draw(&l, RG_VALLEY, 4.25, 5.5, 10 + gap, 6);                   /* beyond it */
+            if (kind == 3) {                                                              /* short of a crease's inside */
+                draw(&l, RG_VALLEY, 4.25, 5.5, 10, 6);
+                draw(&l, RG_MOUNTAIN, 2.125, 4.3 - gap * hypot(4.25, 2.4) / 4.25, 2.125, 0);
+            }
+            rg_graph g = graph_of(&l, 2e-5);
+            const int32_t met = kind == 3 ? 9 : 7, apart[] = {6, 5, 7, 8}, told[] = {2, 2, 1, 1};
+            assert_int_equal(g.nv, far ? apart[kind] : met);
+            assert_int_equal(l.warnings, far ? told[kind] : 0);
+            if (!far && kind == 0) near(g.merged_max, gap, 1e-12);
+            rg_graph_free(&g);
+            rg_lines_free(&l);
+        }
+}
+
+/* What the drawing says of itself: the largest gap closed, the smallest distance left. */
+static void merged_and_kept(void **state)
+{
+    (void)state;
+    unsigned seed = 77;
+    for (int round = 0; round < 30; round++) {
+        rg_lines l = drawing();
+        double gap = 0;
+        draw_box(&l, 0, 0, 1, 1);
+        for (int i = 0; i < 6; i++) { /* a hub of creases that miss its centre, one by more than the others */
+            const double a = i + 0.4 * noise(&seed), d = i == 0 ? 1.1e-5 : 1e-6 * (noise(&seed) + 1), to = a + noise(&seed);
+            const double x = 0.5 + cos(to) * d, y = 0.5 + sin(to) * d;
+            draw(&l, RG_VALLEY, x, y, 0.5 + 0.45 * cos(a), 0.5 + 0.45 * sin(a));
+            for (int j = 4; j < l.count - 1; j++) /* the first one makes the vertex */
+                gap = j == 4 ? fmax(gap, hypot(x - l.line[j].a.x, y - l.line[j].a.y)) : gap;
+        }
+        for (int i = 0; i < 6; i++) { /* a ring round it, so that nothing hangs loose */
+            rg_vec2 a = l.line[4 + i].b, b = l.line[4 + (i + 1) % 6].b;
+            draw(&l, RG_MOUNTAIN, a.x, a.y, b.x, b.y);
+        }
+        rg_graph g = graph_of(&l, 2e-5);
+        assert_int_equal(g.nv, 4 + 7);
+        near(g.merged_max, gap, 1e-12);
+        double nearest = INFINITY;
+        for (int32_t i = 0; i < g.nv; i++)
+            for (int32_t j = 0; j < i; j++) nearest = fmin(nearest, rg_vec2_length(rg_vec2_sub(g.X[i], g.X[j])));
+        rg_graph_free(&g);
+        rg_pattern *p = pattern_of(&l);
+        rg_pattern_info info;
+        rg_pattern_get_info(p, &info);
+        near(info.kept_min, nearest, 1e-15);
+        near(info.merged_max, gap, 1e-12);
+        near(info.size, 1, 0);
+        rg_pattern_destroy(p);
+    }
+}
+
+/* The graph that comes of any drawing is plane: by brute force, no edge crosses another, none passes a vertex nearer than
+ * the tolerance, none is there twice, none ends loose. */
+static void is_plane(const rg_graph *g, double tol)
+{
+    int *degree = calloc((size_t)g->nv + 1, sizeof *degree);
+    for (int32_t e = 0; e < g->ne; e++) {
+        const int32_t *p = g->E[e].v;
+        const rg_vec2 a = g->X[p[0]], b = g->X[p[1]];
+        degree[p[0]]++, degree[p[1]]++;
+        assert_true(p[0] != p[1]);
+        for (int32_t f = 0; f < e; f++) {
+            const int32_t *q = g->E[f].v;
+            const int shared = (p[0] == q[0]) + (p[0] == q[1]) + (p[1] == q[0]) + (p[1] == q[1]);
+            assert_true(shared < 2);
+            if (shared) continue;
+            const rg_vec2 c = g->X[q[0]], d = g->X[q[1]];
+            const double ca = rg_vec2_turn(c, d, a), cb = rg_vec2_turn(c, d, b), ac = rg_vec2_turn(a, b, c), ad = rg_vec2_turn(a, b, d);
+            const double rounding = 1e-14; /* of twice an area in drawings of size 8 */
+            if (fmin(fmin(fabs(ca), fabs(cb)), fmin(fabs(ac), fabs(ad))) < rounding) continue;
+            if (ca * cb < 0 && ac * ad < 0) fail_msg("edges cross near (%.9g, %.9g)", a.x, a.y);
+        }
+        for (int32_t v = 0; v < g->nv; v++) {
+            if (v == p[0] || v == p[1]) continue;
+            const rg_vec2 d = rg_vec2_sub(b, a), r = rg_vec2_sub(g->X[v], a);
+            const double along = rg_vec2_dot(r, d) / rg_vec2_dot(d, d);
+            if (along <= 0 || along >= 1) continue;
+            const double from_a = rg_vec2_length(r), from_b = rg_vec2_length(rg_vec2_sub(g->X[v], b));
+            assert_true(from_a > tol * (1 - 1e-9) && from_b > tol * (1 - 1e-9));
+            if (fmax(from_a, from_b) >= rg_vec2_length(d)) continue; /* beside an end */
+            const double off = fabs(rg_vec2_cross(d, r)) / rg_vec2_length(d);
+            if (!(off > tol * (1 - 1e-9))) fail_msg("an edge passes (%.9g, %.9g) at %g of the tolerance", g->X[v].x, g->X[v].y, off / tol);
+        }
+    }
+    for (int32_t v = 0; v < g->nv; v++) assert_true(degree[v] >= 2);
+    free(degree);
+}
+
+/* Grid lines drawn by a shaky hand: ends miss by parts of the tolerance and by several of it. */
+static void shaky_drawings_become_plane(void **state)
+{
+    (void)state;
+    unsigned seed = 99;
+    int large = 0;
+    for (int round = 0; round < 400; round++) {
+        rg_lines l = drawing();
+        const double shake = (round % 5 + 0.2) * 1e-3;
+        const int n = 10 + round % 40;
+        for (int i = 0; i < n; i++) {
+            double x[4];
+            for (int k = 0; k < 4; k++) x[k] = whole_noise(&seed, 9) + shake * noise(&seed);
+            if (i % 2) x[2 + i / 2 % 2] = x[i / 2 % 2] + shake * noise(&seed);
+            draw(&l, RG_VALLEY, x[0], x[1], x[2], x[3]);
+        }
+        rg_graph g = graph_of(&l, 1.25e-4); /* 1e-3 of 8 */
+        is_plane(&g, 1.25e-4 * g.size);
+        assert_int_equal(count_facets(&g), g.ne - g.nv + count_pieces(&g));
+        large += g.ne > 100;
+        rg_graph_free(&g);
+        rg_lines_free(&l);
+    }
+    assert_true(large > 60);
+}
+
+/* ------------------------------------------------------------------------------------------------- what is drawn ---- */
+
+static void counts_do_not_depend_on_place_turn_and_size(void **state)
+{
+    (void)state;
+    for (unsigned round = 0; round < 25; round++) {
+        rg_pattern_info first = {0}, info;
+        for (int way = 0; way < 6; way++) {
+            static const struct { double scale, angle, dx, dy; } moves[] = {
+                {1, 0, 0, 0}, {1, 0.8, 0, 0}, {1e-9, 2.5, 3e-9, 1e-8}, {3e7, -1.1, 4e9, -7e8}, {0.37, RG_PI / 2, -300, 200}, {1e60, 0.2, 0, 0}};
+            unsigned seed = round;
+            rg_lines l = drawing();
+            draw_box(&l, 0, 0, 3, 2);
+            for (int i = 0; i < 14; i++) {
+                const double t = 3 * (noise(&seed) + 1) / 2, u = 3 * (noise(&seed) + 1) / 2;
+                draw(&l, i % 3 ? RG_MOUNTAIN : RG_VALLEY, t, 0, i % 2 ? u : 3, i % 2 ? 2 : u * 2 / 3);
+            }
+            draw_moved(&l, moves[way].scale, moves[way].angle, moves[way].dx, moves[way].dy);
+            rg_pattern *p = pattern_of(&l);
+            rg_pattern_get_info(p, &info);
+            if (way == 0) first = info;
+            assert_int_equal(info.vertices, first.vertices);
+            assert_int_equal(info.edges, first.edges);
+            assert_int_equal(info.facets, first.facets);
+            assert_int_equal(info.creases, first.creases);
+            assert_int_equal(info.interior_vertices, first.interior_vertices);
+            assert_int_equal(info.boundary_edges, first.boundary_edges);
+            assert_int_equal(info.mountains, first.mountains);
+            assert_int_equal(info.closed_vertices, first.closed_vertices);
+            assert_int_equal(info.is_disk, 1);
+            near(info.kept_min / moves[way].scale, first.kept_min, 1e-6 * first.kept_min);
+            near(info.kawasaki_max_deg, first.kawasaki_max_deg, 1e-4);
+            rg_pattern_destroy(p);
+        }
+        assert_true(first.interior_vertices > 5);
+    }
+}
+
+/* Where lines lie on each other, the border goes before mountain and valley, these before the rest, the first before
+ * the second; and mountain on valley is said. */
+static void doubles_by_rank(void **state)
+{
+    (void)state;
+    static const char *const drawn[] = {"MB", "BV", "UM", "VU", "MV", "VM", "UVM", "UU", "UBM"};
+    static const char stays[] = {'B', 'B', 'M', 'V', 'M', 'V', 'V', 'U', 'B'};
+    for (int i = 0; i < 9; i++) {
+        rg_lines l = drawing();
+        draw_box(&l, 0, 0, 2, 2);
+        const int n = (int)strlen(drawn[i]);
+        for (int k = 0; k < n; k++) { /* each longer than the last one, and the other way round */
+            const double far = 2 - 0.25 * (n - 1 - k), x0 = k % 2 ? far : 0, x1 = k % 2 ? 0 : far;
+            draw(&l, drawn[i][k], x0, 1, x1, 1);
+        }
+        rg_graph g = graph_of(&l, 2e-5);
+        int at_left = 0, clash = (strchr(drawn[i], 'M') && strchr(drawn[i], 'V') && !strchr(drawn[i], 'B'));
+        for (int32_t e = 0; e < g.ne; e++)
+            for (int k = 0; k < 2; k++)
+                if (g.X[g.E[e].v[k]].x == 0 && g.X[g.E[e].v[k]].y == 1 && g.X[g.E[e].v[!k]].x > 0.1) {
+                    at_left++;
+                    assert_int_equal(g.E[e].assignment, stays[i]);
+                }
+        assert_int_equal(at_left, 1);
+        assert_int_equal(l.warnings > 0, clash);
+        rg_graph_free(&g);
+        rg_lines_free(&l);
+    }
+}
+
+static void what_is_left_out_is_said(void **state)
+{
+    (void)state;
+    rg_settings s = rg_settings_default();
+    for (int aux = 0; aux < 2; aux++) {
+        rg_lines l = drawing();
+        rg_graph g;
+        draw_box(&l, 0, 0, 2, 2);
+        draw(&l, RG_FLAT, 0, 1, 2, 1);
+        draw(&l, RG_CUT, 0, 0, 2, 2);
+        draw(&l, RG_VALLEY, 1, 0, 1, 0.3); /* ends nowhere */
+        draw(&l, RG_VALLEY, 1.5, 1.5, 1.5, 1.5);
+        s.aux_creases = aux;
+        assert_int_equal(rg_planar_from_lines(&l, &s, &g, NULL), RG_OK);
+        assert_int_equal(g.nv, 5 + 2 * aux);
+        assert_int_equal(g.ne, 5 + 3 * aux);
+        assert_int_equal(l.warnings, 3);
+        const int where[] = {8, 6, 7};
+        for (int i = 0; i < 3; i++) assert_int_equal(l.warning[i].line, where[i]);
+        rg_graph_free(&g);
+        rg_lines_free(&l);
+    }
+}
+
+/* Thousands of faults of one kind are a few sentences and a number. */
+static void faults_do_not_flood(void **state)
+{
+    (void)state;
+    rg_lines l = drawing();
+    draw_box(&l, 0, 0, 1, 1);
+    for (int i = 0; i < 3000; i++) {
+        draw(&l, RG_VALLEY, 0.0003 * i, 0, 0.0003 * i, 0.5);
+        draw(&l, RG_VALLEY, 0.0003 * i, 0.7, 0.0003 * i, 0.7);
+        draw(&l, RG_MOUNTAIN, 0.0003 * i, 0, 0.0003 * i, 0.5);
+    }
+    rg_graph g = graph_of(&l, 2e-5);
+    assert_true(l.warnings > 3 && l.warnings < 100);
+    rg_graph_free(&g);
+    rg_lines_free(&l);
+}
+
+static void no_lines_and_hopeless_ones(void **state)
+{
+    (void)state;
+    rg_settings s = rg_settings_default();
+    rg_graph g;
+    rg_diag why;
+    rg_lines l = drawing();
+    assert_int_equal(rg_planar_from_lines(&l, &s, &g, &why), RG_OK);
+    assert_int_equal(g.nv, 0);
+    rg_graph_free(&g);
+    draw(&l, RG_VALLEY, 3, 3, 3, 3);
+    assert_int_equal(rg_planar_from_lines(&l, &s, &g, &why), RG_OK);
+    assert_int_equal(g.ne, 0);
+    rg_graph_free(&g);
+    draw(&l, RG_VALLEY, 3, 3, 1e200, 3);
+    assert_int_equal(rg_planar_from_lines(&l, &s, &g, &why), RG_EFORMAT);
+    assert_non_null(strstr(why.text, "too large"));
+    rg_graph_free(&g);
+    rg_lines_free(&l);
+    l = drawing();
+    draw_box(&l, 0, 0, 1e-120, 1e-120);
+    assert_int_equal(rg_planar_from_lines(&l, &s, &g, &why), RG_EFORMAT);
+    assert_non_null(strstr(why.text, "too small"));
+    rg_graph_free(&g);
+    rg_lines_free(&l);
+}
+
+static void merge_out_of_range(void **state)
+{
+    (void)state;
+    static const double merge[] = {-1e-9, 0.1, 1, NAN, INFINITY};
+    for (int i = 0; i < 5; i++) {
+        rg_settings s = rg_settings_default();
+        rg_lines l = drawing();
+        rg_pattern *p = NULL;
+        draw_box(&l, 0, 0, 1, 1);
+        s.merge = merge[i];
+        assert_int_equal(rg_pattern_from_lines(&l, &s, &p, NULL), RG_EARG);
+        assert_null(p);
+        assert_null(l.line);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(against_exact_arithmetic),
+        cmocka_unit_test(twenty_thousand_lines),
+        cmocka_unit_test(a_large_grid),
+        cmocka_unit_test(long_lines_on_a_grid),
+        cmocka_unit_test(nearly_parallel_lines),
+        cmocka_unit_test(gaps),
+        cmocka_unit_test(merged_and_kept),
+        cmocka_unit_test(shaky_drawings_become_plane),
+        cmocka_unit_test(counts_do_not_depend_on_place_turn_and_size),
+        cmocka_unit_test(doubles_by_rank),
+        cmocka_unit_test(what_is_left_out_is_said),
+        cmocka_unit_test(faults_do_not_flood),
+        cmocka_unit_test(no_lines_and_hopeless_ones),
+        cmocka_unit_test(merge_out_of_range),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
