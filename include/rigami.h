@@ -80,11 +80,12 @@ typedef enum rg_format {
 } rg_format;
 
 #define RG_ADJUST_AUTO (-1.0)
+#define RG_MERGE_DEFAULT 2e-5 /* exactly this: what the input's format is usually drawn to, 1e-3 for .svg, else 2e-5 */
 
 /* Start from rg_settings_default() and change what you need. */
 typedef struct rg_settings {
     const rg_memory *memory;      /* NULL: malloc. Must outlive what is made with it. */
-    double merge;                 /* ends nearer than this part of the sheet's size are one vertex; 2e-5 */
+    double merge;                 /* ends nearer than this part of the sheet's size are one vertex; RG_MERGE_DEFAULT */
     int aux_creases;              /* non-zero: auxiliary lines are creases that may fold; 0 */
     rg_format format;             /* of the input; auto */
     int32_t file_frame;           /* FOLD: the frame to read, 0: the key frame; -1: the first that is a crease pattern; -1 */
@@ -109,9 +110,9 @@ RG_API rg_settings rg_settings_default(void);
 /* A crease pattern as a plane graph. */
 typedef struct rg_pattern rg_pattern;
 
-/* Reads a crease pattern file (ORIPA .opx). RG_EREAD: no such file; RG_EFORMAT: why->line and why->text say what is
- * wrong. A pattern that is not one sheet without holes is read all the same: rg_pattern_get_info says so, and folding
- * it is refused. Owner: the caller, rg_pattern_destroy. */
+/* Reads a crease pattern file: ORIPA's .opx, .cp, .fold, .svg or .dxf; "-" is standard input. RG_EREAD: no such file;
+ * RG_EFORMAT: why->line and why->text say what is wrong. A pattern that is not one sheet without holes is read all the
+ * same: rg_pattern_get_info says so, and folding it is refused. Owner: the caller, rg_pattern_destroy. */
 RG_API rg_status rg_pattern_read(const char *path, const rg_settings *s, rg_pattern **pattern, rg_diag *why);
 /* The same from memory. */
 RG_API rg_status rg_pattern_parse(const void *bytes, size_t size, const rg_settings *s, rg_pattern **pattern,

@@ -5,10 +5,8 @@
 #include "pattern/planar.h"
 #include "pattern/points.h"
 #include "pattern/sheet.h"
-#include "read/opx.h"
+#include "read/read.h"
 
-#include <errno.h>
-#include <stdio.h>
 #include <string.h>
 
 void rg_pattern_destroy(rg_pattern *p)
@@ -100,7 +98,9 @@ rg_status rg_pattern_from_lines(rg_lines *lines, const rg_settings *s, rg_patter
     p->mem = mem;
     p->lines = *lines;
     memset(lines, 0, sizeof *lines);
-    rg_status status = build(p, s, why);
+    rg_settings with = *s;
+    if (s->merge == RG_MERGE_DEFAULT && p->lines.merge > 0) with.merge = p->lines.merge;
+    rg_status status = build(p, &with, why);
     if (status != RG_OK) {
         rg_pattern_destroy(p);
         return status == RG_ENOMEM ? rg_fail(status, why, 0, "out of memory") : status;
@@ -115,31 +115,14 @@ rg_status rg_pattern_from_lines(rg_lines *lines, const rg_settings *s, rg_patter
 
 rg_status rg_pattern_parse(const void *bytes, size_t size, const rg_settings *s, rg_pattern **pattern, rg_diag *why)
 {
-    const rg_memory mem = rg_mem_default(s->memory);
     rg_lines lines;
-    rg_status status = rg_opx_read(bytes, size, &mem, &lines, why);
-    if (status == RG_ENOMEM) return rg_fail(status, why, 0, "out of memory");
+    rg_status status = rg_read_bytes(bytes, size, NULL, s, 0, &lines, why);
     return status == RG_OK ? rg_pattern_from_lines(&lines, s, pattern, why) : status;
 }
 
 rg_status rg_pattern_read(const char *path, const rg_settings *s, rg_pattern **pattern, rg_diag *why)
 {
-    const rg_memory mem = rg_mem_default(s->memory);
-    FILE *f = fopen(path, "rb");
-    if (!f) return rg_fail(RG_EREAD, why, 0, "%s", strerror(errno));
-    char *bytes = NULL;
-    size_t room = 0, size = 0, got;
-    rg_status status;
-    do {
-        status = rg_mem_grow(&mem, (void **)&bytes, &room, size + 65536, 1);
-        if (status != RG_OK) break;
-        got = fread(bytes + size, 1, room - size, f);
-        size += got;
-    } while (got > 0);
-    if (status != RG_OK) rg_fail(status, why, 0, "out of memory");
-    else if (ferror(f)) status = rg_fail(RG_EREAD, why, 0, "%s", strerror(errno));
-    fclose(f);
-    if (status == RG_OK) status = rg_pattern_parse(bytes, size, s, pattern, why);
-    rg_mem_free(&mem, bytes);
-    return status;
+    rg_lines lines;
+    rg_status status = rg_read_file(path, s, 0, &lines, why);
+    return status == RG_OK ? rg_pattern_from_lines(&lines, s, pattern, why) : status;
 }

@@ -15,8 +15,9 @@ void rg_lines_free(rg_lines *l)
 {
     if (!l->mem.resize) return;
     rg_memory mem = l->mem;
-    void *block[] = {l->line, l->title, l->author, l->editor, l->reference, l->memo, l->warning};
-    for (int i = 0; i < 7; i++) rg_mem_free(&mem, block[i]);
+    void *block[] = {l->line, l->title, l->author, l->editor, l->reference, l->memo, l->warning, l->vertex};
+    for (int i = 0; i < 8; i++) rg_mem_free(&mem, block[i]);
+    rg_value_free(l->frame);
     memset(l, 0, sizeof *l);
 }
 

@@ -1,10 +1,10 @@
 /* lines.h -- what a reader hands on: line segments with assignments, as drawn.
- * Used by  opx.c, generate, pattern */
+ * Used by  every reader, save, generate, pattern */
 #ifndef RG_LINES_H
 #define RG_LINES_H
 
 #include "base/vec.h"
-#include "rigami.h"
+#include "read/value.h"
 
 /* Assignments are FOLD's letters. */
 #define RG_BORDER 'B'
@@ -12,7 +12,7 @@
 #define RG_VALLEY 'V'
 #define RG_FLAT 'F' /* auxiliary line, or a crease added by triangulation: no wish of its own */
 #define RG_UNASSIGNED 'U'
-#define RG_CUT 'C'
+#define RG_CUT 'C' /* where the folded model is cut, no part of the pattern; a cut in the paper is a border inside it */
 
 typedef struct rg_line {
     rg_vec2 a, b;      /* y up */
@@ -30,6 +30,9 @@ typedef struct rg_lines {
     rg_diag *warning;
     int32_t warnings;
     size_t warning_room;
+    double merge;    /* tolerance that the format is usually drawn to, a part of the size; 0: the general one */
+    rg_value *frame; /* FOLD, where asked for: the frame read, with what it inherits; NULL otherwise */
+    int32_t *vertex; /* ... and the numbers of each line's two ends there, [2 count] */
 } rg_lines;
 
 void rg_lines_init(rg_lines *l, const rg_memory *mem);

@@ -1,0 +1,514 @@
+#include "read/fold.h"
+#include "base/memory.h"
+#include "base/status.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_ELEMENTS = INT32_MAX / 16, MOST_INHERITED = 100, MOST_FRAMES_TRIED = 1000 };
+/* Coordinates in space lie in a plane if they are off it by less than this part of their size: single precision does so. */
+static const double FLATNESS = 1e-6;
+/* Areas and volumes of such coordinates still are finite. */
+static const double LARGEST = 1e100;
+/* Fold angles of which the largest is that near to pi are in radians, as old files of Origami Simulator have them. */
+static const double RADIANS = 1e-4;
+/* Degrees that a fold angle of half a turn may be off after arithmetic in single precision. */
+static const double ROUNDING = 1e-3;
+
+typedef struct side { int32_t low, high, face; signed char along, turn; } side; /* of a face; turn: sign of its area */
+
+typedef struct reader {
+    rg_lines *out;
+    rg_diag *why;
+    const rg_settings *s;
+    const rg_value *root;
+    rg_value *frame; /* with what it inherits */
+    int32_t number;
+    int32_t nv, ne, nf, sides;
+    rg_vec3 *space;
+    rg_vec2 *X;
+    int32_t *E; /* [2 ne] */
+    char *letter;
+    double *angle; /* degrees, NAN: none */
+    int32_t *face_start, *face_vertex;
+    side *side;
+    int is_folded; /* not flat, or turned over: why says which */
+} reader;
+
+static rg_status bad(const reader *r, const char *format, ...)
+{
+    char text[200], frame[40] = "";
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    if (r->number > 0) snprintf(frame, sizeof frame, "file_frames[%d].", (int)r->number - 1);
+    return rg_fail(RG_EFORMAT, r->why, 0, "%s%s", frame, text);
+}
+
+static void forget(reader *r)
+{
+    void *block[] = {r->space, r->X, r->E, r->letter, r->angle, r->face_start, r->face_vertex, r->side};
+    for (int i = 0; i < 8; i++) rg_mem_free(&r->out->mem, block[i]);
+    rg_value_free(r->frame);
+    *r = (reader){.out = r->out, .why = r->why, .s = r->s, .root = r->root};
+}
+
+/* -------------------------------------------------------------------------------------------------- arrays ---- */
+
+/* A list of the frame; *list NULL where there is none. */
+static rg_status list(const reader *r, const char *key, const rg_value **out, int32_t *n)
+{
+    const rg_value *v = rg_value_get(r->frame, key);
+    *out = NULL;
+    *n = 0;
+    if (rg_value_kind(v) == RG_KIND_NONE || rg_value_kind(v) == RG_KIND_NULL) return RG_OK;
+    if (rg_value_kind(v) != RG_KIND_LIST) return bad(r, "%s: no list", key);
+    if (rg_value_count(v) > MOST_ELEMENTS) return bad(r, "%s: too many", key);
+    *out = v;
+    *n = (int32_t)rg_value_count(v);
+    return RG_OK;
+}
+
+static rg_status coordinates(reader *r)
+{
+    const rg_value *v;
+    rg_status s = list(r, "vertices_coords", &v, &r->nv);
+    if (s == RG_OK && !v) return bad(r, "vertices_coords: there are none");
+    if (s == RG_OK && !(r->space = rg_mem_array(&r->out->mem, (size_t)r->nv, sizeof *r->space))) return RG_ENOMEM;
+    for (int32_t i = 0; s == RG_OK && i < r->nv; i++) {
+        const rg_value *row = rg_value_at(v, (size_t)i);
+        double x[3] = {0, 0, 0};
+        const size_t n = rg_value_count(row);
+        int good = rg_value_kind(row) == RG_KIND_LIST && (n == 2 || n == 3);
+        for (size_t k = 0; good && k < n; k++) good = rg_value_number(rg_value_at(row, k), &x[k]);
+        if (!good) return bad(r, "vertices_coords[%d]: not two or three numbers", (int)i);
+        for (int k = 0; k < 3; k++)
+            if (!(fabs(x[k]) <= LARGEST)) return bad(r, "vertices_coords[%d]: %g is too large to compute with", (int)i, x[k]);
+        r->space[i] = (rg_vec3){x[0], x[1], x[2]};
+    }
+    return s;
+}
+
+/* A vertex number of an edge or a face. */
+static int vertex(const reader *r, const rg_value *v, int32_t *out)
+{
+    int64_t n;
+    if (!rg_value_integer(v, &n) || n < 0 || n >= r->nv) return 0;
+    *out = (int32_t)n;
+    return 1;
+}
+
+static rg_status no_vertex(const reader *r, const char *key, int32_t i, size_t k, const rg_value *v)
+{
+    int64_t n;
+    if (!rg_value_integer(v, &n)) return bad(r, "%s[%d][%d]: no vertex number", key, (int)i, (int)k);
+    return bad(r, "%s[%d][%d]: there is no vertex %lld, they end at %d", key, (int)i, (int)k, (long long)n, (int)r->nv - 1);
+}
+
+static rg_status edges(reader *r)
+{
+    const rg_value *v;
+    rg_status s = list(r, "edges_vertices", &v, &r->ne);
+    if (s != RG_OK || !v) return s;
+    r->E = rg_mem_array(&r->out->mem, (size_t)r->ne, 2 * sizeof *r->E);
+    if (!r->E) return RG_ENOMEM;
+    for (int32_t i = 0; i < r->ne; i++) {
+        const rg_value *row = rg_value_at(v, (size_t)i);
+        if (rg_value_count(row) != 2) return bad(r, "edges_vertices[%d]: not two vertices", (int)i);
+        for (size_t k = 0; k < 2; k++)
+            if (!vertex(r, rg_value_at(row, k), &r->E[2 * (size_t)i + k])) return no_vertex(r, "edges_vertices", i, k, rg_value_at(row, k));
+    }
+    return RG_OK;
+}
+
+static rg_status faces(reader *r)
+{
+    const rg_value *v;
+    rg_status s = list(r, "faces_vertices", &v, &r->nf);
+    size_t sides = 0;
+    for (int32_t f = 0; f < r->nf; f++) sides += rg_value_count(rg_value_at(v, (size_t)f));
+    if (s != RG_OK || !v) return s;
+    if (sides > MOST_ELEMENTS) return bad(r, "faces_vertices: too many");
+    r->sides = (int32_t)sides;
+    r->face_start = rg_mem_array(&r->out->mem, (size_t)r->nf + 1, sizeof *r->face_start);
+    r->face_vertex = rg_mem_array(&r->out->mem, sides, sizeof *r->face_vertex);
+    r->side = rg_mem_array(&r->out->mem, sides, sizeof *r->side);
+    if (!r->face_start || !r->face_vertex || !r->side) return RG_ENOMEM;
+    for (int32_t f = 0; f < r->nf; f++) {
+        const rg_value *row = rg_value_at(v, (size_t)f);
+        const size_t n = rg_value_count(row);
+        if (n < 3) return bad(r, "faces_vertices[%d]: fewer than three vertices", (int)f);
+        for (size_t k = 0; k < n; k++)
+            if (!vertex(r, rg_value_at(row, k), &r->face_vertex[(size_t)r->face_start[f] + k]))
+                return no_vertex(r, "faces_vertices", f, k, rg_value_at(row, k));
+        r->face_start[f + 1] = r->face_start[f] + (int32_t)n;
+    }
+    return RG_OK;
+}
+
+static rg_status assignments(reader *r)
+{
+    const rg_value *v;
+    int32_t n;
+    rg_status s = list(r, "edges_assignment", &v, &n);
+    if (s != RG_OK || !v) return s;
+    if (n != r->ne) return bad(r, "edges_assignment: %d of them for %d edges", (int)n, (int)r->ne);
+    if (!(r->letter = rg_mem_array(&r->out->mem, (size_t)n, 1))) return RG_ENOMEM;
+    for (int32_t i = 0; i < n; i++) {
+        const rg_value *one = rg_value_at(v, (size_t)i);
+        const char *text = rg_value_kind(one) == RG_KIND_NULL ? "U" : rg_value_text(one);
+        const char *known = text && text[0] && !text[1] ? strchr("BbMmVvFfUuCcJj", text[0]) : NULL;
+        if (!known) return bad(r, "edges_assignment[%d]: not one of B M V F U C J", (int)i);
+        r->letter[i] = *known >= 'a' ? (char)(*known - 'a' + 'A') : *known;
+    }
+    return RG_OK;
+}
+
+static rg_status angles(reader *r)
+{
+    const char *key = "edges_foldAngle";
+    const rg_value *v;
+    int32_t n;
+    rg_status s = list(r, key, &v, &n);
+    if (s == RG_OK && !v) s = list(r, key = "edges_foldAngles", &v, &n);
+    if (s != RG_OK || !v) return s;
+    if (n != r->ne) return bad(r, "%s: %d of them for %d edges", key, (int)n, (int)r->ne);
+    if (!(r->angle = rg_mem_array(&r->out->mem, (size_t)n, sizeof *r->angle))) return RG_ENOMEM;
+    double most = 0;
+    for (int32_t i = 0; i < n; i++) {
+        const rg_value *one = rg_value_at(v, (size_t)i);
+        if (rg_value_kind(one) == RG_KIND_NULL) {
+            r->angle[i] = NAN;
+            continue;
+        }
+        if (!rg_value_number(one, &r->angle[i])) return bad(r, "%s[%d]: no number", key, (int)i);
+        if (!(fabs(r->angle[i]) <= 180 + ROUNDING)) return bad(r, "%s[%d]: %g is not within 180 degrees", key, (int)i, r->angle[i]);
+        r->angle[i] = fmax(-180, fmin(r->angle[i], 180));
+        most = fmax(most, fabs(r->angle[i]));
+    }
+    if (!(most > 0 && most <= RG_PI + RADIANS)) return RG_OK;
+    const int radians = most >= RG_PI - RADIANS;
+    for (int32_t i = 0; radians && i < n; i++) r->angle[i] /= RG_DEG;
+    return rg_lines_warn(r->out, 0, radians ? "%s: the largest is pi: taken for radians" : "%s: none is above pi: are these radians? read as degrees", key);
+}
+
+/* --------------------------------------------------------------------------------------------------- plane ---- */
+
+/* Two axes of the plane that the vertices lie in, seen with the third one pointing at the eye. 0: they lie in none. */
+static int find_plane(const reader *r, rg_vec3 *e1, rg_vec3 *e2)
+{
+    const rg_vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
+    const rg_vec3 o = r->nv ? r->space[0] : x;
+    rg_vec3 d = {0, 0, 0}, n = d;
+    double off = 0;
+    *e1 = x;
+    *e2 = y;
+    for (int32_t i = 0; i < r->nv; i++) {
+        const rg_vec3 v = rg_vec3_sub(r->space[i], o);
+        if (rg_vec3_length(v) > rg_vec3_length(d)) d = v;
+    }
+    const double size = rg_vec3_length(d);
+    if (!(size > 0) || !isfinite(size)) return 1;
+    d = rg_vec3_scale(1 / size, d);
+    for (int32_t i = 0; i < r->nv; i++) {
+        const rg_vec3 c = rg_vec3_cross(d, rg_vec3_sub(r->space[i], o));
+        if (rg_vec3_length(c) > rg_vec3_length(n)) n = c;
+    }
+    if (!(rg_vec3_length(n) > 0)) return 1;
+    n = rg_vec3_scale(1 / rg_vec3_length(n), n);
+    for (int32_t i = 0; i < r->nv; i++) off = fmax(off, fabs(rg_vec3_dot(n, rg_vec3_sub(r->space[i], o))));
+    if (!(off <= FLATNESS * size)) return 0;
+    const rg_vec3 size_of = {fabs(n.x), fabs(n.y), fabs(n.z)};
+    if (size_of.x + size_of.y <= FLATNESS) return 1; /* planes of two axes: the coordinates stay what they are */
+    if (size_of.x + size_of.z <= FLATNESS) return *e2 = rg_vec3_scale(-1, z), 1;
+    if (size_of.y + size_of.z <= FLATNESS) return *e1 = y, *e2 = z, 1;
+    const double largest = size_of.x > size_of.y ? (size_of.x > size_of.z ? n.x : n.z) : size_of.y > size_of.z ? n.y : n.z;
+    n = rg_vec3_scale(largest < 0 ? -1 : 1, n);
+    *e1 = rg_vec3_cross(size_of.z < 0.9 ? z : y, n);
+    *e1 = rg_vec3_scale(1 / rg_vec3_length(*e1), *e1);
+    *e2 = rg_vec3_cross(n, *e1);
+    return 1;
+}
+
+static rg_status flatten(reader *r)
+{
+    rg_vec3 e1, e2;
+    if (!find_plane(r, &e1, &e2)) {
+        r->is_folded = 1;
+        return bad(r, "vertices_coords: a folded form, its vertices do not lie in one plane; a crease pattern is needed");
+    }
+    if (!(r->X = rg_mem_array(&r->out->mem, (size_t)r->nv, sizeof *r->X))) return RG_ENOMEM;
+    for (int32_t i = 0; i < r->nv; i++) {
+        const double y = rg_vec3_dot(e2, r->space[i]);
+        r->X[i] = (rg_vec2){rg_vec3_dot(e1, r->space[i]), r->s->flip ? -y : y};
+    }
+    return RG_OK;
+}
+
+/* --------------------------------------------------------------------------------------------------- faces ---- */
+
+static int by_ends(const void *a, const void *b)
+{
+    const side *p = a, *q = b;
+    if (p->low != q->low) return p->low < q->low ? -1 : 1;
+    if (p->high != q->high) return p->high < q->high ? -1 : 1;
+    return p->face < q->face ? -1 : p->face > q->face;
+}
+
+static double area(const reader *r, int32_t f)
+{
+    const int32_t *v = r->face_vertex + r->face_start[f], n = r->face_start[f + 1] - r->face_start[f];
+    double twice = 0;
+    for (int32_t k = 1; k + 1 < n; k++) twice += rg_vec2_turn(r->X[v[0]], r->X[v[k]], r->X[v[k + 1]]);
+    return twice / 2;
+}
+
+/* The sides of all faces, sorted by their ends, and which way the faces run. *turn: out, +1 or -1; 0: there are none. */
+static rg_status turn_faces(reader *r, int *turn)
+{
+    double sum = 0, all = 0;
+    int32_t left = 0, right = 0;
+    for (int32_t f = 0; f < r->nf; f++) all += fabs(area(r, f));
+    for (int32_t f = 0; f < r->nf; f++) {
+        const double a = area(r, f);
+        const int which = fabs(a) <= FLATNESS * all / r->nf ? 0 : a > 0 ? 1 : -1;
+        const int32_t *v = r->face_vertex + r->face_start[f], n = r->face_start[f + 1] - r->face_start[f];
+        for (int32_t k = 0; k < n; k++) {
+            const int32_t p = v[k], q = v[(k + 1) % n];
+            r->side[r->face_start[f] + k] = (side){p < q ? p : q, p < q ? q : p, f, p < q ? 1 : -1, (signed char)which};
+        }
+        sum += a;
+        left += which > 0;
+        right += which < 0;
+    }
+    if (r->sides > 0) qsort(r->side, (size_t)r->sides, sizeof *r->side, by_ends);
+    *turn = left + right == 0 ? 0 : sum < 0 ? -1 : 1;
+    /* Faces that run the same way round the sheet, and yet one is turned over: they are folded on each other. */
+    for (int32_t i = 1; i < r->sides; i++) {
+        const side *p = &r->side[i - 1], *q = &r->side[i];
+        if (p->low != q->low || p->high != q->high || p->along == q->along || p->turn * q->turn >= 0) continue;
+        r->is_folded = 1;
+        return bad(r, "faces_vertices[%d]: a folded form, this face is turned over; a crease pattern is needed",
+                   (int)(p->turn == *turn ? q->face : p->face));
+    }
+    return left && right ? rg_lines_warn(r->out, 0, "faces_vertices: %d faces run counter-clockwise and %d clockwise", (int)left, (int)right)
+                         : RG_OK;
+}
+
+/* Edges from the sides of faces. */
+static rg_status edges_of_faces(reader *r)
+{
+    rg_mem_free(&r->out->mem, r->E);
+    if (!(r->E = rg_mem_array(&r->out->mem, (size_t)r->sides, 2 * sizeof *r->E))) return RG_ENOMEM;
+    for (int32_t i = 0; i < r->sides; i++) {
+        const side *q = &r->side[i];
+        if (i > 0 && q[-1].low == q->low && q[-1].high == q->high) continue;
+        r->E[2 * r->ne] = q->low;
+        r->E[2 * r->ne++ + 1] = q->high;
+    }
+    return RG_OK;
+}
+
+/* How many faces an edge belongs to. */
+static int faces_at(const reader *r, int32_t e)
+{
+    const int32_t a = r->E[2 * e], b = r->E[2 * e + 1];
+    const side key = {a < b ? a : b, a < b ? b : a, -1, 0, 0};
+    int32_t low = 0, high = r->sides, n = 0;
+    while (low < high) {
+        const int32_t middle = low + (high - low) / 2;
+        if (by_ends(&r->side[middle], &key) < 0) low = middle + 1;
+        else high = middle;
+    }
+    while (low < r->sides && r->side[low].low == key.low && r->side[low].high == key.high) low++, n++;
+    return n;
+}
+
+/* --------------------------------------------------------------------------------------------------- lines ---- */
+
+/* The letter of an edge for which the file has none. */
+static char guess(const reader *r, int32_t e)
+{
+    if (r->nf > 0 && faces_at(r, e) == 1) return RG_BORDER;
+    const double angle = r->angle ? r->angle[e] : NAN;
+    if (angle > 0) return RG_VALLEY;
+    if (angle < 0) return RG_MOUNTAIN;
+    return angle == 0 && r->nf > 0 ? RG_FLAT : RG_UNASSIGNED;
+}
+
+static int can_fold(char letter) { return letter == RG_MOUNTAIN || letter == RG_VALLEY || letter == RG_UNASSIGNED; }
+
+/* Angles that are all 0 are those of the flat sheet and no wish. */
+static int has_targets(const reader *r)
+{
+    for (int32_t e = 0; r->s->targets && r->angle && e < r->ne; e++)
+        if (fabs(r->angle[e]) > 0 && can_fold(r->letter[e])) return 1;
+    return 0;
+}
+
+static rg_status add_lines(reader *r, int turn)
+{
+    const int targets = has_targets(r);
+    int32_t contrary = 0, first = 0;
+    for (int32_t e = 0; e < r->ne; e++) {
+        char letter = r->letter[e];
+        double angle = targets && can_fold(letter) ? r->angle[e] : NAN;
+        if (letter == 'J') letter = RG_FLAT;
+        if (letter == 'C') letter = RG_BORDER;
+        if (letter == RG_UNASSIGNED && angle == 0) angle = NAN;
+        if ((letter == RG_MOUNTAIN && angle > 0) || (letter == RG_VALLEY && angle < 0)) {
+            if (!contrary++) first = e;
+            angle = -angle;
+        }
+        if (turn < 0 && (letter == RG_MOUNTAIN || letter == RG_VALLEY)) letter = letter == RG_MOUNTAIN ? RG_VALLEY : RG_MOUNTAIN;
+        if (turn < 0) angle = -angle;
+        const double full = letter == RG_MOUNTAIN ? -180 : letter == RG_VALLEY ? 180 : NAN;
+        rg_status s = rg_lines_add(r->out, r->X[r->E[2 * e]], r->X[r->E[2 * e + 1]], letter, 0);
+        if (s != RG_OK) return s;
+        if (!(angle == full)) r->out->line[r->out->count - 1].target = angle * RG_DEG;
+    }
+    if (!contrary) return RG_OK;
+    return rg_lines_warn(r->out, 0, "edges_foldAngle[%d]: the sign is not that of its assignment, which is kept; %d such edges",
+                         (int)first, (int)contrary);
+}
+
+/* ------------------------------------------------------------------------------------------------ metadata ---- */
+
+static rg_status say(rg_lines *l, const rg_value *v, char **to)
+{
+    const char *text = rg_value_text(v);
+    if (!text || !*text || *to) return RG_OK;
+    return (*to = rg_mem_string(&l->mem, text)) ? RG_OK : RG_ENOMEM;
+}
+
+static rg_status metadata(reader *r)
+{
+    rg_lines *l = r->out;
+    struct { const char *key; char **to; } keys[] = {{"file_title", &l->title}, {"frame_title", &l->title},
+        {"file_author", &l->author}, {"frame_author", &l->author}, {"file_description", &l->memo}, {"frame_description", &l->memo},
+        {"rigami:editor", &l->editor}, {"rigami:reference", &l->reference}};
+    rg_status s = RG_OK;
+    for (size_t i = 0; s == RG_OK && i < sizeof keys / sizeof *keys; i++) {
+        s = say(l, rg_value_get(r->frame, keys[i].key), keys[i].to);
+        if (s == RG_OK) s = say(l, rg_value_get(r->root, keys[i].key), keys[i].to);
+    }
+    double spec;
+    if (s == RG_OK && rg_value_number(rg_value_get(r->root, "file_spec"), &spec) && spec >= 2)
+        s = rg_lines_warn(l, 0, "file_spec: %g is newer than what is known here, parts may be missed", spec);
+    return s;
+}
+
+static rg_status warn_folded(reader *r)
+{
+    const rg_value *classes = rg_value_get(r->frame, "frame_classes");
+    for (size_t i = 0; r->nf == 0 && i < rg_value_count(classes); i++) {
+        const char *one = rg_value_text(rg_value_at(classes, i));
+        if (one && strcmp(one, "foldedForm") == 0)
+            return rg_lines_warn(r->out, 0, "frame_classes: classed a folded form, and no faces to tell: taken for a crease pattern");
+    }
+    return RG_OK;
+}
+
+/* -------------------------------------------------------------------------------------------------- frames ---- */
+
+/* A frame with what it inherits, in r->frame. */
+static rg_status resolve(reader *r, int64_t number)
+{
+    const rg_value *frames = rg_value_get(r->root, "file_frames"), *chain[MOST_INHERITED];
+    int depth = 0;
+    r->number = (int32_t)number;
+    for (int64_t at = number;;) {
+        if (at < 0 || at > (int64_t)rg_value_count(frames)) return bad(r, "frame_parent: there is no frame %lld", (long long)at);
+        if (depth == MOST_INHERITED) return bad(r, "frame_parent: frames inherit from each other without end");
+        const rg_value *one = chain[depth++] = at == 0 ? r->root : rg_value_at(frames, (size_t)at - 1);
+        if (rg_value_kind(one) != RG_KIND_OBJECT) return bad(r, "the frame is no object");
+        if (at == 0 || !rg_value_is_true(rg_value_get(one, "frame_inherit"))) break;
+        const rg_value *parent = rg_value_get(one, "frame_parent");
+        at = 0;
+        if (parent && !rg_value_integer(parent, &at)) return bad(r, "frame_parent: no frame number");
+    }
+    while (depth > 0) {
+        rg_value *over = rg_value_overlay(r->frame, chain[--depth]);
+        if (!over) return RG_ENOMEM;
+        rg_value_free(r->frame);
+        r->frame = over;
+    }
+    return RG_OK;
+}
+
+static int has_drawing(const reader *r)
+{
+    return rg_value_count(rg_value_get(r->frame, "vertices_coords")) > 0 &&
+           (rg_value_count(rg_value_get(r->frame, "edges_vertices")) > 0 || rg_value_count(rg_value_get(r->frame, "faces_vertices")) > 0);
+}
+
+static rg_status read_frame(reader *r)
+{
+    int turn = 0;
+    rg_status s = coordinates(r);
+    if (s == RG_OK) s = edges(r);
+    if (s == RG_OK) s = faces(r);
+    if (s == RG_OK && !r->ne && !r->nf) return bad(r, "edges_vertices: there are none, nor faces");
+    if (s == RG_OK) s = flatten(r);
+    if (s == RG_OK && r->nf > 0) s = turn_faces(r, &turn);
+    if (s == RG_OK && !r->ne) s = edges_of_faces(r);
+    if (s == RG_OK) s = assignments(r);
+    if (s == RG_OK) s = angles(r);
+    if (s == RG_OK && !r->letter) {
+        if (!(r->letter = rg_mem_array(&r->out->mem, (size_t)r->ne, 1))) return RG_ENOMEM;
+        for (int32_t e = 0; e < r->ne; e++) r->letter[e] = guess(r, e);
+        s = rg_lines_warn(r->out, 0, "edges_assignment: there are none, they are taken from %s", r->angle ? "the fold angles" : "the faces");
+    }
+    if (s == RG_OK && turn < 0)
+        s = rg_lines_warn(r->out, 0, "faces_vertices: faces run clockwise, so this is the back: mountain and valley are exchanged");
+    if (s == RG_OK) s = warn_folded(r);
+    if (s == RG_OK) s = add_lines(r, turn);
+    return s == RG_OK ? metadata(r) : s;
+}
+
+/* The frame asked for, or the first one that is a drawing and flat, the key frame first. */
+static rg_status choose(reader *r)
+{
+    const size_t frames = rg_value_count(rg_value_get(r->root, "file_frames"));
+    const int32_t asked = r->s->file_frame;
+    if (asked > 0 && (size_t)asked > frames)
+        return rg_fail(RG_EFORMAT, r->why, 0, "file_frames: there is no frame %d, the last one is %zu", (int)asked, frames);
+    const int64_t from = asked >= 0 ? asked : 0, to = asked >= 0 ? asked : frames < MOST_FRAMES_TRIED ? (int64_t)frames : MOST_FRAMES_TRIED;
+    rg_diag first = {0, ""};
+    rg_status s = RG_OK, failed = RG_OK;
+    for (int64_t i = from; i <= to; i++) {
+        forget(r);
+        s = resolve(r, i);
+        if (s == RG_OK && (asked >= 0 || has_drawing(r) || from == to)) s = read_frame(r);
+        else if (s == RG_OK) s = bad(r, "no vertices_coords, or no edges_vertices and no faces_vertices");
+        if (s == RG_OK || s == RG_ENOMEM || (!r->is_folded && r->frame && has_drawing(r))) return s;
+        if (failed == RG_OK && r->why) first = *r->why;
+        failed = s;
+    }
+    if (r->why) *r->why = first;
+    return failed;
+}
+
+rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, const rg_settings *settings, int keep, rg_lines *out,
+                       rg_diag *why)
+{
+    rg_value *root = NULL;
+    rg_lines_init(out, mem);
+    rg_status s = size ? rg_value_parse(bytes, size, &root, why) : rg_fail(RG_EFORMAT, why, 0, "the file is empty");
+    if (s == RG_OK && rg_value_kind(root) != RG_KIND_OBJECT) s = rg_fail(RG_EFORMAT, why, 1, "JSON, but no FOLD: it is no object");
+    reader r = {.out = out, .why = why, .s = settings, .root = root};
+    if (s == RG_OK) s = choose(&r);
+    if (s == RG_OK && keep) {
+        out->vertex = r.E;
+        out->frame = r.frame;
+        r.E = NULL;
+        r.frame = NULL;
+    }
+    forget(&r);
+    rg_value_free(root);
+    if (s != RG_OK) rg_lines_free(out);
+    return s;
+}
