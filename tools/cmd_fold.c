@@ -138,7 +138,7 @@ static int write_all(const options *o, const rg_motion *m, progress *bar)
     if (!o->report) return status;
     why = (rg_diag){0, ""};
     s = rg_report_write(m, progress_seconds() - from, peak_bytes(), o->report, &why);
-    if (s != RG_OK) say_status(s, o->report, &why), status = ENDS_UNWRITTEN;
+    if (s != RG_OK) say_status(s, NULL, &why), status = ENDS_UNWRITTEN;
     return status;
 }
 

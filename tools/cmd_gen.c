@@ -27,5 +27,5 @@ int cmd_gen(const options *o)
         return ENDS_USAGE;
     }
     rg_status s = rg_generate(o->operand[0], n, m, o->angle, o->output[0], &why);
-    return s == RG_OK ? ENDS_WELL : say_status(s, s == RG_EARG ? "gen" : o->output[0], &why);
+    return s == RG_OK ? ENDS_WELL : say_status(s, s == RG_EARG ? "gen" : NULL, &why);
 }

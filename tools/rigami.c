@@ -95,6 +95,6 @@ int main(int argc, char **argv)
     const int status = dispatch(argc, argv);
     errno = 0;
     if (fflush(stdout) == 0 && !ferror(stdout)) return status;
-    say("standard output: %s", errno ? strerror(errno) : "not written");
+    if (status != ENDS_UNWRITTEN) say("standard output: %s", errno ? strerror(errno) : "not written");
     return ENDS_UNWRITTEN;
 }
