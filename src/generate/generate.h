@@ -1,0 +1,12 @@
+/* generate.h -- example patterns, as line segments.
+ * Uses  kinds.h save/opx.h        Used by  tests */
+#ifndef RG_GENERATE_H
+#define RG_GENERATE_H
+
+#include "read/lines.h"
+
+/* What rg_generate writes. *out is initialised here, and left freed on failure; its title says what it is. */
+rg_status rg_generate_lines(const char *kind, int32_t n, int32_t m, double angle, const rg_memory *mem, rg_lines *out,
+                            rg_diag *why);
+
+#endif

@@ -1,0 +1,14 @@
+/* opx.h -- line segments to ORIPA's .opx, as Java 8 encodes its bean.
+ * Paper    section 4 ("crease pattern data is given in ORIPA format")        Uses  libxml2        Used by  generate */
+#ifndef RG_SAVE_OPX_H
+#define RG_SAVE_OPX_H
+
+#include "read/lines.h"
+
+/* Writes the file whole or not at all; "-" is standard output. Every coordinate reads back as the same double; y points
+ * down in the file. The format has no place for fold angles: targets are lost. Unassigned lines make it a file of main
+ * version 2, which an ORIPA older than 2023 refuses. RG_EARG: a coordinate is not a finite number; RG_EWRITE, RG_ENOMEM:
+ * why->text. */
+rg_status rg_opx_write(const rg_lines *l, const char *path, rg_diag *why);
+
+#endif
