@@ -7,7 +7,6 @@
 #include <cmocka.h>
 
 #include "linalg/cg.h"
-#include "linalg/cholesky.h"
 #include "linalg/jacobi.h"
 #include "near.h"
 
@@ -253,30 +252,6 @@ static void the_reason_has_a_name(void **state)
     rg_sparse_free(&s.C);
 }
 
-static void cholesky_is_nearly_the_inverse(void **state)
-{
-    (void)state;
-    if (!rg_cholesky_built()) {
-        print_message("SKIPPED: built with GPL=0, no CHOLMOD\n");
-        skip();
-    }
-    rg_memory mem = rg_mem_default(NULL);
-    strip s;
-    strip_init(&s, 30, 4, 3);
-    rg_cholesky L;
-    double y[90], Cty[200], b[90], z[90];
-    unsigned seed = 5;
-    for (int i = 0; i < 90; i++) y[i] = noise(&seed);
-    rg_sparse_mul_t(&s.C, y, Cty);
-    rg_sparse_mul(&s.C, Cty, b);
-    assert_int_equal(rg_cholesky_init(&L, &mem, &s.C), RG_OK);
-    assert_int_equal(rg_cholesky_update(&L, &s.C), RG_OK);
-    rg_cholesky_apply(&L, b, z);
-    for (int i = 0; i < 90; i++) near(z[i], y[i], 1e-7);
-    rg_cholesky_free(&L);
-    rg_sparse_free(&s.C);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -288,7 +263,6 @@ int main(void)
         cmocka_unit_test(singular_between_vertices),
         cmocka_unit_test(warm_start_costs_less_and_says_the_same),
         cmocka_unit_test(the_reason_has_a_name),
-        cmocka_unit_test(cholesky_is_nearly_the_inverse),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

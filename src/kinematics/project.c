@@ -8,6 +8,8 @@ static const int32_t ITERATIONS_PER_CREASE = 4;
 static const int32_t ITERATIONS_AT_LEAST = 2000;
 /* Above this many creases a sparse factorisation beats the iteration (it is even between 176 and 736). */
 static const int32_t CHOLESKY_FROM = 400;
+/* A factor of the same numbers takes a few iterations, one of others soon more than a new one would cost. */
+static const int32_t DIRECT_ITERATIONS = 200, STALE_ITERATIONS = 12;
 
 rg_status rg_project_init(rg_project *P, const rg_memory *mem, const rg_constraint *K, rg_solver solver)
 {
@@ -18,12 +20,15 @@ rg_status rg_project_init(rg_project *P, const rg_memory *mem, const rg_constrai
     P->solver = solver;
     rg_status s = rg_jacobi_init(&P->jacobi, mem, M);
     if (s == RG_OK) s = rg_cg_work_init(&P->cg, mem, M, N);
-    if (s == RG_OK && solver == RG_SOLVER_CHOLESKY) s = rg_cholesky_init(&P->cholesky, mem, &K->C);
+    if (s == RG_OK) s = rg_scale_init(&P->scale, mem, &K->C);
+    if (s == RG_OK && solver == RG_SOLVER_CHOLESKY) s = rg_cholesky_init(&P->cholesky, mem, &K->C, RG_SHAPE_AUTO);
     if (s == RG_OK && solver == RG_SOLVER_SVD) s = rg_pinv_init(&P->pinv, mem, M, N);
     P->b = rg_mem_array(mem, 3 * (size_t)M, sizeof *P->b);
     P->y = rg_mem_array(mem, 3 * (size_t)M, sizeof *P->y);
     P->x = rg_mem_array(mem, (size_t)N, sizeof *P->x);
-    if (s == RG_OK && (!P->b || !P->y || !P->x)) s = RG_ENOMEM;
+    P->q = rg_mem_array(mem, (size_t)N, sizeof *P->q);
+    P->t = rg_mem_array(mem, (size_t)N, sizeof *P->t);
+    if (s == RG_OK && (!P->b || !P->y || !P->x || !P->q || !P->t)) s = RG_ENOMEM;
     if (s != RG_OK) rg_project_free(P);
     return s;
 }
@@ -36,53 +41,166 @@ void rg_project_free(rg_project *P)
     rg_cholesky_free(&P->cholesky);
     rg_pinv_free(&P->pinv);
     rg_cg_work_free(&P->cg);
+    rg_scale_free(&P->scale);
     rg_mem_free(&mem, P->b);
     rg_mem_free(&mem, P->y);
     rg_mem_free(&mem, P->x);
+    rg_mem_free(&mem, P->q);
+    rg_mem_free(&mem, P->t);
     memset(P, 0, sizeof *P);
 }
 
 void rg_project_renew(rg_project *P)
 {
-    P->fresh = 0;
+    P->fresh = P->factored = P->stale = 0;
 }
 
-static rg_status renew(rg_project *P, const rg_constraint *K, const double *hold)
+void rg_project_renew_near(rg_project *P)
+{
+    P->fresh = 0;
+    P->stale = P->factored;
+}
+
+static double dot(int32_t n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < n; i++) sum += a[i] * b[i];
+    return sum;
+}
+
+/* z = G r, kept to what `held` leaves: with q = Z n the step orthogonal to n that solves best is G r - q (n . G r) / (n . q). */
+static void pinv_held(void *project, const double *r, double *z)
+{
+    rg_project *P = project;
+    const int32_t N = P->scale.B.N;
+    rg_cholesky_pinv(&P->cholesky, &P->scale.B, r, z);
+    if (!P->held) return;
+    double c = dot(N, P->held, z) / P->q_along;
+    for (int32_t i = 0; i < N; i++) z[i] -= c * P->q[i];
+}
+
+static void hold_on(rg_project *P, const double *hold)
+{
+    P->held = hold;
+    if (!hold || P->q_of == hold) return;
+    rg_cholesky_null(&P->cholesky, &P->scale.B, hold, P->q);
+    P->q_along = dot(P->scale.B.N, hold, P->q);
+    P->q_of = hold;
+}
+
+static rg_status factor(rg_project *P, const double *hold)
+{
+    rg_status s = P->solver == RG_SOLVER_SVD ? rg_pinv_update(&P->pinv, &P->scale.B, hold)
+                                             : rg_cholesky_update(&P->cholesky, &P->scale.B);
+    P->factorizations++;
+    P->factored = s == RG_OK;
+    P->stale = 0;
+    P->q_of = NULL;
+    P->held = P->solver == RG_SOLVER_SVD ? hold : NULL;
+    return s;
+}
+
+static rg_status prepare(rg_project *P, const rg_constraint *K, const double *hold)
 {
     rg_status s = RG_OK;
-    if (P->fresh && (P->solver != RG_SOLVER_SVD || P->held == hold)) return s;
-    P->held = hold;
-    if (P->solver == RG_SOLVER_SVD) s = rg_pinv_update(&P->pinv, &K->C, hold);
-    else rg_jacobi_update(&P->jacobi, &K->C);
-    if (P->solver == RG_SOLVER_CHOLESKY) s = rg_cholesky_update(&P->cholesky, &K->C);
-    if (P->solver != RG_SOLVER_CG) P->factorizations++;
-    P->fresh = s == RG_OK;
+    if (!P->fresh && P->solver == RG_SOLVER_CG) rg_jacobi_update(&P->jacobi, &K->C);
+    else if (!P->fresh) rg_scale_update(&P->scale, &K->C);
+    P->fresh = 1;
+    if (P->solver == RG_SOLVER_CG) return s;
+    if (!P->factored || (P->solver == RG_SOLVER_SVD && (P->stale || P->held != hold))) s = factor(P, hold);
+    if (s == RG_OK && P->solver == RG_SOLVER_CHOLESKY && P->held != hold) hold_on(P, hold);
+    return s;
+}
+
+/* x = B^+ b, orthogonal to hold. */
+static rg_status solve_direct(rg_project *P, const double *hold, const double *b, double *x, double relative,
+                              double absolute, rg_cg_report *rep)
+{
+    const int32_t N = P->scale.B.N;
+    memset(x, 0, (size_t)N * sizeof *x);
+    rg_cg_refine(&P->scale.B, pinv_held, P, b, x, relative, absolute, P->stale ? STALE_ITERATIONS : DIRECT_ITERATIONS,
+                 &P->cg, rep);
+    P->iterations += rep->iterations;
+    if (!P->stale || rep->stop == RG_CG_CONVERGED) return RG_OK;
+    rg_status s = factor(P, hold);
+    if (s != RG_OK) return s;
+    hold_on(P, hold);
+    memset(x, 0, (size_t)N * sizeof *x);
+    rg_cg_refine(&P->scale.B, pinv_held, P, b, x, relative, absolute, DIRECT_ITERATIONS, &P->cg, rep);
+    P->iterations += rep->iterations;
+    return RG_OK;
+}
+
+/* x = C^+ b, orthogonal to hold, with b in P->b and y in P->y. */
+static rg_status solve_any(rg_project *P, const rg_constraint *K, const double *hold, double *x, double relative,
+                           double absolute, rg_cg_report *rep)
+{
+    if (P->solver == RG_SOLVER_CG) {
+        int32_t N = K->C.N, most = ITERATIONS_PER_CREASE * N > ITERATIONS_AT_LEAST ? ITERATIONS_PER_CREASE * N : ITERATIONS_AT_LEAST;
+        rg_cg_solve(&K->C, rg_jacobi_apply, &P->jacobi, hold, P->b, P->y, x, relative, most, &P->cg, rep); /* eq. (15) */
+        P->iterations += rep->iterations;
+        return RG_OK;
+    }
+    rg_scale_rows(&P->scale, P->b);
+    if (P->solver == RG_SOLVER_CHOLESKY) return solve_direct(P, hold, P->b, x, relative, absolute, rep);
+    rg_pinv_apply(&P->pinv, P->b, x, P->y);
+    rg_scale_rows_t(&P->scale, P->y);
+    *rep = (rg_cg_report){RG_CG_CONVERGED, 0, 0, 0};
+    return RG_OK;
+}
+
+/* What the sheet can do is read off by Z, but rounding in it is amplified: by some 1e-16 / beta of the result. So Z is
+ * used twice, or on what a guess leaves, which makes that 1e-16 / beta of very little. What Z lets through of the rest,
+ * slow modes, B then finds and takes out. */
+static rg_status tangent(rg_project *P, const rg_constraint *K, const double *wish, double *t, int guessed, double tol,
+                         rg_cg_report *rep)
+{
+    const int32_t N = K->C.N;
+    if (!guessed) rg_cholesky_null(&P->cholesky, &P->scale.B, wish, t);
+    for (int32_t i = 0; i < N; i++) P->x[i] = wish[i] - t[i];
+    rg_cholesky_null(&P->cholesky, &P->scale.B, P->x, P->x);
+    for (int32_t i = 0; i < N; i++) t[i] += P->x[i];
+    rg_sparse_mul(&P->scale.B, t, P->b);
+    rg_status s = solve_direct(P, NULL, P->b, P->x, 0, tol * sqrt(dot(N, wish, wish)), rep);
+    for (int32_t i = 0; i < N; i++) t[i] -= P->x[i]; /* (I - C^+ C) wish                  eq. (9) */
+    return s;
+}
+
+static rg_status step(rg_project *P, const rg_constraint *K, const double *drho0, int feed, const double *hold,
+                      double *drho, double tol, rg_cg_report *rep)
+{
+    const int32_t M = K->C.M, N = K->C.N;
+    if (drho0) rg_sparse_mul(&K->C, drho0, P->b);
+    else memset(P->b, 0, 3 * (size_t)M * sizeof *P->b);
+    if (feed)
+        for (int32_t i = 0; i < 3 * M; i++) P->b[i] += K->r[i]; /* b = r + C drho0              eq. (14) */
+    rg_status s = solve_any(P, K, hold, P->x, tol, 0, rep);      /* x = C^+ b                             */
+    for (int32_t i = 0; i < N; i++) drho[i] = (drho0 ? drho0[i] : 0) - P->x[i]; /* drho0 - C^+ (r + C drho0)   eqs. (9), (15) */
     return s;
 }
 
 rg_status rg_project_step(rg_project *P, const rg_constraint *K, const double *drho0, int feed,
                           const double *hold, double *drho, double tol, rg_cg_report *rep)
 {
-    const int32_t M = K->C.M, N = K->C.N;
-    rg_status s = renew(P, K, hold);
+    rg_status s = prepare(P, K, hold);
     if (s != RG_OK) return s;
-
-    if (drho0) rg_sparse_mul(&K->C, drho0, P->b);
-    else memset(P->b, 0, 3 * (size_t)M * sizeof *P->b);
-    if (feed)
-        for (int32_t i = 0; i < 3 * M; i++) P->b[i] += K->r[i]; /* b = r + C drho0              eq. (14) */
-
-    if (P->solver == RG_SOLVER_SVD) {
-        rg_pinv_apply(&P->pinv, P->b, P->x, P->y);
-        *rep = (rg_cg_report){RG_CG_CONVERGED, 0, 0, 0};
-    } else {
-        int32_t most = ITERATIONS_PER_CREASE * N > ITERATIONS_AT_LEAST ? ITERATIONS_PER_CREASE * N : ITERATIONS_AT_LEAST;
-        int direct = P->solver == RG_SOLVER_CHOLESKY;
-        rg_cg_solve(&K->C, direct ? rg_cholesky_apply : rg_jacobi_apply, direct ? (const void *)&P->cholesky : &P->jacobi,
-                    hold, P->b, P->y, P->x, tol, most, &P->cg, rep); /* y = (C C^T) \ b, x = C^T y          eq. (15) */
-    }
-    for (int32_t i = 0; i < N; i++) drho[i] = (drho0 ? drho0[i] : 0) - P->x[i]; /* drho0 - C^+ (r + C drho0)   eqs. (9), (15) */
     P->solves++;
-    P->iterations += rep->iterations;
+    if (P->solver != RG_SOLVER_CHOLESKY || feed || hold || !drho0) return step(P, K, drho0, feed, hold, drho, tol, rep);
+    s = tangent(P, K, drho0, P->t, 0, tol, rep);
+    if (s != RG_OK) return s;
+    for (int32_t i = 0; i < K->C.N; i++) P->x[i] = drho0[i] - P->t[i];
+    memcpy(drho, P->t, (size_t)K->C.N * sizeof *drho);
+    rg_cholesky_reaction(&P->cholesky, &P->scale.B, P->x, P->y);
+    rg_scale_rows_t(&P->scale, P->y);
     return RG_OK;
+}
+
+rg_status rg_project_tangent(rg_project *P, const rg_constraint *K, const double *wish, double *t, int guessed,
+                             double tol, rg_cg_report *rep)
+{
+    rg_status s = prepare(P, K, NULL);
+    if (s != RG_OK) return s;
+    P->solves++;
+    if (P->solver == RG_SOLVER_CHOLESKY) return tangent(P, K, wish, t, guessed, tol, rep);
+    return step(P, K, wish, 0, NULL, t, tol, rep);
 }

@@ -8,17 +8,24 @@
 #include "linalg/cholesky.h"
 #include "linalg/jacobi.h"
 #include "linalg/rank.h"
+#include "linalg/scale.h"
 
 typedef struct rg_project {
     rg_memory mem;
     rg_solver solver; /* CG, CHOLESKY or SVD: never AUTO */
     rg_jacobi jacobi;
+    rg_scale scale;   /* B = S C: what the direct solvers solve with */
     rg_cholesky cholesky;
     rg_pinv pinv;
     rg_cg_work cg;
     double *b, *y, *x; /* [3M] [3M] [N] */
-    int fresh;         /* the preconditioner belongs to the present numbers of C */
-    const double *held; /* and, dense, to this hold */
+    double *t, *q;     /* [N] [N] q = Z n for the n that is held */
+    double q_along;    /* n . q */
+    const double *q_of; /* that n, NULL: q is not made yet */
+    int fresh;         /* B and the preconditioner belong to the present numbers of C */
+    int factored;      /* the factor belongs to them, or to numbers near them */
+    int stale;         /* to numbers near them */
+    const double *held; /* the n that steps keep to, or, dense, that the pseudo-inverse is made for */
     int64_t solves, iterations, factorizations;
 } rg_project;
 
@@ -28,6 +35,8 @@ void rg_project_free(rg_project *P);
 
 /* Tells that C has new numbers. */
 void rg_project_renew(rg_project *P);
+/* The same, and that they are so near to those factored last that the factor will do; should it not, it is made anew. */
+void rg_project_renew_near(rg_project *P);
 
 /* drho = drho0 - C^T y   where   (C C^T) y = r + C drho0                                               eq. (15)
  *   drho0[N]  in   wished step, radians; NULL: none, so that only the residual is worked off
@@ -35,10 +44,18 @@ void rg_project_renew(rg_project *P);
  *   hold[N]   in   unit vector: C^T y is kept orthogonal to it, so that the component of drho0 along it is obeyed to
  *                  the letter; NULL: none
  *   drho[N]   out  allowed step, radians; may be drho0
- *   tol       in   of the linear solve, relative to r + C drho0
- * P->y afterwards holds y: how hard each vertex resists. Allocates nothing.
+ *   tol       in   of the linear solve, relative to the first answer it finds
+ * P->y afterwards holds y, how hard each vertex resists, if feed is zero and hold NULL. Allocates nothing.
  * RG_OK, also when the solver ran out of iterations (read rep->stop). */
 rg_status rg_project_step(rg_project *P, const rg_constraint *K, const double *drho0, int feed,
                           const double *hold, double *drho, double tol, rg_cg_report *rep);
+
+/* t = (I - C^+ C) wish                                                                                   eq. (9)
+ *   wish[N]  in   per unit of progress, radians
+ *   t[N]     in   a guess at the answer, which saves work and rounding if it is good; out  the answer
+ *   guessed  in   zero: t is not set
+ *   tol      in   relative to the wish */
+rg_status rg_project_tangent(rg_project *P, const rg_constraint *K, const double *wish, double *t, int guessed,
+                             double tol, rg_cg_report *rep);
 
 #endif

@@ -126,3 +126,49 @@ void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double 
     rep->b_norm = sqrt(dot(m, b, b));
     rep->residual = sqrt(dot(m, r, r));
 }
+
+/* So many steps in a row none of which is shorter than half the shortest before: that is rounding. */
+static const int32_t STALLED = 6;
+/* A step this much shorter than the first, against a residual that is out of reach, may have lost its direction. */
+static const double ROUNDED = 1e-8;
+
+void rg_cg_refine(const rg_sparse *B, rg_apply_pinv *G, void *ctx, const double *b, double *x, double relative,
+                  double absolute, int32_t max_iterations, rg_cg_work *k, rg_cg_report *rep)
+{
+    const int32_t m = 3 * B->M, n = B->N;
+    double *r = k->r, *w = k->w, *u = k->u, *z = k->s, *p = k->p;
+    double gamma = 0, shortest = INFINITY, first = 0, target = absolute;
+    int32_t since = 0;
+
+    residual(B, b, x, r);
+    rep->stop = RG_CG_MAX_ITERATIONS;
+    for (rep->iterations = 0;; rep->iterations++) {
+        G(ctx, r, z);
+        double length = sqrt(dot(n, z, z)), old = gamma;
+        if (rep->iterations == 0) first = length, target = fmax(absolute, relative * length);
+        if (length <= 0.5 * shortest) shortest = length, since = 0;
+        else since++;
+        if (length <= target || since >= STALLED) {
+            if (length <= target)
+                for (int32_t i = 0; i < n; i++) x[i] += z[i];
+            rep->stop = length <= target ? RG_CG_CONVERGED : RG_CG_LEAST_SQUARES;
+            break;
+        }
+        if (rep->iterations >= max_iterations) break;
+        rg_sparse_mul(B, z, u);
+        gamma = dot(m, r, u);
+        double beta = rep->iterations ? gamma / old : 0;
+        for (int32_t i = 0; i < n; i++) p[i] = z[i] + beta * p[i];
+        for (int32_t i = 0; i < m; i++) w[i] = u[i] + beta * w[i]; /* w = B p */
+        double curvature = dot(m, w, w), alpha = gamma / curvature;
+        if (!(curvature > 0 && gamma > 0)) { /* rounding, if the steps have become short */
+            rep->stop = length <= ROUNDED * first ? RG_CG_LEAST_SQUARES : RG_CG_BREAKDOWN;
+            break;
+        }
+        for (int32_t i = 0; i < n; i++) x[i] += alpha * p[i];
+        for (int32_t i = 0; i < m; i++) r[i] -= alpha * w[i];
+    }
+    residual(B, b, x, r);
+    rep->b_norm = sqrt(dot(m, b, b));
+    rep->residual = sqrt(dot(m, r, r));
+}

@@ -49,4 +49,18 @@ typedef void rg_apply(const void *ctx, const double *in, double *out);
 void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double *hold, const double *b, double *y,
                  double *x, double tol, int32_t max_iterations, rg_cg_work *w, rg_cg_report *rep);
 
+/* z[N] = G r, r[3M] */
+typedef void rg_apply_pinv(void *ctx, const double *r, double *z);
+
+/* Least squares again, min ||b - B x|| from a G that is nearly the pseudo-inverse of B: G = A B^T with A symmetric,
+ * positive. G r is the step that would end it; conjugate directions take care of the modes for which that is not true.
+ * It stops on the length of that step, in radians, not on a residual: where a sheet is over-constrained some of the
+ * residual, as small as rounding, is out of reach, and whoever chases it freezes the sheet.
+ *   x[N]      in  where to start, out  the solution: x and the start differ in the range of A B^T
+ *   relative  stop at this part of the first step's length
+ *   absolute  stop at this length
+ * Allocates nothing. One work per thread. */
+void rg_cg_refine(const rg_sparse *B, rg_apply_pinv *G, void *ctx, const double *b, double *x, double relative,
+                  double absolute, int32_t max_iterations, rg_cg_work *w, rg_cg_report *rep);
+
 #endif

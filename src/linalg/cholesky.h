@@ -1,27 +1,47 @@
-/* cholesky.h -- a sparse factorisation of C C^T + beta I, as a preconditioner that is nearly exact.
+/* cholesky.h -- a sparse factorisation, and with it a pseudo-inverse of B that is nearly exact.
  * Paper    the backslash of eq. (15)        Uses  sparse.h, CHOLMOD        Used by  project.c
  *
- * C C^T is singular flat, folded flat and on every quad mesh, so it is factored with a small beta on the diagonal, and
- * cg.c, with this as its preconditioner, takes the two or three steps that undo the beta: the refinement and the care for
- * singular states are the iteration's, written once. */
+ * Flat, folded flat, and everywhere on a sheet with more constraints than creases, B B^T is singular; so is B^T B
+ * wherever the sheet can move. A small beta on the diagonal makes both regular, and both shapes give the same operators,
+ *
+ *     G = B^T (B B^T + beta I)^-1 = (B^T B + beta I)^-1 B^T          close to B^+
+ *     Z = I - G B = beta (B^T B + beta I)^-1                         close to I - B^+ B
+ *
+ * so the cheaper one is factored: columns, unless vertices of many creases fill them up. Modes of B below beta^(1/2), of
+ * which a smooth sheet has few, are left to the iteration in cg.h. */
 #ifndef RG_CHOLESKY_H
 #define RG_CHOLESKY_H
 
 #include "linalg/sparse.h"
 
+typedef enum rg_shape { RG_SHAPE_AUTO, RG_SHAPE_ROWS, RG_SHAPE_COLUMNS } rg_shape;
+
 typedef struct rg_cholesky {
     rg_memory mem;
-    void *state; /* CHOLMOD's, allocated by CHOLMOD; the order and the pattern of the factor are found once, in init */
+    rg_shape shape;             /* ROWS: of B B^T, 3M; COLUMNS: of B^T B, N */
+    int32_t n;                  /* its order */
+    double beta;                /* on the diagonal, at the last update */
+    double flops, entries;      /* of one factorisation, of the factor */
+    int64_t factorizations, triangular; /* how often it was factored, and solved with */
+    int32_t *order;             /* [n] place in the factor of each row */
+    int32_t *to;                /* where each product of two blocks goes among the numbers of the matrix */
+    double *x, *y;              /* [N] [3M] scratch */
+    void *state;                /* CHOLMOD's, allocated by CHOLMOD; order and pattern are found once, in init */
 } rg_cholesky;
 
 int rg_cholesky_built(void); /* non-zero: this build has it */
 
-/* RG_EABSENT in a build without CHOLMOD. C gives the pattern; it may change its numbers, not its place. */
-rg_status rg_cholesky_init(rg_cholesky *L, const rg_memory *mem, const rg_sparse *C);
+/* B gives the pattern; its numbers may change, its place may not. AUTO: the shape that costs less.
+ * RG_EABSENT in a build without CHOLMOD. */
+rg_status rg_cholesky_init(rg_cholesky *L, const rg_memory *mem, const rg_sparse *B, rg_shape shape);
 void rg_cholesky_free(rg_cholesky *L);
 /* Factors anew. RG_ENOMEM. */
-rg_status rg_cholesky_update(rg_cholesky *L, const rg_sparse *C);
-/* z = (C C^T + beta I) \ r, both [3M]; an rg_apply for cg.h. Not for two threads at once. */
-void rg_cholesky_apply(const void *L, const double *r, double *z);
+rg_status rg_cholesky_update(rg_cholesky *L, const rg_sparse *B);
+/* z[N] = G r, r[3M]. B: of the factorisation, or near it: then G is nearly the pseudo-inverse of that. */
+void rg_cholesky_pinv(rg_cholesky *L, const rg_sparse *B, const double *r, double *z);
+/* g[N] = Z v, v[N]; may be the same array. */
+void rg_cholesky_null(rg_cholesky *L, const rg_sparse *B, const double *v, double *g);
+/* y[3M], as short as may be, of B^T y = x where x[N] is in the range of B^T: what each row does to bring x about. */
+void rg_cholesky_reaction(rg_cholesky *L, const rg_sparse *B, const double *x, double *y);
 
 #endif

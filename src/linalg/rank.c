@@ -1,10 +1,14 @@
 #include "linalg/rank.h"
 
-#include <float.h>
 #include <string.h>
 
 #ifdef RG_GPL
 #include <gsl/gsl_linalg.h>
+
+/* An over-constrained sheet that is off its path by the closure tolerance has a singular value of that size where on the
+ * path it has a zero; taken for real it would freeze the sheet. The slowest real one of a sheet small enough to come here
+ * is above 1e-4. */
+static const double CUT = 1e-7;
 
 /* GSL's own allocations end the program when they fail, so it works in ours, through views. */
 typedef struct dense {
@@ -70,8 +74,7 @@ rg_status rg_pinv_update(rg_pinv *P, const rg_sparse *C, const double *hold)
     gsl_matrix_view X = gsl_matrix_view_array(d->x, d->small, d->small);
     gsl_vector_view S = gsl_vector_view_array(d->s, d->small), work = gsl_vector_view_array(d->work, d->small);
     gsl_linalg_SV_decomp_mod(&U.matrix, &X.matrix, &V.matrix, &S.vector, &work.vector);
-    /* numpy's and LAPACK's usual cut: what rounding alone can lift a zero to */
-    double cut = d->s[0] * DBL_EPSILON * (double)d->tall;
+    double cut = d->s[0] * CUT;
     P->rank = 0;
     for (size_t i = 0; i < d->small; i++)
         if (d->s[i] > cut) P->rank++;
