@@ -146,9 +146,11 @@ static void rows_columns_and_singular_values_agree(void **state)
                 rg_sparse_mul(&g.S.B, x[k], c); /* the normal equations, B^T (b - B x) = 0 */
                 for (int i = 0; i < 3 * g.C.M; i++) c[i] = b[i] - c[i];
                 rg_sparse_mul_t(&g.S.B, c, s);
-                below(length(g.C.N, s), 1e-11);
+                double off = k == 0 && !fits ? 1e-6 : 1e-11; /* by rows, what is out of reach is amplified by 1 / beta */
+                below(length(g.C.N, s), off);
                 if (fits) below(length(3 * g.C.M, c), 1e-11);
-                for (int i = 0; i < g.C.N; i++) near(x[k][i], x[2][i], 1e-8);
+                /* by columns, rounding along what can move is amplified likewise */
+                for (int i = 0; i < g.C.N; i++) near(x[k][i], x[2][i], 1e-5);
             }
             grid_free(&g);
         }

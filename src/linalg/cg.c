@@ -130,7 +130,7 @@ void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double 
 /* So many steps in a row none of which is shorter than half the shortest before: that is rounding. */
 static const int32_t STALLED = 6;
 /* A step this much shorter than the first, against a residual that is out of reach, may have lost its direction. */
-static const double ROUNDED = 1e-8;
+static const double ROUNDED = 1e-5;
 
 void rg_cg_refine(const rg_sparse *B, rg_apply_pinv *G, void *ctx, const double *b, double *x, double relative,
                   double absolute, int32_t max_iterations, rg_cg_work *k, rg_cg_report *rep)
