@@ -13,6 +13,29 @@ static void refuse(rg_pattern_info *info, const char *what, rg_vec2 at)
     snprintf(info->not_disk, sizeof info->not_disk, "%s at (%.6g, %.6g)", what, at.x, at.y);
 }
 
+/* Is x within the outer border of a piece? It is when a ray from it crosses that border an odd number of times. */
+static int encloses(const rg_graph *g, const rg_faces *f, int32_t piece, rg_vec2 x)
+{
+    int odd = 0;
+    int32_t h = f->first[piece];
+    do {
+        const rg_vec2 a = g->X[rg_tail(g->E, h)], b = g->X[rg_head(g->E, h)];
+        if ((a.y > x.y) != (b.y > x.y) && x.x < a.x + (x.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
+        h = f->next[h];
+    } while (h != f->first[piece]);
+    return odd;
+}
+
+static int has_border(const rg_graph *g, const rg_faces *f, int32_t piece)
+{
+    int32_t h = f->first[piece];
+    do {
+        if (g->E[h >> 1].assignment == RG_BORDER) return 1;
+        h = f->next[h];
+    } while (h != f->first[piece]);
+    return 0;
+}
+
 /* The outer border of each piece: its edges, its vertices. More than one piece, a vertex passed twice: not a disk. */
 static rg_status find_rim(const rg_graph *g, const rg_faces *f, unsigned char *rim, unsigned char *outer, rg_pattern_info *info)
 {
@@ -26,19 +49,23 @@ static rg_status find_rim(const rg_graph *g, const rg_faces *f, unsigned char *r
             other = k;
         }
     }
-    for (int32_t k = 0; k < f->count; k++) {
-        if (!(f->area[k] < 0)) continue;
-        int32_t h = f->first[k];
-        do {
-            const int32_t v = rg_tail(g->E, h);
-            if (rim[v]) refuse(info, "the border touches itself", g->X[v]);
-            rim[v] = 1;
-            if (outer[h >> 1]) refuse(info, "two parts hang together by one line only", g->X[v]);
-            outer[h >> 1] = 1;
-            h = f->next[h];
-        } while (h != f->first[k]);
-    }
-    if (other >= 0) refuse(info, "more than one piece of paper: another one", g->X[rg_tail(g->E, f->first[other])]);
+    for (int vertices = 0; vertices < 2; vertices++) /* a line passed twice also makes a vertex passed twice: it is told first */
+        for (int32_t k = 0; k < f->count; k++) {
+            if (!(f->area[k] < 0)) continue;
+            int32_t h = f->first[k];
+            do {
+                const int32_t v = rg_tail(g->E, h);
+                unsigned char *passed = vertices ? &rim[v] : &outer[h >> 1];
+                if (*passed) refuse(info, vertices ? "the border touches itself" : "two parts hang together by one line only", g->X[v]);
+                *passed = 1;
+                h = f->next[h];
+            } while (h != f->first[k]);
+        }
+    if (other < 0) return RG_OK;
+    const rg_vec2 at = g->X[rg_tail(g->E, f->first[other])];
+    refuse(info, !encloses(g, f, sheet, at) ? "more than one piece of paper: another one"
+                 : has_border(g, f, other) ? "a hole in the paper, with a corner"
+                                           : "lines that hang together with nothing else, one of them", at);
     return RG_OK;
 }
 
@@ -69,14 +96,22 @@ static rg_status check_inside(const rg_graph *g, const rg_faces *f, const unsign
 
 static int plain(char assignment) { return assignment == RG_UNASSIGNED; }
 
-/* May edges e and f, which meet at v only with each other, become one? Writes what it is then to *e. */
+/* How far v is off the line from e's far end to f's. */
+static double off_line(const rg_graph *g, int32_t v, const rg_edge *e, const rg_edge *f)
+{
+    const rg_vec2 a = g->X[e->v[e->v[0] == v]], b = g->X[f->v[f->v[0] == v]];
+    return fabs(rg_vec2_turn(a, b, g->X[v])) / rg_vec2_length(rg_vec2_sub(b, a));
+}
+
+/* May edges e and f, which meet at v only with each other, become one? Writes what it is then to *joined. `tol`: how far
+ * v may be off it. */
 static int join(const rg_graph *g, int32_t v, const rg_edge *e, const rg_edge *f, double tol, rg_edge *joined)
 {
     const rg_vec2 x = g->X[v], a = rg_vec2_sub(x, g->X[e->v[e->v[0] == v]]), b = rg_vec2_sub(g->X[f->v[f->v[0] == v]], x);
-    const double turn = rg_vec2_cross(a, b), span = rg_vec2_length((rg_vec2){a.x + b.x, a.y + b.y});
+    const double turn = rg_vec2_cross(a, b);
     if (e->assignment != f->assignment && !plain(e->assignment) && !plain(f->assignment)) return 0;
     if (e->assignment == f->assignment && !plain(e->assignment) && !(e->target == f->target) && e->assignment != RG_BORDER) return 0;
-    if (!(rg_vec2_dot(a, b) > 0) || !(fabs(turn) <= tol * span)) return 0;
+    if (!(rg_vec2_dot(a, b) > 0) || !(off_line(g, v, e, f) <= tol)) return 0;
     if (!(fabs(turn) <= sin(STRAIGHT) * rg_vec2_length(a) * rg_vec2_length(b))) return 0;
     *joined = plain(e->assignment) ? *f : *e;
     joined->v[0] = e->v[e->v[0] == v];
@@ -84,11 +119,14 @@ static int join(const rg_graph *g, int32_t v, const rg_edge *e, const rg_edge *f
     return 1;
 }
 
+/* swell[e]: at most how far what was dissolved before is off edge e. It adds up, so that the many vertices of an arc, each
+ * hardly off its neighbours' line, do not become one chord. */
 static rg_status dissolve(rg_graph *g, double tol)
 {
+    double *swell = rg_mem_array(&g->mem, (size_t)g->ne, sizeof *swell);
     int32_t *at = rg_mem_array(&g->mem, (size_t)g->nv, 2 * sizeof *at), *degree = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *degree);
     unsigned char *drop = rg_mem_array(&g->mem, (size_t)g->ne, 1);
-    rg_status s = at && degree && drop ? RG_OK : RG_ENOMEM;
+    rg_status s = at && degree && drop && swell ? RG_OK : RG_ENOMEM;
     for (int32_t e = 0; s == RG_OK && e < g->ne; e++)
         for (int i = 0; i < 2; i++) {
             const int32_t v = g->E[e].v[i];
@@ -99,7 +137,9 @@ static rg_status dissolve(rg_graph *g, double tol)
         if (degree[v] != 2 || at[2 * v] == at[2 * v + 1]) continue;
         const int32_t e = at[2 * v], f = at[2 * v + 1];
         rg_edge joined;
-        if (!join(g, v, &g->E[e], &g->E[f], tol, &joined) || joined.v[0] == joined.v[1]) continue;
+        const double before = fmax(swell[e], swell[f]);
+        if (!join(g, v, &g->E[e], &g->E[f], tol - before, &joined) || joined.v[0] == joined.v[1]) continue;
+        swell[e] = before + off_line(g, v, &g->E[e], &g->E[f]);
         g->E[e] = joined;
         drop[f] = 1;
         const int32_t w = joined.v[1];
@@ -110,6 +150,7 @@ static rg_status dissolve(rg_graph *g, double tol)
     rg_mem_free(&g->mem, at);
     rg_mem_free(&g->mem, degree);
     rg_mem_free(&g->mem, drop);
+    rg_mem_free(&g->mem, swell);
     return s;
 }
 
