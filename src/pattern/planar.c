@@ -331,9 +331,10 @@ static double wish(const rg_line *l)
     return l->assignment == RG_MOUNTAIN ? -RG_PI : l->assignment == RG_VALLEY ? RG_PI : NAN;
 }
 
+/* s NULL: every line is. */
 static int is_used(const rg_line *l, const rg_settings *s)
 {
-    return l->assignment != RG_CUT && (l->assignment != RG_FLAT || s->aux_creases);
+    return !s || (l->assignment != RG_CUT && (l->assignment != RG_FLAT || s->aux_creases));
 }
 
 /* Warns of a line without length; from the MOST_WARNINGS'th on they are only counted. */
@@ -344,10 +345,10 @@ static rg_status without_length(rg_lines *lines, int32_t where, rg_vec2 at, int 
 }
 
 /* The line's edge, unless it has no length; a vertex that was made for it goes with it. */
-static rg_status add_line(splitter *s, rg_lines *lines, const rg_line *l, int *told)
+static rg_status add_line(splitter *s, rg_lines *lines, const rg_line *l, char assignment, int *told)
 {
     const int32_t count = s->points.count;
-    rg_edge e = {{0, 0}, l->assignment == RG_FLAT ? RG_UNASSIGNED : l->assignment, wish(l), l->where};
+    rg_edge e = {{0, 0}, assignment, wish(l), l->where};
     rg_status status = rg_points_add(&s->points, l->a, &e.v[0]);
     if (status == RG_OK) status = rg_points_add(&s->points, l->b, &e.v[1]);
     if (status == RG_OK && e.v[0] == e.v[1]) {
@@ -382,8 +383,9 @@ static rg_status add_lines(splitter *s, rg_lines *lines, const rg_settings *sett
     rg_status status = RG_OK;
     for (int32_t i = 0; status == RG_OK && i < lines->count; i++) {
         const rg_line *l = &lines->line[i];
-        if (l->assignment == RG_CUT && !cuts++) first_cut = l->where;
-        if (is_used(l, settings)) status = add_line(s, lines, l, &told);
+        const char assignment = settings && l->assignment == RG_FLAT ? RG_UNASSIGNED : l->assignment;
+        if (settings && l->assignment == RG_CUT && !cuts++) first_cut = l->where;
+        if (is_used(l, settings)) status = add_line(s, lines, l, assignment, &told);
     }
     if (status == RG_OK) status = settle(s, lines, &told);
     if (status == RG_OK && told > MOST_WARNINGS)
@@ -409,7 +411,8 @@ static rg_status planarise(splitter *s, rg_lines *lines, rg_vec2 low, rg_vec2 hi
     return status;
 }
 
-rg_status rg_planar_from_lines(rg_lines *lines, const rg_settings *settings, rg_graph *g, rg_diag *why)
+/* settings NULL: of every line, loose ends too. */
+static rg_status graph(rg_lines *lines, const rg_settings *settings, double merge, rg_graph *g, rg_diag *why)
 {
     memset(g, 0, sizeof *g);
     g->mem = lines->mem;
@@ -426,7 +429,7 @@ rg_status rg_planar_from_lines(rg_lines *lines, const rg_settings *settings, rg_
     if (g->size < 1e-100) return rg_fail(RG_EFORMAT, why, 0, "the whole drawing is smaller than 1e-100: too small to compute with");
 
     splitter s = {.mem = g->mem};
-    rg_status status = rg_points_init(&s.points, &s.mem, low, g->size, settings->merge * g->size);
+    rg_status status = rg_points_init(&s.points, &s.mem, low, g->size, merge * g->size);
     if (status == RG_OK) status = add_lines(&s, lines, settings);
     if (status == RG_OK) status = planarise(&s, lines, low, high, why);
     if (status == RG_OK) {
@@ -437,7 +440,7 @@ rg_status rg_planar_from_lines(rg_lines *lines, const rg_settings *settings, rg_
         g->merged_max = s.points.merged_max;
         s.points.X = NULL;
         s.E = NULL;
-        status = drop_loose_ends(g, lines);
+        if (settings) status = drop_loose_ends(g, lines);
     }
     rg_points_free(&s.points);
     rg_mem_free(&s.mem, s.E);
@@ -445,6 +448,16 @@ rg_status rg_planar_from_lines(rg_lines *lines, const rg_settings *settings, rg_
     rg_mem_free(&s.mem, s.start);
     rg_mem_free(&s.mem, s.in);
     return status;
+}
+
+rg_status rg_planar_from_lines(rg_lines *lines, const rg_settings *s, rg_graph *g, rg_diag *why)
+{
+    return graph(lines, s, s->merge, g, why);
+}
+
+rg_status rg_planar_from_all_lines(rg_lines *lines, double merge, rg_graph *g, rg_diag *why)
+{
+    return graph(lines, NULL, merge, g, why);
 }
 
 void rg_graph_free(rg_graph *g)

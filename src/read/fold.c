@@ -502,6 +502,8 @@ rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, con
     reader r = {.out = out, .why = why, .s = settings, .root = root};
     if (s == RG_OK) s = choose(&r);
     if (s == RG_OK && keep) {
+        const char *const own[] = {"file_frames", "frame_parent", "frame_inherit"}; /* of a frame that is one of others */
+        for (int i = 0; r.number > 0 && i < 3; i++) rg_value_drop(r.frame, own[i]);
         out->vertex = r.E;
         out->frame = r.frame;
         r.E = NULL;

@@ -25,7 +25,7 @@ typedef struct reader {
     rg_lines *out;
     rg_diag *why;
     rg_css css;
-    int targets, told_colour, told_use;
+    int targets, told_colour, told_use, told_ring;
 } reader;
 
 static rg_status fail(const reader *r, const rg_xml_node *n, const char *what, const char *detail)
@@ -285,6 +285,15 @@ static rg_status path(reader *r, const rg_xml_node *n, const paint *p)
 
 /* ------------------------------------------------------------------------------------------------ document ---- */
 
+/* Rings mark vertices in many drawings. A border, though, is the paper's. */
+static rg_status ring(reader *r, const rg_xml_node *n, const paint *p)
+{
+    const char *name = rg_xml_name(n);
+    if (p->known && rg_colour_assignment(p->stroke) == RG_BORDER)
+        return rg_fail(RG_EFORMAT, r->why, rg_xml_line(n), "<%s>: a curve as border, where only straight lines are known", name);
+    return r->told_ring++ ? RG_OK : rg_lines_warn(r->out, rg_xml_line(n), "<%s> is left out, as all circles: a mark, no crease", name);
+}
+
 static rg_status shape(reader *r, const rg_xml_node *n, const paint *p)
 {
     const char *name = rg_xml_name(n);
@@ -296,8 +305,7 @@ static rg_status shape(reader *r, const rg_xml_node *n, const paint *p)
     if (is(name, "polyline")) return polyline(r, n, p, 0);
     if (is(name, "polygon")) return polyline(r, n, p, 1);
     if (is(name, "path")) return path(r, n, p);
-    if (is(name, "circle") || is(name, "ellipse"))
-        return rg_fail(RG_EFORMAT, r->why, rg_xml_line(n), "<%s>: a curve, where paper folds along straight lines only", name);
+    if (is(name, "circle") || is(name, "ellipse")) return ring(r, n, p);
     return RG_OK;
 }
 
