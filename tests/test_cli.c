@@ -685,10 +685,12 @@ static void bad_files_of_others_are_read_or_refused(void **state)
             if (malformed[i].facets && (v != malformed[i].vertices || e != malformed[i].edges || f != malformed[i].facets))
                 print_error("%s has V %d, E %d, F %d\n", name, v, e, f), bad++;
         }
+        /* What says what it left out may fold the rest. */
+        const int warned = strstr(run("info", path)->err, ": warning: ") != NULL;
         r = run("fold", "-q", "--effort", "fast", path);
         if (r->status == 2) says(r, begin, "");
         if (r->status > 2) print_error("fold %s ends with %d: %s\n", name, r->status, r->err), bad++;
-        if (!malformed[i].facets && r->status != 2) print_error("%s is folded\n", name), bad++;
+        if (!malformed[i].facets && !warned && r->status != 2) print_error("%s is folded\n", name), bad++;
     }
     assert_int_equal(bad, 0);
 }

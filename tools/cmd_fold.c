@@ -6,6 +6,7 @@
 #include "say.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -75,6 +76,9 @@ static int check(const options *o)
 
 /* --------------------------------------------------------------------------------------------- afterwards ---- */
 
+/* A coordinate as people write it: rounding is no place. */
+static double tidy(double x, double size) { return fabs(x) > 1e-9 * size ? x : 0; }
+
 static void say_short(const char *name, const rg_report *r)
 {
     char places[400] = "";
@@ -83,8 +87,8 @@ static void say_short(const char *name, const rg_report *r)
     say("%s: stopped at %.1f %% folded: %s", name, r->folded_percent, r->reason);
     if (interrupt_came()) return;
     for (int32_t i = 0; i < shown && n < sizeof places; i++)
-        n += (size_t)snprintf(places + n, sizeof places - n, "%s(%.6g, %.6g)", i ? ", " : "", r->blocking_at[i][0],
-                              r->blocking_at[i][1]);
+        n += (size_t)snprintf(places + n, sizeof places - n, "%s(%.6g, %.6g)", i ? ", " : "",
+                              tidy(r->blocking_at[i][0], r->pattern.size), tidy(r->blocking_at[i][1], r->pattern.size));
     if (shown < r->blocking_vertex_count && n < sizeof places)
         snprintf(places + n, sizeof places - n, " and %d more", (int)(r->blocking_vertex_count - shown));
     if (shown > 0) say("%s: what blocks: the %s at %s", name, r->blocking_vertex_count > 1 ? "vertices" : "vertex", places);

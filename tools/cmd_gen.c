@@ -5,12 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const int LARGEST = 100000;
+static const int LARGEST = 1000000; /* the library knows what each kind takes */
 
 static int size_of(const char *text, int32_t *n)
 {
     const size_t digits = strspn(text, "0123456789");
-    *n = digits > 0 && digits < 7 && text[digits] == 0 ? (int32_t)atol(text) : 0;
+    *n = digits > 0 && digits < 8 && text[digits] == 0 ? (int32_t)atol(text) : 0;
     if (*n >= 1 && *n <= LARGEST) return ENDS_WELL;
     say("gen: \"%s\" is not a size, a whole number from 1 to %d", text, LARGEST);
     return ENDS_USAGE;

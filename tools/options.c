@@ -72,7 +72,7 @@ static const rule rules[] = {
     {READS, "flip", 0, NULL, SWITCH, AT(settings.flip), 1, 0, 1, NULL,
      "the file's y runs the other way than is usual for its format"},
     {READS, "merge", 0, "TOL", REAL, AT(settings.merge), 0, 0.1, 1, NULL,
-     "ends nearer than this part of the sheet's size are one vertex (2e-5)"},
+     "ends nearer than this part of the sheet's size are one vertex (2e-5; .svg: 1e-3)"},
     {READS, "aux", 0, NULL, SWITCH, AT(settings.aux_creases), 1, 0, 1, NULL, "auxiliary lines are creases that may fold"},
     {FOR_FOLD, "size", 0, "WxH", SIZE, 0, 1, 16384, 1, NULL, "pictures: width and height in pixels (960x720)"},
     {FOR_FOLD, "camera", 0, "AZ,EL[,ZOOM]", CAMERA, 0, NOTHING,

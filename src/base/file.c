@@ -66,12 +66,20 @@ rg_status rg_file_begin(rg_file *f, const rg_memory *mem, const char *path, rg_d
     return s;
 }
 
+/* Where an earlier write failed, its reason is lost by now; one byte more fails for the same. The file is spoilt anyway. */
+static rg_status fail_again(rg_file *f, rg_diag *why, const char *path)
+{
+    if (errno == 0 && fputc('\n', f->stream) != EOF) fflush(f->stream);
+    if (errno != 0) return fail(why, path);
+    return rg_fail(RG_EWRITE, why, 0, "%s: not all of it could be written", path);
+}
+
 rg_status rg_file_commit(rg_file *f, rg_diag *why)
 {
     const char *path = f->path ? f->path : "standard output";
     rg_status s = RG_OK;
     errno = 0;
-    if (fflush(f->stream) != 0 || ferror(f->stream)) s = fail(why, path);
+    if (fflush(f->stream) != 0 || ferror(f->stream)) s = fail_again(f, why, path);
     if (f->stream != stdout && fclose(f->stream) != 0 && s == RG_OK) s = fail(why, path);
     f->stream = NULL;
     if (s == RG_OK && f->temporary) {
