@@ -163,6 +163,17 @@ RG_API int32_t rg_pattern_closed(const rg_pattern *p, const rg_closed **list);
 RG_API int32_t rg_pattern_unfoldable(const rg_pattern *p, const rg_unfoldable **list);
 RG_API int32_t rg_pattern_warnings(const rg_pattern *p, const rg_diag **list);
 
+/* Called with each warning: what was left out, what a format cannot hold. Lent for the call. */
+typedef void (*rg_warning)(void *ctx, const rg_diag *warning);
+
+/* One crease pattern file to another: every line and its assignment, titles, fold angles, as far as the format holds them; what
+ * it does not hold is told to `warn` (may be NULL). "-" is standard input and output. `to`: the format of `out`, AUTO: by its
+ * extension; .opx, .cp, .fold and .svg are written. Lines stay where they are to 1e-9 of the size, unless s->merge is other
+ * than the default. s: also memory, format, file_frame, flip, targets. RG_EREAD, RG_EFORMAT: of `in`; RG_EARG: no format that
+ * is written; RG_EWRITE: of `out`, which is written whole or not at all. */
+RG_API rg_status rg_convert(const char *in, const char *out, rg_format to, const rg_settings *s, rg_warning warn, void *ctx,
+                            rg_diag *why);
+
 /* -------------------------------------------------------------------------------------------- generate ---- */
 
 /* Writes an example crease pattern as .opx. `kind`: one of rg_generate_kinds(), a NULL-ended list of names. n, m: its

@@ -4,6 +4,7 @@
 #include "base/status.h"
 #include "base/utf8.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -49,27 +50,50 @@ static void property(writer *w, const char *name, const char *type, const char *
     close_element(w);
 }
 
+/* One line of the pattern. Lines are nearly all of a file and are nothing but numbers: put together here, they take a
+ * fraction of the time that element by element they would. */
+typedef struct entry {
+    char text[1024];
+    size_t n;
+} entry;
+
+static void add(entry *e, const char *s)
+{
+    const size_t n = strlen(s);
+    assert(e->n + n < sizeof e->text);
+    memcpy(e->text + e->n, s, n + 1);
+    e->n += n;
+}
+
+static void add_property(entry *e, const char *name, const char *opening, const char *value, const char *closing)
+{
+    const char *part[] = {"       <void property=\"", name, "\">\n        ", opening, value, closing, "\n       </void>\n"};
+    for (int i = 0; i < 7; i++) add(e, part[i]);
+}
+
 /* Java leaves out what has its default, +0.0; -0.0 is another value to it. */
-static void coordinate(writer *w, const char *name, double x)
+static void add_coordinate(entry *e, const char *name, double x)
 {
     if (x == 0 && !signbit(x)) return;
     char text[RG_NUMBER_ROOM];
     number(x, text);
-    property(w, name, "double", text);
+    add_property(e, name, "<double>", text, "</double>");
 }
 
-static void line(writer *w, const rg_line *l)
+static void line(writer *w, int32_t index, const rg_line *l)
 {
     static const char letters[] = "FBMVU....C"; /* by type code */
     const char *type = strchr(letters, l->assignment);
-    open_element(w, "object");
-    attribute(w, "class", "oripa.OriLineProxy");
-    if (type && type != letters) property(w, "type", "int", (char[]){(char)('0' + (type - letters)), 0});
-    coordinate(w, "x0", l->a.x);
-    coordinate(w, "x1", l->b.x);
-    coordinate(w, "y0", -l->a.y);
-    coordinate(w, "y1", -l->b.y);
-    close_element(w);
+    entry e;
+    e.n = (size_t)snprintf(e.text, sizeof e.text, "     <void index=\"%d\">\n      <object class=\"oripa.OriLineProxy\">\n",
+                           (int)index);
+    if (type && type != letters) add_property(&e, "type", "<int>", (char[]){(char)('0' + (type - letters)), 0}, "</int>");
+    add_coordinate(&e, "x0", l->a.x);
+    add_coordinate(&e, "x1", l->b.x);
+    add_coordinate(&e, "y0", -l->a.y);
+    add_coordinate(&e, "y1", -l->b.y);
+    add(&e, "      </object>\n     </void>\n");
+    check(w, xmlTextWriterWriteRawLen(w->xml, BAD_CAST e.text, (int)e.n));
 }
 
 static void open_field(writer *w, const char *name)
@@ -99,13 +123,9 @@ static void lines(writer *w, const rg_lines *l)
     attribute(w, "class", "oripa.OriLineProxy");
     snprintf(text, sizeof text, "%d", (int)l->count);
     attribute(w, "length", text);
-    for (int32_t i = 0; i < l->count; i++) {
-        open_element(w, "void");
-        snprintf(text, sizeof text, "%d", (int)i);
-        attribute(w, "index", text);
-        line(w, &l->line[i]);
-        close_element(w);
-    }
+    check(w, xmlTextWriterWriteRaw(w->xml, BAD_CAST "\n"));
+    for (int32_t i = 0; i < l->count; i++) line(w, i, &l->line[i]);
+    check(w, xmlTextWriterWriteRaw(w->xml, BAD_CAST "    "));
     close_element(w);
     close_field(w);
 }

@@ -1,0 +1,309 @@
+#include "base/memory.h"
+#include "base/status.h"
+#include "pattern/faces.h"
+#include "pattern/planar.h"
+#include "read/read.h"
+#include "save/cp.h"
+#include "save/fold.h"
+#include "save/opx.h"
+#include "save/svg.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Ends nearer than this part of the size are one vertex of a FOLD file, unless asked otherwise: whoever converts a file wants
+ * every line where it was, to the last digit that counts. */
+static const double MERGE = 5e-10;
+/* Faces that an other program listed are those found here if their areas add up to the same, but for rounding. */
+static const double SAME_AREA = 1e-9;
+
+/* --------------------------------------------------------------------------------------- what a format can't hold ---- */
+
+static rg_status lose(rg_lines *l, int32_t where, int32_t count, const char *format, const char *what)
+{
+    return count ? rg_lines_warn(l, where, "%s cannot hold %s (%d)", format, what, (int)count) : RG_OK;
+}
+
+static rg_status warn_of_losses(rg_lines *l, rg_format to, const char *name)
+{
+    int32_t unassigned = 0, cuts = 0, targets = 0, first[3] = {0, 0, 0};
+    for (int32_t i = 0; i < l->count; i++) {
+        const rg_line *q = &l->line[i];
+        if (q->assignment == RG_UNASSIGNED && !unassigned++) first[0] = q->where;
+        if (q->assignment == RG_CUT && !cuts++) first[1] = q->where;
+        if (isfinite(q->target) && !(to == RG_FORMAT_SVG && q->assignment != RG_UNASSIGNED) && !targets++) first[2] = q->where;
+    }
+    rg_status s = RG_OK;
+    if (to == RG_FORMAT_CP) s = lose(l, first[0], unassigned, name, "unassigned creases, they become auxiliary lines");
+    if (s == RG_OK && to != RG_FORMAT_OPX) s = lose(l, first[1], cuts, name, "cuts of the folded model, they become auxiliary lines");
+    if (s == RG_OK && to != RG_FORMAT_FOLD) s = lose(l, first[2], targets, name, "such fold angles");
+    const int texts = (l->title != NULL) + (l->author != NULL) + (l->memo != NULL), more = (l->editor != NULL) + (l->reference != NULL);
+    if (s == RG_OK && to == RG_FORMAT_CP) s = lose(l, 0, texts + more, name, "title, author and other texts");
+    if (s == RG_OK && to == RG_FORMAT_SVG) s = lose(l, 0, more, name, "editor and reference");
+    return s;
+}
+
+/* ------------------------------------------------------------------------------------------------------- faces ---- */
+
+typedef struct plane {
+    rg_graph g;
+    rg_star star;
+    rg_faces faces;
+    rg_fold_sheet sheet;
+    rg_vec2 *X;
+    int32_t *E, *face_start, *face_vertex, *face_edge;
+    char *letter;
+    double *angle, area;
+} plane;
+
+static void free_plane(plane *p, const rg_memory *mem)
+{
+    void *block[] = {p->X, p->E, p->face_start, p->face_vertex, p->face_edge, p->letter, p->angle};
+    for (int i = 0; i < 7; i++) rg_mem_free(mem, block[i]);
+    rg_graph_free(&p->g);
+    rg_star_free(&p->star);
+    rg_faces_free(&p->faces);
+    memset(p, 0, sizeof *p);
+}
+
+/* The half-edges of a cycle without those that it runs there and back again. `half` has room for all of them. */
+static int32_t without_spurs(const rg_faces *f, int32_t k, int32_t *half)
+{
+    int32_t n = 0, from = 0, h = f->first[k];
+    do {
+        if (n > 0 && half[n - 1] == (h ^ 1)) n--;
+        else half[n++] = h;
+        h = f->next[h];
+    } while (h != f->first[k]);
+    while (n - from >= 2 && half[from] == (half[n - 1] ^ 1)) from++, n--;
+    memmove(half, half + from, (size_t)(n - from) * sizeof *half);
+    return n - from;
+}
+
+static rg_status find_faces(plane *p, const rg_memory *mem)
+{
+    const int32_t ne = p->g.ne;
+    p->face_start = rg_mem_array(mem, (size_t)p->faces.count + 1, sizeof *p->face_start);
+    p->face_vertex = rg_mem_array(mem, 2 * (size_t)ne, sizeof *p->face_vertex);
+    p->face_edge = rg_mem_array(mem, 2 * (size_t)ne, sizeof *p->face_edge);
+    if (!p->face_start || !p->face_vertex || !p->face_edge) return RG_ENOMEM;
+    for (int32_t k = 0, at = 0; k < p->faces.count; k++) {
+        if (!(p->faces.area[k] > 0)) continue;
+        const int32_t n = without_spurs(&p->faces, k, p->face_edge + at);
+        if (n < 3) continue;
+        for (int32_t i = at; i < at + n; i++) {
+            p->face_vertex[i] = rg_tail(p->g.E, p->face_edge[i]);
+            p->face_edge[i] /= 2;
+        }
+        p->area += p->faces.area[k];
+        p->face_start[++p->sheet.nf] = at += n;
+    }
+    return RG_OK;
+}
+
+/* -------------------------------------------------------------------------------------------- letters and angles ---- */
+
+static rg_status letter_edges(plane *p, const rg_memory *mem)
+{
+    p->letter = rg_mem_array(mem, (size_t)p->g.ne, 1);
+    p->angle = rg_mem_array(mem, (size_t)p->g.ne, sizeof *p->angle);
+    if (!p->letter || !p->angle) return RG_ENOMEM;
+    for (int32_t e = 0; e < p->g.ne; e++) {
+        const rg_edge *edge = &p->g.E[e];
+        const char a = edge->assignment;
+        const int inside = p->faces.area[p->faces.face[2 * e]] > 0 && p->faces.area[p->faces.face[2 * e + 1]] > 0;
+        p->letter[e] = a == RG_CUT ? RG_FLAT : a == RG_BORDER && inside ? 'C' : a;
+        if (isfinite(edge->target) && a != RG_BORDER && a != RG_FLAT && a != RG_CUT) p->angle[e] = edge->target / RG_DEG;
+    }
+    return RG_OK;
+}
+
+/* ----------------------------------------------------------------------------------------- numbers of the old frame ---- */
+
+/* The number that each vertex had; 0: they were others. */
+static int old_numbers(const plane *p, const rg_lines *l, int32_t *old)
+{
+    if (!l->vertex || p->g.ne != l->count || rg_value_count(rg_value_get(l->frame, "vertices_coords")) != (size_t)p->g.nv) return 0;
+    for (int32_t v = 0; v < p->g.nv; v++) old[v] = -1;
+    for (int32_t e = 0; e < p->g.ne; e++)
+        for (int i = 0; i < 2; i++) {
+            int32_t *now = &old[p->g.E[e].v[i]];
+            if (*now >= 0 && *now != l->vertex[2 * e + i]) return 0;
+            *now = l->vertex[2 * e + i];
+        }
+    return 1;
+}
+
+/* Vertices in their old order where there is one. Lines that are all edges still are so in order. */
+static rg_status number(plane *p, const rg_lines *l)
+{
+    const rg_memory *mem = &l->mem;
+    p->X = rg_mem_array(mem, (size_t)p->g.nv, sizeof *p->X);
+    p->E = rg_mem_array(mem, (size_t)p->g.ne, 2 * sizeof *p->E);
+    int32_t *old = rg_mem_array(mem, (size_t)p->g.nv, sizeof *old);
+    unsigned char *taken = rg_mem_array(mem, (size_t)p->g.nv, 1);
+    rg_status s = p->X && p->E && old && taken ? RG_OK : RG_ENOMEM;
+    if (s == RG_OK) {
+        int same = old_numbers(p, l, old);
+        for (int32_t v = 0; same && v < p->g.nv; v++) same = !taken[old[v]]++;
+        for (int32_t v = 0; !same && v < p->g.nv; v++) old[v] = v;
+        for (int32_t v = 0; v < p->g.nv; v++) p->X[old[v]] = p->g.X[v];
+        for (int32_t i = 0; i < 2 * p->g.ne; i++) p->E[i] = old[p->g.E[i / 2].v[i % 2]];
+        for (int32_t i = 0; i < p->face_start[p->sheet.nf]; i++) p->face_vertex[i] = old[p->face_vertex[i]];
+        p->sheet.same_vertices = same;
+        p->sheet.same_edges = l->vertex && p->g.ne == l->count &&
+                              rg_value_count(rg_value_get(l->frame, "edges_vertices")) == (size_t)p->g.ne;
+    }
+    rg_mem_free(mem, old);
+    rg_mem_free(mem, taken);
+    return s;
+}
+
+typedef struct named { int32_t low, high, e; } named;
+
+static int by_ends(const void *a, const void *b)
+{
+    const named *p = a, *q = b;
+    return p->low != q->low ? (p->low < q->low ? -1 : 1) : p->high != q->high ? (p->high < q->high ? -1 : 1) : 0;
+}
+
+/* The old frame's list of faces to vertex[] and edge[]; 0: it is not a list of the faces found here. */
+static int old_faces(const plane *p, const rg_value *list, const named *name, int32_t *start, int32_t *vertex, int32_t *edge)
+{
+    double sum = 0;
+    for (int32_t f = 0, at = 0; f < p->sheet.nf; f++) {
+        const rg_value *face = rg_value_at(list, (size_t)f);
+        const size_t n = rg_value_count(face);
+        double twice = 0;
+        if (n < 3 || (size_t)at + n > 2 * (size_t)p->g.ne) return 0;
+        for (size_t k = 0; k < n; k++) {
+            int64_t v = -1;
+            rg_value_integer(rg_value_at(face, k), &v);
+            vertex[(size_t)at + k] = (int32_t)v;
+        }
+        for (size_t k = 0; k < n; k++) {
+            const int32_t a = vertex[(size_t)at + k], b = vertex[(size_t)at + (k + 1) % n];
+            const named key = {a < b ? a : b, a < b ? b : a, 0}, *found = bsearch(&key, name, (size_t)p->g.ne, sizeof key, by_ends);
+            if (!found) return 0;
+            edge[(size_t)at + k] = found->e;
+            twice += rg_vec2_turn(p->X[vertex[at]], p->X[a], p->X[b]);
+        }
+        if (!(twice > 0)) return 0;
+        sum += twice / 2;
+        start[f + 1] = at += (int32_t)n;
+    }
+    return fabs(sum - p->area) <= SAME_AREA * p->area;
+}
+
+/* Faces in their old order where they are the same. */
+static rg_status number_faces(plane *p, const rg_lines *l)
+{
+    const rg_memory *mem = &l->mem;
+    const rg_value *list = rg_value_get(l->frame, "faces_vertices");
+    if (!p->sheet.same_vertices || rg_value_count(list) != (size_t)p->sheet.nf) return RG_OK;
+    named *name = rg_mem_array(mem, (size_t)p->g.ne, sizeof *name);
+    int32_t *start = rg_mem_array(mem, (size_t)p->sheet.nf + 1, sizeof *start);
+    int32_t *vertex = rg_mem_array(mem, 2 * (size_t)p->g.ne, sizeof *vertex), *edge = rg_mem_array(mem, 2 * (size_t)p->g.ne, sizeof *edge);
+    rg_status s = name && start && vertex && edge ? RG_OK : RG_ENOMEM;
+    for (int32_t e = 0; s == RG_OK && e < p->g.ne; e++) {
+        const int32_t a = p->E[2 * e], b = p->E[2 * e + 1];
+        name[e] = (named){a < b ? a : b, a < b ? b : a, e};
+    }
+    if (s == RG_OK && p->g.ne > 0) qsort(name, (size_t)p->g.ne, sizeof *name, by_ends);
+    if (s == RG_OK && old_faces(p, list, name, start, vertex, edge)) {
+        memcpy(p->face_start, start, ((size_t)p->sheet.nf + 1) * sizeof *start);
+        memcpy(p->face_vertex, vertex, (size_t)start[p->sheet.nf] * sizeof *vertex);
+        memcpy(p->face_edge, edge, (size_t)start[p->sheet.nf] * sizeof *edge);
+        p->sheet.same_faces = 1;
+    }
+    rg_mem_free(mem, name);
+    rg_mem_free(mem, start);
+    rg_mem_free(mem, vertex);
+    rg_mem_free(mem, edge);
+    return s;
+}
+
+/* -------------------------------------------------------------------------------------------------------- FOLD ---- */
+
+/* The graph to write. Where nobody asked for a tolerance, lines stay where they are, unless the drawing's own format is a rough
+ * one; *gaps: out, whether ends miss each other that a reader would join. */
+static rg_status draw(rg_lines *l, const rg_settings *s, rg_graph *g, int *gaps, rg_diag *why)
+{
+    const int32_t warnings = l->warnings;
+    *gaps = 0;
+    if (s->merge != RG_MERGE_DEFAULT) return rg_planar_from_all_lines(l, s->merge, g, why);
+    const double usual = l->merge > 0 ? l->merge : s->merge;
+    rg_graph joined = {.mem = l->mem};
+    rg_status status = rg_planar_from_all_lines(l, usual, &joined, why);
+    l->warnings = warnings; /* each is said once */
+    if (status == RG_OK) status = rg_planar_from_all_lines(l, MERGE, g, why);
+    if (status == RG_OK && (joined.nv != g->nv || joined.ne != g->ne)) {
+        const double far = joined.merged_max;
+        *gaps = !(l->merge > 0);
+        if (!*gaps) {
+            rg_graph t = *g;
+            *g = joined;
+            joined = t;
+        }
+        status = rg_lines_warn(l, 0, *gaps ? "ends miss each other by up to %.3g and stay apart, so that no faces are written: --merge %g joins them"
+                                           : "ends that miss each other by up to %.3g are joined (tolerance %g of the size)", far, usual);
+    }
+    rg_graph_free(&joined);
+    return status;
+}
+
+static rg_status write_fold(rg_lines *l, const rg_settings *settings, const char *path, rg_diag *why)
+{
+    plane p;
+    int gaps;
+    int32_t lost = 0;
+    memset(&p, 0, sizeof p);
+    const int32_t lines = l->count;
+    rg_status s = draw(l, settings, &p.g, &gaps, why);
+    if (s == RG_OK) s = rg_star_init(&p.star, &l->mem, p.g.nv, p.g.ne, p.g.X, p.g.E);
+    if (s == RG_OK) s = rg_faces_init(&p.faces, &l->mem, p.g.nv, p.g.ne, p.g.X, p.g.E, p.star.start, p.star.edge);
+    if (s == RG_OK) s = find_faces(&p, &l->mem);
+    if (s == RG_OK) s = letter_edges(&p, &l->mem);
+    if (s == RG_OK) s = number(&p, l);
+    if (s == RG_OK) s = number_faces(&p, l);
+    if (s == RG_OK && p.g.ne < lines)
+        s = rg_lines_warn(l, 0, "%d lines that lie on others, or have no length, are left out", (int)(lines - p.g.ne));
+    rg_fold_sheet *f = &p.sheet;
+    *f = (rg_fold_sheet){p.g.nv, p.g.ne, gaps ? 0 : f->nf, p.X, p.E, p.letter, p.angle, p.face_start, p.face_vertex, p.face_edge,
+                         f->same_vertices, f->same_edges, f->same_faces && !gaps};
+    if (s == RG_OK) s = rg_fold_write(l, f, path, &lost, why);
+    if (s == RG_OK && lost) s = rg_lines_warn(l, 0, "%d keys of the file no longer hold and are left out", (int)lost);
+    free_plane(&p, &l->mem);
+    return s;
+}
+
+/* ----------------------------------------------------------------------------------------------------- convert ---- */
+
+static rg_status write(rg_lines *l, rg_format to, const rg_settings *s, const char *path, rg_diag *why)
+{
+    static const char *const names[] = {"", ".opx", ".cp", ".fold", ".svg", ".dxf"};
+    const rg_status status = warn_of_losses(l, to, names[to]);
+    if (status != RG_OK) return status;
+    switch (to) {
+    case RG_FORMAT_OPX: return rg_opx_write(l, path, why);
+    case RG_FORMAT_CP: return rg_cp_write(l, path, why);
+    case RG_FORMAT_SVG: return rg_svg_write(l, path, why);
+    default: return write_fold(l, s, path, why);
+    }
+}
+
+rg_status rg_convert(const char *in, const char *out, rg_format to, const rg_settings *s, rg_warning warn, void *ctx, rg_diag *why)
+{
+    if (to == RG_FORMAT_AUTO) to = rg_read_extension(out);
+    if (to != RG_FORMAT_OPX && to != RG_FORMAT_CP && to != RG_FORMAT_FOLD && to != RG_FORMAT_SVG)
+        return rg_fail(RG_EARG, why, 0, "%s: crease patterns are written as .opx, .cp, .fold or .svg", out);
+    if (!(s->merge >= 0 && s->merge < 0.1)) return rg_fail(RG_EARG, why, 0, "the merge tolerance is not between 0 and 0.1 of the sheet");
+    rg_lines l;
+    rg_status status = rg_read_file(in, s, to == RG_FORMAT_FOLD, &l, why);
+    if (status != RG_OK) return status;
+    status = write(&l, to, s, out, why);
+    if (status == RG_ENOMEM) rg_fail(status, why, 0, "out of memory");
+    for (int32_t i = 0; warn && i < l.warnings; i++) warn(ctx, &l.warning[i]);
+    rg_lines_free(&l);
+    return status;
+}
