@@ -128,9 +128,9 @@ static rg_gl_vertex sample(const rg_camera *c, rg_vec3 x)
     return (rg_gl_vertex){(float)(FINE * p.x), (float)(FINE * p.y), (float)p.z, {0, 0, 0, 255}};
 }
 
-static void paint(rg_gl_vertex *v, const unsigned char rgb[3], double bright)
+static void paint(rg_gl_vertex *v, const unsigned char rgb[3], const double bright[3])
 {
-    for (int i = 0; i < 3; i++) v->rgba[i] = (unsigned char)(bright * rgb[i] + 0.5);
+    for (int i = 0; i < 3; i++) v->rgba[i] = (unsigned char)(bright[i] * rgb[i] + 0.5);
 }
 
 /* A line as two triangles, a little longer than its edge so that corners are filled. */
@@ -139,7 +139,8 @@ static rg_gl_vertex *draw_line(rg_gl_vertex *v, rg_gl_vertex a, rg_gl_vertex b, 
     const float dx = b.x - a.x, dy = b.y - a.y, length = hypotf(dx, dy);
     const float ex = length > 0 ? half * dx / length : half, ey = length > 0 ? half * dy / length : 0;
     const float end = 0.5f;
-    paint(&a, rgb, 1);
+    static const double full[3] = {1, 1, 1};
+    paint(&a, rgb, full);
     a.z = b.z = 0;
     rg_gl_vertex corner[4] = {a, a, a, a};
     for (int i = 0; i < 4; i++) {
@@ -161,7 +162,7 @@ static void draw_facet(rg_render *r, int32_t f, const rg_vec3 *x, rg_vec3 lift, 
     const rg_vec3 at = rg_vec3_add(x[m->facet_vertex[m->facet_start[f]]], lift);
     const int front = rg_vec3_dot(n, rg_vec3_sub(c->eye, at)) >= 0;
     if (!front) n = rg_vec3_scale(-1, n);
-    const double bright = light(c, n);
+    const double level = light(c, n), bright[3] = {pow(level, 0.80), pow(level, 0.92), level}; /* warm shadows */
     rg_gl_vertex *v = r->vertex + r->start[2 * (size_t)f];
     for (int32_t i = t->start[f]; i < t->start[f + 1]; i++)
         for (int k = 0; k < 3; k++, v++) {
