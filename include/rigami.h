@@ -80,7 +80,8 @@ typedef enum rg_format {
 } rg_format;
 
 #define RG_ADJUST_AUTO (-1.0)
-#define RG_MERGE_DEFAULT 2e-5 /* exactly this: what the input's format is usually drawn to, 1e-3 for .svg, else 2e-5 */
+/* What the input's format is usually drawn to: 1e-3 for .svg, else 2e-5. A hair above 2e-5, so that 2e-5 can be asked for. */
+#define RG_MERGE_DEFAULT 2.0000000000000005e-5
 
 /* Start from rg_settings_default() and change what you need. */
 typedef struct rg_settings {

@@ -8,6 +8,7 @@
 /* Each returns an exit status and has said what went wrong. */
 int cmd_fold(const options *o);
 int cmd_info(const options *o);
+int cmd_convert(const options *o);
 int cmd_gen(const options *o);
 
 #endif

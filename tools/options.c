@@ -67,6 +67,8 @@ static const rule rules[] = {
      "the facet that stays where it is (the one nearest the middle)"},
     {READS, "from", 0, "FORMAT", CHOICE, AT(format), 0, 0, 1, formats,
      "the input's format; auto: by content, then by name (auto):"},
+    {FOR_CONVERT, "as", 0, "FORMAT", CHOICE, AT(as), 0, 0, 1, formats,
+     "the output's format; auto: by its name; dxf is read only (auto):"},
     {READS, "frame", 0, "K", WHOLE, AT(settings.file_frame), 0, INT32_MAX, 1, NULL,
      "FOLD files: the frame to read, 0 is the key frame (the first crease pattern)"},
     {READS, "flip", 0, NULL, SWITCH, AT(settings.flip), 1, 0, 1, NULL,

@@ -32,6 +32,12 @@ static const command commands[] = {
      "IN is a crease pattern, - standard input. Exit status: 0 when it was read, whatever is\n"
      "said of it; 2 when not.\n",
      cmd_info},
+    {"convert", FOR_CONVERT, "IN -o OUT", 1, 1, "Converts a crease pattern from one format to another.",
+     "IN is .opx, .cp, .fold, .svg or .dxf, - standard input; OUT is .opx, .cp, .fold or .svg. What\n"
+     "OUT cannot hold is told. Lines stay where they are to 1e-9 of the sheet, unless --merge asks\n"
+     "for joining ends. Exit status: 0 when it was written; 2 when IN cannot be read; 3 when OUT\n"
+     "cannot be written.\n",
+     cmd_convert},
     {"gen", FOR_GEN, "KIND [N [M]] -o OUT", 1, 3, "Writes an example crease pattern as .opx, of N by M parts.", "", cmd_gen},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };

@@ -1,0 +1,134 @@
+/* base/number.c: numbers as text, in any locale. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <locale.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/number.h"
+#include "near.h"
+
+static void scans(const char *text, size_t used, double value)
+{
+    double v = 17;
+    assert_int_equal(rg_number_scan(text, strlen(text), &v), used);
+    if (!used) near(v, 17, 0);
+    else if (isinf(value)) assert_true(v == value);
+    else near(v, value, 0);
+}
+
+static void the_longest_number_is_read(void **state)
+{
+    (void)state;
+    scans("12.5", 4, 12.5);
+    scans("12.5.25", 4, 12.5); /* svg's way to save a blank */
+    scans("-.5-3", 3, -0.5);
+    scans("+7.", 3, 7);
+    scans("1e3", 3, 1000);
+    scans("1E-15x", 5, 1e-15);
+    scans("1e", 1, 1);
+    scans("1e+", 1, 1);
+    scans("3em", 1, 3);
+    scans("0x10", 1, 0);
+    scans("1e999", 5, INFINITY);
+    scans(".", 0, 0);
+    scans("-", 0, 0);
+    scans("-.", 0, 0);
+    scans("e5", 0, 0);
+    scans("", 0, 0);
+    scans("inf", 0, 0);
+    scans("nan", 0, 0);
+    double v;
+    assert_int_equal(rg_number_scan("12345", 3, &v), 3); /* no further than it may */
+    near(v, 123, 0);
+    char digits[600];
+    memset(digits, '1', sizeof digits);
+    assert_int_equal(rg_number_scan(digits, 400, &v), 400);
+    assert_int_equal(rg_number_scan(digits, 401, &v), 0);
+}
+
+static void whole_texts(void **state)
+{
+    (void)state;
+    double v;
+    long n;
+    assert_true(rg_number_parse(" \t7.25\r\n", 8, &v));
+    near(v, 7.25, 0);
+    assert_false(rg_number_parse("7 25", 4, &v));
+    assert_false(rg_number_parse("", 0, &v));
+    assert_false(rg_number_parse("  ", 2, &v));
+    assert_true(rg_number_parse("NaN", 3, &v) && isnan(v));
+    assert_true(rg_number_parse("-Infinity", 9, &v) && v < 0 && isinf(v));
+    assert_true(rg_number_whole(" -12 ", 5, &n));
+    assert_int_equal(n, -12);
+    assert_false(rg_number_whole("1.0", 3, &n));
+    assert_false(rg_number_whole("99999999999999999999", 20, &n));
+    assert_false(rg_number_whole("", 0, &n));
+}
+
+static void numbers_come_back(void **state)
+{
+    (void)state;
+    char text[RG_NUMBER_ROOM];
+    unsigned seed = 7;
+    for (int i = 0; i < 20000; i++) {
+        double x = noise(&seed), back;
+        const int scale = (int)(150 * noise(&seed));
+        x = ldexp(x + noise(&seed) * 1e-9, 2 * scale);
+        rg_number_print(text, x);
+        assert_int_equal(rg_number_scan(text, strlen(text), &back), strlen(text));
+        near(back, x, 0);
+    }
+    assert_string_equal(rg_number_print(text, -0.0), "0");
+    assert_string_equal(rg_number_print(text, 0.1), "0.1");
+    assert_string_equal(rg_number_print(text, -2.5), "-2.5");
+    assert_int_equal(strlen(rg_number_print(text, -1.2345678901234567e-300)) < RG_NUMBER_ROOM, 1);
+}
+
+static int has_comma(void) { return strcmp(localeconv()->decimal_point, ".") != 0; }
+
+/* A locale with a decimal comma: one of the machine's, else one made for the test where it can be. */
+static int set_comma(const char *folder)
+{
+    const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE", "fr_FR"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (setlocale(LC_ALL, names[i]) && has_comma()) return 1;
+    char command[200];
+    snprintf(command, sizeof command, "localedef -i de_DE -f UTF-8 %s/de_DE.UTF-8 >/dev/null 2>&1", folder);
+    if (system(command) != 0) return 0;
+    setenv("LOCPATH", folder, 1);
+    return setlocale(LC_ALL, "de_DE.UTF-8") && has_comma();
+}
+
+/* A decimal comma in the user's language changes nothing. */
+static void a_decimal_comma_changes_nothing(void **state)
+{
+    char folder[] = "/tmp/rigami-locale-XXXXXX", command[100];
+    assert_non_null(mkdtemp(folder));
+    const int found = set_comma(folder);
+    if (found) {
+        char text[20];
+        snprintf(text, sizeof text, "%.1f", 0.5);
+        assert_string_equal(text, "0,5"); /* it is in force */
+        the_longest_number_is_read(state);
+        whole_texts(state);
+        numbers_come_back(state);
+    }
+    setlocale(LC_ALL, "C");
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+    if (found) return;
+    print_message("SKIPPED: no locale with a decimal comma on this machine\n");
+    skip();
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_longest_number_is_read), cmocka_unit_test(whole_texts),
+                                       cmocka_unit_test(numbers_come_back), cmocka_unit_test(a_decimal_comma_changes_nothing)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,225 @@
+/* read/svg.c, css.c, colour.c: shapes, transforms, styles, colours, and what is refused. */
+#include "read/colour.h"
+#include "reading.h"
+
+#define SVG(inside) "<svg xmlns=\"http://www.w3.org/2000/svg\">\n" inside "\n</svg>\n"
+
+static rg_lines read_svg(const char *text) { return read_ok(text, RG_FORMAT_SVG, NULL); }
+
+static void shapes(void **state)
+{
+    (void)state;
+    rg_lines l = read_svg(SVG("<line stroke='red' x1='1' y1='2' x2='3.5' y2='-4'/>"
+                              "<polyline stroke='#00f' points='0,0 10,0, 10 5.5'/>"
+                              "<polygon stroke='black' points='0 0 1 0 1 1'/>"
+                              "<rect stroke='#000' x='1' y='2' width='3' height='4'/>"));
+    is_line(&l, 0, 'M', 1, -2, 3.5, 4, NAN);
+    is_line(&l, 1, 'V', 0, 0, 10, 0, NAN);
+    is_line(&l, 2, 'V', 10, 0, 10, -5.5, NAN);
+    is_line(&l, 3, 'B', 0, 0, 1, 0, NAN);
+    is_line(&l, 4, 'B', 1, 0, 1, -1, NAN);
+    is_line(&l, 5, 'B', 1, -1, 0, 0, NAN);
+    is_line(&l, 6, 'B', 1, -2, 4, -2, NAN);
+    is_line(&l, 9, 'B', 1, -6, 1, -2, NAN);
+    assert_int_equal(l.count, 10);
+    assert_int_equal(l.line[0].where, 2);
+    near(l.merge, 1e-3, 0);
+    rg_lines_free(&l);
+}
+
+static void paths(void **state)
+{
+    (void)state;
+    rg_lines l = read_svg(SVG("<path stroke='red' d='M1,2 l3-4 L-.5.5 H7v1V-3h-1z m10 10 1 1 2 0 M-1-1-2-2C-2.5-2.5-3-3-4-4Q-5,-5 -6,-6 a0 1 0 0 0 1 0'/>"));
+    is_line(&l, 0, 'M', 1, -2, 4, 2, NAN);
+    is_line(&l, 1, 'M', 4, 2, -.5, -.5, NAN);
+    is_line(&l, 2, 'M', -.5, -.5, 7, -.5, NAN);
+    is_line(&l, 3, 'M', 7, -.5, 7, -1.5, NAN);
+    is_line(&l, 4, 'M', 7, -1.5, 7, 3, NAN);
+    is_line(&l, 5, 'M', 7, 3, 6, 3, NAN);
+    is_line(&l, 6, 'M', 6, 3, 1, -2, NAN);
+    is_line(&l, 7, 'M', 11, -12, 12, -13, NAN); /* a relative m after z starts from where z led */
+    is_line(&l, 8, 'M', 12, -13, 14, -13, NAN);
+    is_line(&l, 9, 'M', -1, 1, -2, 2, NAN);
+    is_line(&l, 10, 'M', -2, 2, -4, 4, NAN); /* curves that are straight are lines */
+    is_line(&l, 11, 'M', -4, 4, -6, 6, NAN);
+    is_line(&l, 12, 'M', -6, 6, -5, 6, NAN);
+    assert_int_equal(l.count, 13);
+    rg_lines_free(&l);
+    /* Closing where the path is already adds no line of length 0. */
+    l = read_svg(SVG("<path stroke='red' d='M0,0H1V1L0,0z'/>"));
+    assert_int_equal(l.count, 3);
+    rg_lines_free(&l);
+}
+
+static void transforms(void **state)
+{
+    (void)state;
+    const struct { const char *transform; double x, y; } t[] = {/* of (3, 1), y down */
+        {"translate(10)", 13, 1}, {"translate(10,-2.5)", 13, -1.5}, {"scale(2)", 6, 2}, {"scale(2 -1)", 6, -1},
+        {"rotate(90)", -1, 3}, {"rotate(-90 1 1)", 1, -1}, {"rotate(30)", 3 * sqrt(0.75) - 0.5, 1.5 + sqrt(0.75)},
+        {"skewX(45)", 4, 1}, {"skewY(45)", 3, 4}, {"matrix(1 2 3 4 5 6)", 11, 16}, {"translate(1,2) scale(3)", 10, 5},
+        {"scale(3),translate(1 2)", 12, 9}, {" ", 3, 1}};
+    for (size_t i = 0; i < sizeof t / sizeof *t; i++) {
+        char text[300];
+        snprintf(text, sizeof text, SVG("<line transform='%s' stroke='red' x1='3' y1='1'/>"), t[i].transform);
+        rg_lines l = read_svg(text);
+        near(l.line[0].a.x, t[i].x, 1e-13);
+        near(l.line[0].a.y, -t[i].y, 1e-13);
+        rg_lines_free(&l);
+    }
+    rg_lines l = read_svg(SVG("<g transform='translate(100 0)'><svg x='1cm' y='0'><g transform='scale(2)'>"
+                              "<line transform='rotate(180)' stroke='blue' x1='3' y1='1'/></g></svg></g>"));
+    is_line(&l, 0, 'V', 94 + 96 / 2.54, 2, 100 + 96 / 2.54, 0, NAN);
+    rg_lines_free(&l);
+}
+
+static void styles(void **state)
+{
+    (void)state;
+    rg_lines l = read_svg("<!DOCTYPE svg PUBLIC \"-//W3C//DTD SVG 1.1//EN\" \"http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd\">\n"
+        SVG("<defs><style type='text/css'><![CDATA[ @import url(x.css); .m{stroke:#F00;fill:none} .v , .w { stroke : blue !important }"
+            "/* a { } comment */ line{stroke:#000} #rim { stroke:black } line.half{stroke:red;opacity:.25} g .m{stroke:lime}"
+            "@media print { .m { stroke: none } } .gone{display:none} ]]></style></defs>"
+            "<line class='a m' x2='1'/><line class='v' x2='2'/><line x2='3'/><line id='rim' class='m' x2='4'/>"
+            "<line class='m' style='stroke:blue' x2='5'/><line class='half' x2='6'/><line class='m gone' x2='7'/>"
+            "<polyline stroke='red' class='w' points='0 0 8 0'/>"
+            "<g stroke='blue'><path d='M0 0H9'/><path d='M0 0H10' stroke='inherit'/><path d='M0 0H11' stroke='none'/>"
+            "<g opacity='.5'><path stroke-opacity='0.5' d='M0 0H12'/></g></g>"
+            "<g style='display:none'><path stroke='red' d='M0 0H13'/></g>"
+            "<g visibility='hidden'><path stroke='red' d='M0 0H14'/><path visibility='visible' stroke='red' d='M0 0H15'/></g>"
+            "<path d='M0 0H16'/><path color='red' stroke='currentColor' d='M0 0H17'/><path stroke='rgba(0,0,255,.75)' d='M0 0H18'/>"
+            "<symbol><path stroke='red' d='M0 0H19'/></symbol><clipPath><path stroke='red' d='M0 0H20'/></clipPath>"));
+    const struct { char letter; double x, target; } want[] = {{'M', 1, NAN}, {'V', 2, NAN}, {'B', 3, NAN}, {'B', 4, NAN}, {'V', 5, NAN},
+        {'M', 6, -45}, {'V', 8, NAN}, {'V', 9, NAN}, {'V', 10, NAN}, {'V', 12, 45}, {'M', 15, NAN}, {'M', 17, NAN}, {'V', 18, 135}};
+    assert_int_equal(l.count, sizeof want / sizeof *want);
+    for (int32_t i = 0; i < l.count; i++) is_line(&l, i, want[i].letter, 0, 0, want[i].x, 0, want[i].target);
+    rg_lines_free(&l);
+    rg_settings s = rg_settings_default();
+    s.targets = 0;
+    l = read_ok(SVG("<line stroke='red' opacity='.5' x2='1'/>"), RG_FORMAT_SVG, &s);
+    is_line(&l, 0, 'M', 0, 0, 1, 0, NAN);
+    rg_lines_free(&l);
+}
+
+static void colours(void **state)
+{
+    (void)state;
+    const struct { const char *colour; char letter; } c[] = {{"#000", 'B'}, {"black", 'B'}, {"#231f20", 'B'}, {"#f00", 'M'}, {"RED", 'M'},
+        {"#ed1c24", 'M'}, {"rgb(255, 0,0)", 'M'}, {"rgb(100%,0%,0%)", 'M'}, {"hsl(0,100%,50%)", 'M'}, {"#FF0000FF", 'M'}, {"darkred", 'M'},
+        {"#00f", 'V'}, {"blue", 'V'}, {"hsl(240 100% 50%)", 'V'}, {"#2e3192", 'V'}, {"#0071bc", 'V'}, {"navy", 'V'},
+        {"#ff0", 'F'}, {"yellow", 'F'}, {"gray", 'F'}, {"#cccccc", 'F'}, {"cyan", 'F'},
+        {"#f0f", 'U'}, {"magenta", 'U'}, {"orange", 'U'}, {"#0f0", 'B'}, {"lime", 'B'}, {"green", 'B'}};
+    for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
+        rg_colour rgb;
+        double alpha;
+        assert_true(rg_colour_parse(c[i].colour, &rgb, &alpha));
+        near(alpha, 1, 0);
+        if (rg_colour_assignment(rgb) != c[i].letter) print_error("%s\n", c[i].colour);
+        assert_int_equal(rg_colour_assignment(rgb), c[i].letter);
+    }
+    const char *const none[] = {"", "#", "#ff", "#fffff", "#ggg", "rgb(", "rgb(1,2)", "rgb(1,2,3,4,5)", "rgb(a,b,c)", "reddish", "url(#x)", "12"};
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++) {
+        rg_colour rgb;
+        double alpha;
+        assert_false(rg_colour_parse(none[i], &rgb, &alpha));
+    }
+    rg_colour c0;
+    double alpha;
+    assert_true(rg_colour_parse("#f008", &c0, &alpha));
+    near(alpha, 136 / 255.0, 1e-15);
+    rg_lines l = read_svg(SVG("<line stroke='url(#paint)' x2='1'/><line stroke='url(#paint)' x2='2'/>"));
+    is_line(&l, 1, 'F', 0, 0, 2, 0, NAN);
+    assert_int_equal(l.warnings, 1);
+    rg_lines_free(&l);
+}
+
+static void refusals(void **state)
+{
+    (void)state;
+    refused(SVG("\n<path stroke='red' d='M0 0C1 1 2 1 3 0'/>"), RG_FORMAT_SVG, NULL, 3, "C1 1 2 1 3 0");
+    refused(SVG("<path stroke='red' d='M0 0q1 1 2 0'/>"), RG_FORMAT_SVG, NULL, 2, "curve");
+    refused(SVG("<path stroke='red' d='M0 0A1 1 0 0 0 2 0'/>"), RG_FORMAT_SVG, NULL, 2, "curve");
+    refused(SVG("<path stroke='red' d='M0 0L1 0S1 1 2 0'/>"), RG_FORMAT_SVG, NULL, 2, "curve");
+    refused(SVG("<path stroke='red' d='L0 0'/>"), RG_FORMAT_SVG, NULL, 2, "begin with M");
+    refused(SVG("<path stroke='red' d='M0 0L1'/>"), RG_FORMAT_SVG, NULL, 2, "missing");
+    refused(SVG("<path stroke='red' d='M0 0L1 1x'/>"), RG_FORMAT_SVG, NULL, 2, "missing");
+    refused(SVG("<path stroke='red' d='M0 0L1 1z1 1'/>"), RG_FORMAT_SVG, NULL, 2, "no command");
+    refused(SVG("<rect stroke='red' width='1' height='1' rx='.1'/>"), RG_FORMAT_SVG, NULL, 2, "round");
+    refused(SVG("<circle stroke='black' r='1'/>"), RG_FORMAT_SVG, NULL, 2, "curve");
+    refused(SVG("<line stroke='red' x1='50%'/>"), RG_FORMAT_SVG, NULL, 2, "50%");
+    refused(SVG("<line stroke='red' x1='much'/>"), RG_FORMAT_SVG, NULL, 2, "much");
+    refused(SVG("<polygon stroke='red' points='1 2 3'/>"), RG_FORMAT_SVG, NULL, 2, "points");
+    refused(SVG("<g transform='rotate(1 2)'><line stroke='red' x2='1'/></g>"), RG_FORMAT_SVG, NULL, 2, "rotate(1 2)");
+    refused(SVG("<g transform='warp(1)'/>"), RG_FORMAT_SVG, NULL, 2, "warp");
+    refused(SVG("<g transform='scale(1'/>"), RG_FORMAT_SVG, NULL, 2, "scale");
+    refused(SVG("<line x2='1'/>"), RG_FORMAT_SVG, NULL, 1, "no lines");
+    refused("<html><svg/></html>", RG_FORMAT_SVG, NULL, 1, "<html>");
+    refused(SVG("<line stroke='red' x2='1'>"), RG_FORMAT_SVG, NULL, -1, "not well-formed");
+    refused("<svg>", RG_FORMAT_SVG, NULL, -1, "not well-formed");
+}
+
+static void marks_and_numbers_too_large(void **state)
+{
+    (void)state;
+    rg_lines l = read_svg(SVG("<circle stroke='red' r='1'/><circle stroke='red' r='1'/><circle r='2'/><use href='#x'/>"
+                              "<path d='M0 0C1 1 2 1 3 0' fill='red'/><line stroke='red' x2='1e999'/><line stroke='red' x2='1e300' transform='scale(1e300)'/>"
+                              "<line stroke='red' x2='1'/><title>later</title>"));
+    assert_int_equal(l.count, 1);
+    assert_true(warned(&l, "<circle>") && warned(&l, "<use>") && warned(&l, "finite"));
+    assert_int_equal(l.warnings, 4);
+    assert_string_equal(l.title, "later");
+    rg_lines_free(&l);
+}
+
+static void texts(void **state)
+{
+    (void)state;
+    rg_lines l = read_svg(SVG("<title>Kranich &amp; Co &#x6298;</title><desc>two\nlines</desc><metadata><rdf:RDF xmlns:rdf='r' xmlns:dc='d' xmlns:cc='c'>"
+                              "<cc:Work><dc:creator><cc:Agent><dc:title>A. B.</dc:title></cc:Agent></dc:creator></cc:Work></rdf:RDF></metadata>"
+                              "<line stroke='red' x2='1'/>"));
+    assert_string_equal(l.title, "Kranich & Co \xE6\x8A\x98");
+    assert_string_equal(l.memo, "two\nlines");
+    assert_string_equal(l.author, "A. B.");
+    rg_lines_free(&l);
+}
+
+/* Entities that would open into gigabytes are not opened. */
+static void entities_stay_closed(void **state)
+{
+    (void)state;
+    const char *text = "<!DOCTYPE svg [<!ENTITY a \"aaaaaaaaaaaaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;&a;&a;\"><!ENTITY c \"&b;&b;&b;&b;&b;&b;&b;&b;\">"
+        "<!ENTITY d \"&c;&c;&c;&c;&c;&c;&c;&c;\"><!ENTITY e \"&d;&d;&d;&d;&d;&d;&d;&d;\"><!ENTITY f \"&e;&e;&e;&e;&e;&e;&e;&e;\">"
+        "<!ENTITY g \"&f;&f;&f;&f;&f;&f;&f;&f;\"><!ENTITY h \"&g;&g;&g;&g;&g;&g;&g;&g;\"><!ENTITY x SYSTEM \"file:///etc/passwd\">]>\n"
+        "<svg><title>&h;&x;</title><line stroke='red' x2='1'/></svg>";
+    rg_lines l;
+    rg_diag why;
+    if (read_text(text, strlen(text), RG_FORMAT_SVG, NULL, &l, &why) != RG_OK) return;
+    assert_true(!l.title || strlen(l.title) < 1000);
+    rg_lines_free(&l);
+}
+
+static void nesting_and_rules_end(void **state)
+{
+    (void)state;
+    const size_t room = 1 << 20;
+    char *text = malloc(room);
+    assert_non_null(text);
+    size_t n = (size_t)sprintf(text, "<svg>");
+    for (int i = 0; i < 50000; i++) n += (size_t)sprintf(text + n, "<g>");
+    refused(text, RG_FORMAT_SVG, NULL, 1, "not well-formed");
+    n = (size_t)sprintf(text, "<svg><style>");
+    for (int i = 0; i < 20000; i++) n += (size_t)sprintf(text + n, ".c%d{stroke:red}", i);
+    sprintf(text + n, "</style><line class='c7' x2='1'/></svg>");
+    refused(text, RG_FORMAT_SVG, NULL, 1, "rules of style");
+    free(text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shapes), cmocka_unit_test(paths), cmocka_unit_test(transforms), cmocka_unit_test(styles),
+        cmocka_unit_test(colours), cmocka_unit_test(refusals), cmocka_unit_test(marks_and_numbers_too_large),
+        cmocka_unit_test(texts), cmocka_unit_test(entities_stay_closed), cmocka_unit_test(nesting_and_rules_end)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
