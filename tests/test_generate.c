@@ -200,14 +200,20 @@ static int maekawa(const drawn *g, int32_t v)
     return abs(sum);
 }
 
-/* A sector smaller than both beside it lies between a mountain and a valley; the layers would cross otherwise. */
-static int big_little_big(const drawn *g, int32_t v)
+/* Equal sectors side by side that are smaller than the two around them fold up among themselves: their creases are as many
+ * mountains as valleys where the sectors are odd in number, one more or less where they are even (T. Hull, "The combinatorics
+ * of flat folds", theorem 4). The layers would cross otherwise. */
+static int layers_fit(const drawn *g, int32_t v)
 {
-    for (int32_t i = 0; i < g->degree[v]; i++) {
-        const double here = sector(g, v, i) + 1e-9;
-        if (here < sector(g, v, i - 1) && here < sector(g, v, i + 1) &&
-            g->star[v][i].assignment == g->star[v][(i + 1) % g->degree[v]].assignment)
-            return 0;
+    const int32_t n = g->degree[v];
+    for (int32_t i = 0; i < n; i++) {
+        const double here = sector(g, v, i);
+        int32_t k = 1;
+        while (k < n && fabs(sector(g, v, i + k) - here) < 1e-9) k++;
+        if (k >= n || !(sector(g, v, i - 1) > here + 1e-9 && sector(g, v, i + k) > here)) continue;
+        int sum = 0;
+        for (int32_t j = i; j <= i + k; j++) sum += g->star[v][j % n].assignment == RG_MOUNTAIN ? 1 : -1;
+        if (abs(sum) != (k + 1) % 2) return 0;
     }
     return 1;
 }
@@ -325,9 +331,9 @@ static void flat_foldable(const made *k)
     rg_pattern_info info;
     for (int32_t v = 0; v < g.vertices; v++) {
         if (!is_inner(&g, v)) continue;
-        if (!(kawasaki(&g, v) <= 1e-9) || maekawa(&g, v) != 2 || !big_little_big(&g, v))
-            fail_msg("%s %d %d at (%g, %g): Kawasaki %g, |M - V| %d", k->kind, (int)k->n, (int)k->m, g.x[v].x, g.x[v].y,
-                     kawasaki(&g, v), maekawa(&g, v));
+        if (!(kawasaki(&g, v) <= 1e-9) || maekawa(&g, v) != 2 || !layers_fit(&g, v))
+            fail_msg("%s %d %d at (%g, %g): Kawasaki %g, |M - V| %d, layers %s", k->kind, (int)k->n, (int)k->m, g.x[v].x, g.x[v].y,
+                     kawasaki(&g, v), maekawa(&g, v), layers_fit(&g, v) ? "fit" : "do not fit");
     }
     rg_pattern *p = pattern_of(&l);
     const rg_unfoldable *none;

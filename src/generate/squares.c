@@ -48,7 +48,7 @@ static void draw_sunk(rg_drawing *d, int32_t half)
         for (int side = -1; side <= 1; side += 2)
             rg_drawing_line(d, (rg_vec2){side * k, 0}, (rg_vec2){side * (k + 1), 0}, rg_opposite(diagonal));
         corners(k + 1, q);
-        const char square = k + 1 == half ? RG_BORDER : diagonal;
+        const char square = k + 1 == half ? RG_BORDER : rg_opposite(diagonal);
         rg_drawing_path(d, q, 2, square);
         rg_drawing_path(d, (rg_vec2[]){q[1], {k + 1, 0}, q[2]}, 3, square);
         rg_drawing_path(d, q + 2, 2, square);
