@@ -26,7 +26,7 @@ typedef struct model {
     size_t start[PARTS + 1]; /* of each part, and the end */
     rg_vec2 *centre;         /* [nf] */
     rg_place *place;         /* [nf] of the frame at work */
-    rg_vec3 *x, *x0;         /* [nv] of the frame at work, and of frame 0 */
+    rg_vec3 *x, *last;       /* [nv] of the frame at work, and of the last one */
     rg_turn *last_turn;      /* [nf] */
     rg_vec3 *last_shift;     /* [nf] */
     int32_t *normals_of;     /* [most corners + 1] accessor of that many normals to the front; to the back: the next; 0: none */
@@ -125,20 +125,21 @@ static void turns_and_shifts(model *g)
     }
 }
 
-/* Displacements from frame 0 as it was rounded, so that roundings don't add up. Weight k - 1 is 1 in frame k. */
+/* The mesh is the last frame, for viewers without morphs; displacements are from there as it was rounded, so that roundings
+ * don't add up. Weight k is 1 in frame k. */
 static rg_status displacements(model *g)
 {
-    rg_status s = rg_motion_place(g->m, 0, g->x0);
-    unsigned char *first = g->bytes + g->start[POSITIONS], *to = g->bytes + g->start[DISPLACEMENTS];
+    rg_status s = rg_motion_place(g->m, g->frames - 1, g->last);
+    unsigned char *mesh = g->bytes + g->start[POSITIONS], *to = g->bytes + g->start[DISPLACEMENTS];
     unsigned char *weight = g->bytes + g->start[WEIGHTS];
-    for (int32_t v = 0; v < g->mesh->nv; v++) first = vector(first, g->x0[v].x, g->x0[v].y, g->x0[v].z);
-    for (int32_t k = 1; s == RG_OK && k < g->frames; k++) {
+    for (int32_t v = 0; v < g->mesh->nv; v++) mesh = vector(mesh, g->last[v].x, g->last[v].y, g->last[v].z);
+    for (int32_t k = 0; s == RG_OK && k < g->frames - 1; k++) {
         s = rg_motion_place(g->m, k, g->x);
         for (int32_t v = 0; v < g->mesh->nv; v++)
-            to = vector(to, g->x[v].x - (float)g->x0[v].x, g->x[v].y - (float)g->x0[v].y, g->x[v].z - (float)g->x0[v].z);
+            to = vector(to, g->x[v].x - (float)g->last[v].x, g->x[v].y - (float)g->last[v].y, g->x[v].z - (float)g->last[v].z);
     }
     for (int32_t k = 0; k < g->frames; k++)
-        for (int32_t i = 1; i < g->frames; i++) weight = rg_bytes_f32(weight, i == k);
+        for (int32_t i = 0; i < g->frames - 1; i++) weight = rg_bytes_f32(weight, i == k);
     return s;
 }
 
@@ -157,7 +158,7 @@ static rg_status fill(model *g)
 static void model_free(model *g)
 {
     const rg_memory *mem = &g->m->mem;
-    void *block[] = {g->bytes, g->centre, g->place, g->x, g->x0, g->last_turn, g->last_shift, g->normals_of};
+    void *block[] = {g->bytes, g->centre, g->place, g->x, g->last, g->last_turn, g->last_shift, g->normals_of};
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(mem, block[i]);
     rg_triangles_free(&g->t);
 }
@@ -178,11 +179,11 @@ static rg_status model_init(model *g, const rg_motion *m, const rg_picture *p)
     g->centre = rg_mem_array(mem, nf, sizeof *g->centre);
     g->place = rg_mem_array(mem, nf, sizeof *g->place);
     g->x = rg_mem_array(mem, nv, sizeof *g->x);
-    g->x0 = rg_mem_array(mem, nv, sizeof *g->x0);
+    g->last = rg_mem_array(mem, nv, sizeof *g->last);
     g->last_turn = rg_mem_array(mem, nf, sizeof *g->last_turn);
     g->last_shift = rg_mem_array(mem, nf, sizeof *g->last_shift);
     g->normals_of = rg_mem_array(mem, (size_t)g->most + 1, sizeof *g->normals_of);
-    if (!g->bytes || !g->centre || !g->place || !g->x || !g->x0 || !g->last_turn || !g->last_shift || !g->normals_of)
+    if (!g->bytes || !g->centre || !g->place || !g->x || !g->last || !g->last_turn || !g->last_shift || !g->normals_of)
         return RG_ENOMEM;
     return fill(g);
 }
@@ -260,7 +261,7 @@ static void morph_accessors(rg_json *j, model *g)
     accessor(j, g, TRIANGLES, 0, 3 * n, 1, UINT, 0);
     accessor(j, g, TRIANGLES, 12 * n, 3 * n, 1, UINT, 0);
     accessor(j, g, WEIGHTS, 0, (frames - 1) * frames, 1, FLOAT, 0);
-    for (size_t k = 1; k < frames; k++) accessor(j, g, DISPLACEMENTS, 12 * nv * (k - 1), nv, 3, FLOAT, 1);
+    for (size_t k = 0; k < frames - 1; k++) accessor(j, g, DISPLACEMENTS, 12 * nv * k, nv, 3, FLOAT, 1);
 }
 
 static void views(rg_json *j, const model *g)
@@ -311,9 +312,9 @@ static void primitive(rg_json *j, const model *g, int side, int32_t position, in
     rg_json_integer(j, "material", side);
     if (g->morphs) {
         rg_json_open(j, "targets", '[');
-        for (int32_t k = 1; k < g->frames; k++) {
+        for (int32_t k = 0; k < g->frames - 1; k++) {
             rg_json_open(j, NULL, '{');
-            rg_json_integer(j, "POSITION", MORPH_TARGETS + k - 1);
+            rg_json_integer(j, "POSITION", MORPH_TARGETS + k);
             rg_json_close(j);
         }
         rg_json_close(j);
@@ -332,11 +333,6 @@ static void meshes(rg_json *j, const model *g)
             else primitive(j, g, side, accessor_of(f), g->normals_of[corners(g->mesh, f)] + side, accessor_of(f) + 1 + side);
         }
         rg_json_close(j);
-        if (g->morphs) {
-            rg_json_open_line(j, "weights", '[');
-            for (int32_t k = 1; k < g->frames; k++) rg_json_integer(j, NULL, k == g->frames - 1);
-            rg_json_close(j);
-        }
         rg_json_close(j);
     }
     rg_json_close(j);

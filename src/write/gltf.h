@@ -4,7 +4,7 @@
  * A facet is a node that turns and moves, with a key for every frame; its mesh lies about the facet's centre, so that single
  * precision costs little: against x.obj of the same frame positions are within 1e-6 of the sheet. Where creases were
  * adjusted, facets change shape and no turn does that; measured on adjusted sheets the best turn misses by percents of
- * the sheet. Then the whole sheet is one mesh with a morph target for every frame, as exact, and straight between frames.
+ * the sheet. Then the whole sheet is one mesh with a morph target for every frame but the last, as exact, and straight between frames.
  *
  * Both sides of the paper are there, each its own material, seen from its side only. Coordinates are those of all the other
  * outputs: the flat sheet faces +z. A viewer that plays no animations sees the last frame. */
