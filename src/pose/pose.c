@@ -107,18 +107,36 @@ void rg_pose_vertices(const rg_mesh *m, const rg_vec2 *X, const rg_tree *t, cons
     }
 }
 
+/* A new maximum, or NaN as soon as there is one. */
+static double larger(double most, double value)
+{
+    return value <= most || isnan(most) ? most : value;
+}
+
+/* The place in the facet lists of the corner that comes after corner j, counter-clockwise, around its vertex: that of the facet
+ * over the edge which arrives there; -1: outside. */
+static int32_t next_corner(const rg_mesh *m, int32_t f, int32_t j, int32_t *facet)
+{
+    const int32_t v = m->facet_vertex[j], e = m->facet_edge[j > m->facet_start[f] ? j - 1 : m->facet_start[f + 1] - 1];
+    const int32_t g = m->edge_facet[e][m->edge_facet[e][0] == f];
+    if (g < 0) return -1;
+    int32_t k = m->facet_start[g];
+    while (m->facet_vertex[k] != v) k++;
+    *facet = g;
+    return k;
+}
+
+/* Every pair of facets around a vertex, also those that meet in nothing else: small gaps between neighbours add up. */
 double rg_pose_gap(const rg_mesh *m, const rg_vec2 *X, const rg_place *place)
 {
     double gap = 0;
-    for (int32_t e = 0; e < m->ne; e++) {
-        int32_t f = m->edge_facet[e][0], g = m->edge_facet[e][1];
-        if (f < 0 || g < 0) continue;
-        for (int end = 0; end < 2; end++) {
-            rg_vec2 v = X[m->edge[e][end]];
-            double d = rg_vec3_length(rg_vec3_sub(put(&place[f], v), put(&place[g], v)));
-            if (!(d <= gap)) gap = d;
+    for (int32_t f = 0; f < m->nf; f++)
+        for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) {
+            const rg_vec2 v = X[m->facet_vertex[j]];
+            const rg_vec3 x = put(&place[f], v);
+            int32_t g = f, k = next_corner(m, f, j, &g);
+            for (; k >= 0 && g != f; k = next_corner(m, g, k, &g)) gap = larger(gap, rg_vec3_length(rg_vec3_sub(x, put(&place[g], v))));
         }
-    }
     return gap;
 }
 
@@ -128,7 +146,7 @@ double rg_pose_strain(const rg_mesh *m, const rg_vec2 *X, const rg_vec3 *x)
     for (int32_t e = 0; e < m->ne; e++) {
         int32_t a = m->edge[e][0], b = m->edge[e][1];
         double s = fabs(rg_vec3_length(rg_vec3_sub(x[b], x[a])) / rg_vec2_length(rg_vec2_sub(X[b], X[a])) - 1);
-        if (!(s <= worst)) worst = s;
+        worst = larger(worst, s);
     }
     return worst;
 }
