@@ -1,0 +1,173 @@
+/* read/read.c: which format it is, files and standard input, bytes that are no crease pattern; files damaged at random. */
+#include "counted.h"
+#include "reading.h"
+
+
+static const char CP[] = "1 0 0 4 0\n1 4 0 4 4\n1 4 4 0 4\n1 0 4 0 0\n2 0 0 4 4\n";
+static const char FOLD[] = "{\"file_spec\":1.1,\"vertices_coords\":[[0,0],[4,0],[4,4],[0,4]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0],[0,2]],"
+    "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"M\"],\"edges_foldAngle\":[0,0,0,0,-90.5],\"faces_vertices\":[[0,1,2],[0,2,3]],"
+    "\"file_frames\":[{\"frame_inherit\":true,\"frame_parent\":0,\"frame_title\":\"x\"}],\"a:b\":[1,{\"c\":null}]}";
+static const char SVG[] = "<?xml version='1.0'?><!-- <java> --><!DOCTYPE svg [<!ENTITY e '>'>]>\n<svg:svg xmlns:svg='http://www.w3.org/2000/svg'>"
+    "<svg:style>.m{stroke:#f00} .b{stroke:#000;opacity:1}</svg:style><svg:g transform='scale(2) rotate(90)'><svg:rect class='b' width='4' height='4'/>"
+    "<svg:path class='m' opacity='.5' d='M0,0l1e0.5.5-1 H1v2z'/><svg:polyline class='m' points='0 0,4 4'/></svg:g></svg:svg>";
+static const char OPX[] = "<java class=\"java.beans.XMLDecoder\"><object class=\"oripa.DataSet\"><void property=\"lines\">"
+    "<array class=\"oripa.OriLineProxy\" length=\"1\"><void index=\"0\"><object class=\"oripa.OriLineProxy\"><void property=\"type\"><int>2</int></void>"
+    "<void property=\"x0\"><double>1.5</double></void></object></void></array></void></object></java>";
+static const char DXF[] = "999\nhello\n0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nMountain\n10\n0\n20\n0\n11\n4\n21\n4\n0\nLWPOLYLINE\n62\n5\n70\n1\n"
+    "10\n0\n20\n0\n10\n1\n20\n1\n10\n2\n20\n5\n0\nENDSEC\n0\nEOF\n";
+static const struct { const char *text; rg_format format; const char *name; } samples[] = {
+    {CP, RG_FORMAT_CP, "x.cp"}, {FOLD, RG_FORMAT_FOLD, "x.fold"}, {SVG, RG_FORMAT_SVG, "x.svg"}, {OPX, RG_FORMAT_OPX, "x.opx"},
+    {DXF, RG_FORMAT_DXF, "x.dxf"}};
+enum { SAMPLES = sizeof samples / sizeof *samples };
+
+static rg_format format_of(const char *text, size_t n, const char *path, rg_diag *why)
+{
+    const rg_settings s = rg_settings_default();
+    rg_format format;
+    return rg_read_format(text, n, path, &s, &format, why) == RG_OK ? format : RG_FORMAT_AUTO;
+}
+
+static void content_goes_before_the_name(void **state)
+{
+    (void)state;
+    rg_diag why;
+    for (int i = 0; i < SAMPLES; i++)
+        for (int k = 0; k < SAMPLES; k++) {
+            assert_int_equal(format_of(samples[i].text, strlen(samples[i].text), samples[k].name, &why), samples[i].format);
+            assert_int_equal(format_of(samples[i].text, strlen(samples[i].text), NULL, &why), samples[i].format);
+        }
+    assert_int_equal(format_of("hello", 5, "a.b/x.CP", &why), RG_FORMAT_CP);
+    assert_int_equal(format_of("<!-- ", 5, "x.xml", &why), RG_FORMAT_OPX);
+    assert_int_equal(format_of("hello", 5, "x.txt", &why), RG_FORMAT_AUTO);
+    assert_int_equal(why.line, 1);
+    assert_int_equal(format_of("hello", 5, "cp", &why), RG_FORMAT_AUTO);
+    assert_int_equal(format_of("<html>", 6, NULL, &why), RG_FORMAT_AUTO);
+    assert_int_equal(format_of("<javascript/>", 13, NULL, &why), RG_FORMAT_AUTO);
+}
+
+static void the_format_asked_for(void **state)
+{
+    (void)state;
+    refused(CP, RG_FORMAT_FOLD, NULL, 1, "JSON");
+    refused(FOLD, RG_FORMAT_CP, NULL, 1, "line type");
+    refused(FOLD, RG_FORMAT_SVG, NULL, 1, "XML");
+    refused(OPX, RG_FORMAT_SVG, NULL, 1, "<java>");
+    refused(SVG, RG_FORMAT_OPX, NULL, -1, "document type");
+}
+
+static void what_is_no_crease_pattern(void **state)
+{
+    (void)state;
+    const struct { const char *text; size_t n; const char *words; } no[] = {
+        {"", 0, "empty"}, {"\xEF\xBB\xBF", 3, "empty"}, {"\x89PNG\r\n\x1a\n", 8, "pixels"}, {"%PDF-1.4", 8, ".svg"},
+        {"PK\x03\x04zip", 7, "unpack"}, {"\xFF\xFE<\0", 4, "UTF-16"}, {"AutoCAD Binary DXF\r\n", 20, "ASCII"}, {"\0\0\0\0", 4, "not a crease pattern"}};
+    for (size_t i = 0; i < sizeof no / sizeof *no; i++) {
+        rg_lines l;
+        rg_diag why;
+        assert_int_equal(read_text(no[i].text, no[i].n, RG_FORMAT_AUTO, NULL, &l, &why), RG_EFORMAT);
+        if (!strstr(why.text, no[i].words)) fail_msg("%s", why.text);
+    }
+    rg_settings s = rg_settings_default();
+    rg_lines l;
+    rg_diag why;
+    assert_int_equal(rg_read_file("no/such/file.cp", &s, 0, &l, &why), RG_EREAD);
+    assert_int_equal(rg_read_file(".", &s, 0, &l, &why), RG_EREAD);
+}
+
+static void byte_order_marks(void **state)
+{
+    (void)state;
+    for (int i = 0; i < SAMPLES; i++) {
+        char text[2000];
+        snprintf(text, sizeof text, "\xEF\xBB\xBF%s", samples[i].text);
+        rg_lines with = read_ok(text, RG_FORMAT_AUTO, NULL), without = read_ok(samples[i].text, RG_FORMAT_AUTO, NULL);
+        assert_int_equal(with.count, without.count);
+        rg_lines_free(&with);
+        rg_lines_free(&without);
+    }
+}
+
+/* Memory that runs short at any request ends in RG_ENOMEM and leaks nothing. */
+static void memory_runs_short(void **state)
+{
+    (void)state;
+    for (int i = 0; i < SAMPLES; i++)
+        for (int keep = 0; keep < 2; keep++) {
+            rg_status status = RG_ENOMEM;
+            long k = 0;
+            for (; status == RG_ENOMEM; k++) {
+                counted c = {.left = k};
+                const rg_memory mem = {counted_resize, &c};
+                rg_settings s = rg_settings_default();
+                rg_lines l;
+                rg_diag why = {0, ""};
+                s.memory = &mem;
+                status = rg_read_bytes(samples[i].text, strlen(samples[i].text), NULL, &s, keep, &l, &why);
+                if (status == RG_OK) {
+                    assert_int_equal(l.vertex != NULL, keep && samples[i].format == RG_FORMAT_FOLD);
+                    rg_lines_free(&l);
+                } else {
+                    assert_string_equal(why.text, "out of memory");
+                }
+                assert_int_equal(c.out, 0);
+            }
+            assert_int_equal(status, RG_OK);
+            assert_true(k > 1);
+        }
+}
+
+/* One to four places of a good file are spoilt: whatever is read, it ends in a status, one line of words, and finite lines. */
+static void damaged_at_random(void **state)
+{
+    (void)state;
+    unsigned seed = 20241;
+    int read = 0;
+    for (int round = 0; round < 6000; round++) {
+        const int i = round % SAMPLES;
+        const size_t n = strlen(samples[i].text);
+        char text[2000];
+        size_t length = n;
+        memcpy(text, samples[i].text, n);
+        for (int k = 0; k < 1 + round / SAMPLES % 4 && length > 1; k++) {
+            const size_t at = (size_t)((noise(&seed) + 1) / 2 * (double)length), from = (size_t)((noise(&seed) + 1) / 2 * (double)length);
+            switch ((int)(3 * (noise(&seed) + 1) / 2 * 1.99)) {
+            case 0: text[at] = (char)(int)(128 * noise(&seed)); break;
+            case 1: text[at] = text[from]; break;
+            case 2: text[at] = "0123456789-.e<>\"'{}[],:\n \\"[(size_t)((noise(&seed) + 1) / 2 * 26)]; break;
+            case 3: memmove(text + at, text + at + 1, length - at - 1); length--; break;
+            case 4: memmove(text + at + 1, text + at, length - at); length++; break;
+            default: length = at; break;
+            }
+        }
+        /* In a block of its own, so that a byte read beyond the end is seen. */
+        char *block = malloc(length + (length == 0));
+        assert_non_null(block);
+        memcpy(block, text, length);
+        rg_lines l;
+        rg_diag why;
+        const rg_status s = read_text(block, length, samples[i].format, NULL, &l, &why);
+        free(block);
+        if (s != RG_OK) {
+            assert_int_equal(s, RG_EFORMAT);
+            assert_true(why.text[0] && !strchr(why.text, '\n') && why.line >= 0);
+            continue;
+        }
+        read++;
+        for (int32_t e = 0; e < l.count; e++) {
+            const rg_line *q = &l.line[e];
+            assert_true(isfinite(q->a.x) && isfinite(q->a.y) && isfinite(q->b.x) && isfinite(q->b.y));
+            assert_non_null(strchr("BMVFUC", q->assignment));
+            assert_true(isnan(q->target) || fabs(q->target) <= RG_PI);
+        }
+        rg_lines_free(&l);
+    }
+    assert_in_range(read, 300, 5700); /* both ways are taken */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(content_goes_before_the_name), cmocka_unit_test(the_format_asked_for), cmocka_unit_test(what_is_no_crease_pattern),
+        cmocka_unit_test(byte_order_marks), cmocka_unit_test(memory_runs_short), cmocka_unit_test(damaged_at_random)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

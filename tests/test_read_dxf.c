@@ -1,0 +1,99 @@
+/* read/dxf.c: entities, layers before colours, and what is refused. */
+#include "reading.h"
+
+#define DXF(entities) "999\ncomment\n0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n70\n2\n0\nLAYER\n2\nred one\n70\n0\n62\n1\n0\nLAYER\n2\nhidden\n62\n-5\n" \
+    "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" entities "0\nENDSEC\n0\nEOF\n"
+#define LINE(layer, colour) "0\nLINE\n8\n" layer "\n" colour "10\n1.5\n20\n2\n30\n0.0\n11\n3\n21\n4E0\n31\n0.0\n"
+
+static void entities(void **state)
+{
+    (void)state;
+    rg_lines l = read_ok(DXF(LINE("0", "62\n1\n")
+                             "0\nLWPOLYLINE\n8\nx\n62\n5\n90\n3\n70\n1\n10\n0\n20\n0\n42\n0.0\n10\n5\n20\n0\n10\n5\n20\n6\n"
+                             "0\nTEXT\n10\n1\n1\nnothing\n"
+                             "0\nPOLYLINE\n8\nx\n62\n3\n66\n1\n70\n0\n10\n0.0\n20\n0.0\n0\nVERTEX\n10\n1\n20\n1\n0\nVERTEX\n10\n2\n20\n1\n"
+                             "0\nVERTEX\n10\n3\n20\n2.5\n0\nSEQEND\n" LINE("0", "")), RG_FORMAT_DXF, NULL);
+    assert_int_equal(l.count, 7);
+    is_line(&l, 0, 'M', 1.5, 2, 3, 4, NAN); /* y points up */
+    is_line(&l, 1, 'V', 0, 0, 5, 0, NAN);
+    is_line(&l, 2, 'V', 5, 0, 5, 6, NAN);
+    is_line(&l, 3, 'V', 5, 6, 0, 0, NAN);
+    is_line(&l, 4, 'B', 1, 1, 2, 1, NAN);
+    is_line(&l, 5, 'B', 2, 1, 3, 2.5, NAN);
+    is_line(&l, 6, 'B', 1.5, 2, 3, 4, NAN);
+    assert_int_equal(l.line[0].where, 36);
+    rg_lines_free(&l);
+}
+
+static void layers_and_colours(void **state)
+{
+    (void)state;
+    const struct { const char *entity; char letter; } c[] = {
+        {LINE("MountainLine", "62\n5\n"), 'M'}, {LINE("ValleyLine", "62\n1\n"), 'V'}, {LINE("CutLine", "62\n1\n"), 'B'},
+        {LINE("my valleys", ""), 'V'}, {LINE("AUX", "62\n1\n"), 'F'}, {LINE("noname", "62\n0\n"), 'F'}, {LINE("noname", "62\n4\n"), 'F'},
+        {LINE("0", "62\n250\n"), 'B'}, {LINE("0", "62\n3\n"), 'B'}, {LINE("0", "62\n30\n"), 'M'}, {LINE("0", "62\n170\n"), 'V'},
+        {LINE("0", "62\n2\n"), 'V'}, {LINE("red one", ""), 'M'}, {LINE("red one", "62\n256\n"), 'M'}, {LINE("hidden", ""), 'V'},
+        {LINE("0", "62\n7\n420\n255\n"), 'V'}, {LINE("0", "420\n16711680\n"), 'M'}};
+    for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
+        char text[600];
+        snprintf(text, sizeof text, DXF("%s"), c[i].entity);
+        rg_lines l = read_ok(text, RG_FORMAT_DXF, NULL);
+        if (l.line[0].assignment != c[i].letter) print_error("%s\n", c[i].entity);
+        is_line(&l, 0, c[i].letter, 1.5, 2, 3, 4, NAN);
+        rg_lines_free(&l);
+    }
+}
+
+static void ends_of_lines_and_blanks(void **state)
+{
+    (void)state;
+    rg_lines l = read_ok("  0\r\nSECTION\r\n  2\r\nENTITIES\r\n  0\r\nLINE\r\n 62\r\n     1\r\n 10\r\n  1.5\r\n 20\r\n2\r\n 11\r\n3\r\n 21\r\n4\r\n"
+                         "  0\r\nENDSEC\r\n  0\r\nEOF", RG_FORMAT_DXF, NULL);
+    is_line(&l, 0, 'M', 1.5, 2, 3, 4, NAN);
+    rg_lines_free(&l);
+    rg_settings s = rg_settings_default();
+    s.flip = 1;
+    l = read_ok(DXF(LINE("0", "62\n1\n")), RG_FORMAT_AUTO, &s);
+    is_line(&l, 0, 'M', 1.5, -2, 3, -4, NAN);
+    rg_lines_free(&l);
+    /* Drawn on the back of its plane: x runs the other way, except in a LINE. */
+    l = read_ok(DXF("0\nLWPOLYLINE\n62\n1\n10\n1\n20\n2\n10\n3\n20\n4\n210\n0\n220\n0\n230\n-1\n"), RG_FORMAT_DXF, NULL);
+    is_line(&l, 0, 'M', -1, 2, -3, 4, NAN);
+    rg_lines_free(&l);
+}
+
+static void refusals(void **state)
+{
+    (void)state;
+    const char *const curves[] = {"ARC", "CIRCLE", "ELLIPSE", "SPLINE"};
+    for (int i = 0; i < 4; i++) {
+        char text[400];
+        snprintf(text, sizeof text, DXF("0\n%s\n10\n1\n"), curves[i]);
+        refused(text, RG_FORMAT_DXF, NULL, 36, curves[i]);
+    }
+    refused(DXF("0\nLWPOLYLINE\n10\n0\n20\n0\n42\n0.5\n10\n1\n20\n1\n"), RG_FORMAT_DXF, NULL, 42, "bulge");
+    refused(DXF("0\nPOLYLINE\n70\n4\n"), RG_FORMAT_DXF, NULL, 36, "POLYLINE");
+    refused(DXF("0\nLINE\n10\n1,5\n"), RG_FORMAT_DXF, NULL, 38, "\"1,5\"");
+    refused(DXF("0\nLINE\n10\nNaN\n"), RG_FORMAT_DXF, NULL, 38, "NaN");
+    refused(DXF("0\nLINE\n62\nred\n"), RG_FORMAT_DXF, NULL, 38, "red");
+    refused(DXF("0\nLINE\nten\n1\n"), RG_FORMAT_DXF, NULL, 37, "ten");
+    refused(DXF("0\nPOINT\n10\n1\n"), RG_FORMAT_DXF, NULL, -1, "no LINE");
+    refused("0\nSECTION\n2\nHEADER\n0\nENDSEC\n0\nEOF\n", RG_FORMAT_DXF, NULL, -1, "ENTITIES");
+    const char *whole = DXF(LINE("0", "62\n1\n"));
+    for (size_t n = 1; n + 2 < strlen(whole); n++) {
+        rg_lines l;
+        rg_diag why;
+        assert_int_equal(read_text(whole, n, RG_FORMAT_DXF, NULL, &l, &why), RG_EFORMAT);
+        assert_true(why.line > 0);
+    }
+    rg_lines l = read_ok(DXF("0\nINSERT\n2\nblock\n" LINE("0", "")), RG_FORMAT_DXF, NULL);
+    assert_true(warned(&l, "INSERT"));
+    rg_lines_free(&l);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(entities), cmocka_unit_test(layers_and_colours),
+                                       cmocka_unit_test(ends_of_lines_and_blanks), cmocka_unit_test(refusals)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
