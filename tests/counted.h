@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-typedef struct counted { long left, asked, out; } counted;
+typedef struct counted { _Atomic long left, asked, out; } counted; /* writers of films ask from several threads */
 
 static inline void *counted_resize(void *ctx, void *block, size_t bytes)
 {

@@ -173,6 +173,40 @@ static void maekawa_and_degree(void **state)
     assert_true(violations > 50);
 }
 
+/* A sector smaller than both beside it, between creases folded the same way, by how much; two letters where it matters. */
+static void big_little_big(void **state)
+{
+    (void)state;
+    unsigned seed = 13;
+    int shut_in = 0;
+    for (int round = 0; round < 600; round++) {
+        vertex w = {.n = 3 + round % 6};
+        double expected = 0;
+        any_angles(&w, &seed);
+        if (round % 3 == 0) { /* a sector as small as its neighbour shuts nothing in, one smaller by more than rounding does */
+            const double off = (round % 2 ? 0.3 : -0.3) * w.theta[0] + (round % 4 < 2 ? 0.004 : 0.03) * RG_DEG;
+            w.theta[1] = w.theta[0] + (round % 6 < 2 ? off : (round % 4 < 2 ? 0.004 : 0.03) * RG_DEG);
+            double rest = 2 * RG_PI - w.theta[0] - w.theta[1], sum = 0;
+            for (int i = 2; i < w.n; i++) sum += w.theta[i];
+            for (int i = 2; i < w.n; i++) w.theta[i] *= rest / sum;
+        }
+        any_lengths(&w, &seed);
+        for (int i = 0; i < w.n; i++) w.letter[i] = "MVMVU"[whole_noise(&seed, 5)];
+        for (int i = 0; i < w.n; i++) {
+            const double before = w.theta[(i + w.n - 1) % w.n], after = w.theta[(i + 1) % w.n], beside = before < after ? before : after;
+            if (w.letter[i] == 'U' || w.letter[i] != w.letter[(i + 1) % w.n]) continue;
+            if (beside - w.theta[i] > 0.01 * RG_DEG && beside - w.theta[i] > expected) expected = beside - w.theta[i];
+        }
+        rg_pattern *p = draw_vertex(&w, noise(&seed), noise(&seed));
+        double by = 0;
+        assert_int_equal(has(p, RG_BIG_LITTLE_BIG, &by), w.n % 2 == 0 && expected > 0);
+        if (w.n % 2 == 0) near(by, expected / RG_DEG, 1e-9);
+        shut_in += by > 0;
+        rg_pattern_destroy(p);
+    }
+    assert_true(shut_in > 50 && shut_in < 280);
+}
+
 /* A crease that bends, or turns from mountain to valley on the way. */
 static void two_creases(void **state)
 {
@@ -278,6 +312,7 @@ int main(void)
         cmocka_unit_test(sectors_go_round_once),
         cmocka_unit_test(kawasaki),
         cmocka_unit_test(maekawa_and_degree),
+        cmocka_unit_test(big_little_big),
         cmocka_unit_test(two_creases),
         cmocka_unit_test(closed_vertices),
         cmocka_unit_test(the_border_folds_freely),
