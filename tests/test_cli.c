@@ -519,9 +519,12 @@ static void help_names_every_option(void **state)
     assert_non_null(strstr(r->out, "-o"));
     assert_non_null(strstr(r->out, "--angle"));
     assert_non_null(strstr(r->out, "miura"));
-    static const char *const verbs[] = {"fold", "info", "gen"};
+    r = ends(0, run("convert", "--help"));
+    for (size_t i = 0; i < sizeof reading / sizeof *reading; i++) assert_non_null(strstr(r->out, reading[i]));
+    assert_non_null(strstr(r->out, "-o"));
+    static const char *const verbs[] = {"fold", "info", "convert", "gen"};
     r = ends(0, run("--help"));
-    for (int i = 0; i < 3; i++) assert_non_null(strstr(r->out, verbs[i]));
+    for (int i = 0; i < 4; i++) assert_non_null(strstr(r->out, verbs[i]));
     assert_string_equal(ends(0, run("--version"))->out, "rigami " RG_VERSION "\n");
 }
 
@@ -550,6 +553,35 @@ static void examples_are_made(void **state)
     assert_true(json_integer_value(json_object_get(many, "creases")) > json_integer_value(json_object_get(few, "creases")));
     json_decref(few);
     json_decref(many);
+}
+
+static void patterns_are_converted(void **state)
+{
+    (void)state;
+    static char one[ROOM], two[ROOM];
+    const char *const chain[] = {"good.opx", "chain.cp", "chain.fold", "chain.svg", "chain.opx"};
+    for (int i = 0; i < 4; i++) {
+        ends(0, run("convert", chain[i], "-o", chain[i + 1], "-q"));
+        json_t *info = json_loads(ends(0, run("info", "--json", chain[i + 1]))->out, 0, NULL);
+        assert_non_null(info);
+        assert_int_equal(json_integer_value(json_object_get(info, "creases")), 4);
+        assert_int_equal(json_integer_value(json_object_get(info, "mountains")), 3);
+        assert_int_equal(json_integer_value(json_object_get(info, "facets")), 4);
+        json_decref(info);
+        ends(0, run("fold", chain[i + 1], "-q"));
+    }
+    strcpy(one, ends(0, run_with(&(streams){.in = "chain.fold"}, ARGS("convert", "-", "-o", "-", "--as", "cp", "-q")))->out);
+    ends(0, run("convert", "chain.fold", "-o", "straight.cp", "-q"));
+    assert_string_equal(one, slurp("straight.cp", two));
+    assert_int_equal(lines_in(one), 8 + 4); /* four sides, cut by four creases */
+    says(ends(2, run("convert", "good.opx")), "rigami: ", "-o");
+    says(ends(2, run("convert", "good.opx", "-o", "lost.dxf")), "rigami: ", "dxf");
+    says(ends(2, run("convert", "good.opx", "-o", "lost.pdf")), "rigami: ", "");
+    says(ends(2, run("convert", "good.opx", "-o", "lost.cp", "--as", "pdf")), "rigami: --as: ", "pdf");
+    says(ends(2, run("convert", "missing.opx", "-o", "lost.cp")), "rigami: missing.opx: ", strerror(ENOENT));
+    says(ends(3, run("convert", "good.opx", "-o", "nowhere/lost.cp")), "rigami: nowhere/lost.cp", strerror(ENOENT));
+    says(ends(2, run("gen", "miura", "-o", "lost.cp")), "rigami: ", "convert");
+    assert_int_equal(names("lost."), 0);
 }
 
 /* ---------------------------------------------------------------------------------------------- reports ---- */
@@ -745,6 +777,7 @@ int main(void)
         cmocka_unit_test(bad_values_are_refused),
         cmocka_unit_test(help_names_every_option),
         cmocka_unit_test(examples_are_made),
+        cmocka_unit_test(patterns_are_converted),
         cmocka_unit_test(the_report_has_what_is_promised),
         cmocka_unit_test(info_as_json_has_what_is_promised),
         cmocka_unit_test(an_interrupted_fold_is_written_up_to_there),

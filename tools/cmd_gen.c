@@ -16,6 +16,16 @@ static int size_of(const char *text, int32_t *n)
     return ENDS_USAGE;
 }
 
+/* The name of another format would promise what is not in the file. */
+static int is_other_format(const char *name)
+{
+    static const char *const others[] = {".cp", ".fold", ".svg", ".dxf"};
+    const char *dot = strrchr(name, '.');
+    for (int i = 0; dot && i < 4; i++)
+        if (strcmp(dot, others[i]) == 0) return 1;
+    return 0;
+}
+
 int cmd_gen(const options *o)
 {
     int32_t n = 0, m = 0;
@@ -26,6 +36,10 @@ int cmd_gen(const options *o)
         say(o->outputs ? "gen: one -o OUT is enough" : "gen: -o OUT is missing; - is standard output");
         return ENDS_USAGE;
     }
-    rg_status s = rg_generate(o->operand[0], n, m, o->angle, o->output[0], &why);
+    if (is_other_format(o->output[0])) {
+        say("gen: %s: examples are written as .opx; rigami convert makes others of them", o->output[0]);
+        return ENDS_USAGE;
+    }
+    const rg_status s = rg_generate(o->operand[0], n, m, o->angle, o->output[0], &why);
     return s == RG_OK ? ENDS_WELL : say_status(s, s == RG_EARG ? "gen" : NULL, &why);
 }
