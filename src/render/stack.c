@@ -144,7 +144,7 @@ static rg_status sort_pile(rg_stack *s, rg_stack_sample *pile, int32_t n, const 
 static rg_status compare(rg_stack *s, const axes *A, const rg_vec3 *x, const rg_place *back)
 {
     rg_status ok = RG_OK;
-    qsort(s->sample, (size_t)s->samples, sizeof *s->sample, by_point);
+    if (s->samples > 0) qsort(s->sample, (size_t)s->samples, sizeof *s->sample, by_point);
     for (int32_t i = 0, j; ok == RG_OK && i < s->samples; i = j) {
         for (j = i + 1; j < s->samples && s->sample[j].row == s->sample[i].row
                         && s->sample[j].column == s->sample[i].column; j++) continue;
@@ -164,7 +164,7 @@ static int by_ends(const void *a, const void *b)
 static void settle_pairs(rg_stack *s)
 {
     int32_t kept = 0;
-    qsort(s->pair, (size_t)s->pairs, sizeof *s->pair, by_ends);
+    if (s->pairs > 0) qsort(s->pair, (size_t)s->pairs, sizeof *s->pair, by_ends);
     for (int32_t i = 0, j; i < s->pairs; i = j) {
         rg_stack_pair p = s->pair[i];
         for (j = i + 1; j < s->pairs && by_ends(&s->pair[i], &s->pair[j]) == 0; j++) p.above += s->pair[j].above;
