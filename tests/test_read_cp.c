@@ -25,8 +25,8 @@ static void blanks_and_ends(void **state)
 {
     (void)state;
     const char *const same[] = {"2 1 2 3 4\n3 5 6 7 8\n", "2 1 2 3 4\r\n3 5 6 7 8\r\n", "2 1 2 3 4\r3 5 6 7 8",
-        "\n\n  2\t1   2 \t3 4  \n \n3 5 6 7 8", "\xEF\xBB\xBF" "2 1 2 3 4\n3 5 6 7 8\n"};
-    const int where[][2] = {{1, 2}, {1, 2}, {1, 2}, {3, 5}, {1, 2}};
+        "\n\n  2\t1   2 \t3 4  \n \n3 5 6 7 8", "\xEF\xBB\xBF\n2 1 2 3 4\n3 5 6 7 8\n"};
+    const int where[][2] = {{1, 2}, {1, 2}, {1, 2}, {3, 5}, {2, 3}};
     for (int i = 0; i < 5; i++) {
         rg_lines l = read_ok(same[i], RG_FORMAT_CP, NULL);
         assert_int_equal(l.count, 2);

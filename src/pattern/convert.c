@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Ends nearer than this part of the size are one vertex of a FOLD file, unless asked otherwise: whoever converts a file wants
- * every line where it was, to the last digit that counts. */
+/* Ends nearer than this part of the size are one vertex of a FOLD file, unless asked otherwise: whoever converts a file
+ * wants every line where it was, to the last digit that counts. */
 static const double MERGE = 5e-10;
 /* Faces that an other program listed are those found here if their areas add up to the same, but for rounding. */
 static const double SAME_AREA = 1e-9;
@@ -31,13 +31,16 @@ static rg_status warn_of_losses(rg_lines *l, rg_format to, const char *name)
         const rg_line *q = &l->line[i];
         if (q->assignment == RG_UNASSIGNED && !unassigned++) first[0] = q->where;
         if (q->assignment == RG_CUT && !cuts++) first[1] = q->where;
-        if (isfinite(q->target) && !(to == RG_FORMAT_SVG && q->assignment != RG_UNASSIGNED) && !targets++) first[2] = q->where;
+        const int held = to == RG_FORMAT_SVG && q->assignment != RG_UNASSIGNED;
+        if (isfinite(q->target) && !held && !targets++) first[2] = q->where;
     }
     rg_status s = RG_OK;
     if (to == RG_FORMAT_CP) s = lose(l, first[0], unassigned, name, "unassigned creases, they become auxiliary lines");
-    if (s == RG_OK && to != RG_FORMAT_OPX) s = lose(l, first[1], cuts, name, "cuts of the folded model, they become auxiliary lines");
+    if (s == RG_OK && to != RG_FORMAT_OPX)
+        s = lose(l, first[1], cuts, name, "cuts of the folded model, they become auxiliary lines");
     if (s == RG_OK && to != RG_FORMAT_FOLD) s = lose(l, first[2], targets, name, "such fold angles");
-    const int texts = (l->title != NULL) + (l->author != NULL) + (l->memo != NULL), more = (l->editor != NULL) + (l->reference != NULL);
+    const int texts = (l->title != NULL) + (l->author != NULL) + (l->memo != NULL);
+    const int more = (l->editor != NULL) + (l->reference != NULL);
     if (s == RG_OK && to == RG_FORMAT_CP) s = lose(l, 0, texts + more, name, "title, author and other texts");
     if (s == RG_OK && to == RG_FORMAT_SVG) s = lose(l, 0, more, name, "editor and reference");
     return s;
@@ -123,7 +126,8 @@ static rg_status letter_edges(plane *p, const rg_memory *mem)
 /* The number that each vertex had; 0: they were others. */
 static int old_numbers(const plane *p, const rg_lines *l, int32_t *old)
 {
-    if (!l->vertex || p->g.ne != l->count || rg_value_count(rg_value_get(l->frame, "vertices_coords")) != (size_t)p->g.nv) return 0;
+    const size_t were = rg_value_count(rg_value_get(l->frame, "vertices_coords"));
+    if (!l->vertex || p->g.ne != l->count || were != (size_t)p->g.nv) return 0;
     for (int32_t v = 0; v < p->g.nv; v++) old[v] = -1;
     for (int32_t e = 0; e < p->g.ne; e++)
         for (int i = 0; i < 2; i++) {
@@ -168,7 +172,8 @@ static int by_ends(const void *a, const void *b)
 }
 
 /* The old frame's list of faces to vertex[] and edge[]; 0: it is not a list of the faces found here. */
-static int old_faces(const plane *p, const rg_value *list, const named *name, int32_t *start, int32_t *vertex, int32_t *edge)
+static int old_faces(const plane *p, const rg_value *list, const named *name, int32_t *start, int32_t *vertex,
+                     int32_t *edge)
 {
     double sum = 0;
     for (int32_t f = 0, at = 0; f < p->sheet.nf; f++) {
@@ -183,7 +188,8 @@ static int old_faces(const plane *p, const rg_value *list, const named *name, in
         }
         for (size_t k = 0; k < n; k++) {
             const int32_t a = vertex[(size_t)at + k], b = vertex[(size_t)at + (k + 1) % n];
-            const named key = {a < b ? a : b, a < b ? b : a, 0}, *found = bsearch(&key, name, (size_t)p->g.ne, sizeof key, by_ends);
+            const named key = {a < b ? a : b, a < b ? b : a, 0};
+            const named *found = bsearch(&key, name, (size_t)p->g.ne, sizeof key, by_ends);
             if (!found) return 0;
             edge[(size_t)at + k] = found->e;
             twice += rg_vec2_turn(p->X[vertex[at]], p->X[a], p->X[b]);
@@ -203,7 +209,8 @@ static rg_status number_faces(plane *p, const rg_lines *l)
     if (!p->sheet.same_vertices || rg_value_count(list) != (size_t)p->sheet.nf) return RG_OK;
     named *name = rg_mem_array(mem, (size_t)p->g.ne, sizeof *name);
     int32_t *start = rg_mem_array(mem, (size_t)p->sheet.nf + 1, sizeof *start);
-    int32_t *vertex = rg_mem_array(mem, 2 * (size_t)p->g.ne, sizeof *vertex), *edge = rg_mem_array(mem, 2 * (size_t)p->g.ne, sizeof *edge);
+    int32_t *vertex = rg_mem_array(mem, 2 * (size_t)p->g.ne, sizeof *vertex);
+    int32_t *edge = rg_mem_array(mem, 2 * (size_t)p->g.ne, sizeof *edge);
     rg_status s = name && start && vertex && edge ? RG_OK : RG_ENOMEM;
     for (int32_t e = 0; s == RG_OK && e < p->g.ne; e++) {
         const int32_t a = p->E[2 * e], b = p->E[2 * e + 1];
@@ -225,8 +232,8 @@ static rg_status number_faces(plane *p, const rg_lines *l)
 
 /* -------------------------------------------------------------------------------------------------------- FOLD ---- */
 
-/* The graph to write. Where nobody asked for a tolerance, lines stay where they are, unless the drawing's own format is a rough
- * one; *gaps: out, whether ends miss each other that a reader would join. */
+/* The graph to write. Where nobody asked for a tolerance, lines stay where they are, unless the drawing's own format is
+ * a rough one; *gaps: out, whether ends miss each other that a reader would join. */
 static rg_status draw(rg_lines *l, const rg_settings *s, rg_graph *g, int *gaps, rg_diag *why)
 {
     const int32_t warnings = l->warnings;
@@ -245,8 +252,9 @@ static rg_status draw(rg_lines *l, const rg_settings *s, rg_graph *g, int *gaps,
             *g = joined;
             joined = t;
         }
-        status = rg_lines_warn(l, 0, *gaps ? "ends miss each other by up to %.3g and stay apart, so that no faces are written: --merge %g joins them"
-                                           : "ends that miss each other by up to %.3g are joined (tolerance %g of the size)", far, usual);
+        status = *gaps ? rg_lines_warn(l, 0, "ends miss each other by up to %.3g and stay apart, so that no faces are"
+                                             " written: --merge %g joins them", far, usual)
+                       : rg_lines_warn(l, 0, "ends that miss each other by up to %.3g are joined (%g of the size)", far, usual);
     }
     rg_graph_free(&joined);
     return status;
@@ -292,12 +300,14 @@ static rg_status write(rg_lines *l, rg_format to, const rg_settings *s, const ch
     }
 }
 
-rg_status rg_convert(const char *in, const char *out, rg_format to, const rg_settings *s, rg_warning warn, void *ctx, rg_diag *why)
+rg_status rg_convert(const char *in, const char *out, rg_format to, const rg_settings *s, rg_warning warn, void *ctx,
+                     rg_diag *why)
 {
     if (to == RG_FORMAT_AUTO) to = rg_read_extension(out);
     if (to != RG_FORMAT_OPX && to != RG_FORMAT_CP && to != RG_FORMAT_FOLD && to != RG_FORMAT_SVG)
         return rg_fail(RG_EARG, why, 0, "%s: crease patterns are written as .opx, .cp, .fold or .svg", out);
-    if (!(s->merge >= 0 && s->merge < 0.1)) return rg_fail(RG_EARG, why, 0, "the merge tolerance is not between 0 and 0.1 of the sheet");
+    if (!(s->merge >= 0 && s->merge < 0.1))
+        return rg_fail(RG_EARG, why, 0, "the merge tolerance is not between 0 and 0.1 of the sheet");
     rg_lines l;
     rg_status status = rg_read_file(in, s, to == RG_FORMAT_FOLD, &l, why);
     if (status != RG_OK) return status;

@@ -35,8 +35,8 @@ static rg_status add(rg_lines *out, const field *f, int n, int32_t where, rg_dia
     long code;
     double x[4];
     if (!rg_number_whole(f[0].s, f[0].n, &code) || code < 0)
-        return rg_fail(RG_EFORMAT, why, where, "line type \"%.*s\" is no whole number: 1 border, 2 mountain, 3 valley, 4 auxiliary",
-                       show(f), f[0].s);
+        return rg_fail(RG_EFORMAT, why, where,
+                       "line type \"%.*s\" is no whole number: 1 border, 2 mountain, 3 valley, 4 auxiliary", show(f), f[0].s);
     if (n != FIELDS) return rg_fail(RG_EFORMAT, why, where, "%d fields, not the five of `type x1 y1 x2 y2`", n);
     for (int i = 0; i < 4; i++)
         if (!rg_number_parse(f[i + 1].s, f[i + 1].n, &x[i]))

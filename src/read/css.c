@@ -48,7 +48,8 @@ static int weigh(const char *s, size_t n)
     return n > 0 ? rank : -1;
 }
 
-static rg_status add_rules(rg_css *css, const char *selectors, size_t n, const char *body, size_t body_n, int line, rg_diag *why)
+static rg_status add_rules(rg_css *css, const char *selectors, size_t n, const char *body, size_t body_n, int line,
+                           rg_diag *why)
 {
     for (size_t from = 0, to; from < n; from = to + 1) {
         for (to = from; to < n && selectors[to] != ',';) to++;
@@ -78,7 +79,8 @@ static const char *skip_at(const char *s)
 
 rg_status rg_css_add(rg_css *css, const rg_xml_node *style, rg_diag *why)
 {
-    rg_status status = rg_mem_grow(&css->mem, (void **)&css->sheet, &css->sheet_room, (size_t)css->sheets + 1, sizeof *css->sheet);
+    rg_status status = rg_mem_grow(&css->mem, (void **)&css->sheet, &css->sheet_room, (size_t)css->sheets + 1,
+                                   sizeof *css->sheet);
     char *s = status == RG_OK ? rg_xml_string(&css->mem, style) : NULL;
     if (!s) return RG_ENOMEM;
     css->sheet[css->sheets++] = s;
@@ -112,6 +114,8 @@ static int listed(const char *list, const char *word, size_t n)
     return 0;
 }
 
+static int same(const char *s, const char *word, size_t n) { return strlen(s) == n && memcmp(s, word, n) == 0; }
+
 static int matches(const rg_rule *r, const rg_xml_node *n)
 {
     const char *s = r->selector, *end = s + r->selector_n;
@@ -120,10 +124,8 @@ static int matches(const rg_rule *r, const rg_xml_node *n)
         size_t length = 0;
         while (s + length < end && s[length] != '.' && s[length] != '#') length++;
         if (kind == '.' && !listed(rg_xml_attribute(n, "class"), s, length)) return 0;
-        if (kind == '#' && !(strlen(rg_xml_attribute(n, "id")) == length && memcmp(rg_xml_attribute(n, "id"), s, length) == 0)) return 0;
-        if (kind == 'e' && !(length == 1 && *s == '*') &&
-            !(strlen(rg_xml_name(n)) == length && memcmp(rg_xml_name(n), s, length) == 0))
-            return 0;
+        if (kind == '#' && !same(rg_xml_attribute(n, "id"), s, length)) return 0;
+        if (kind == 'e' && !same("*", s, length) && !same(rg_xml_name(n), s, length)) return 0;
         s += length;
     }
     return 1;
@@ -149,7 +151,7 @@ static int declared(const char *s, size_t n, const char *property, char value[RG
         if (!colon) continue;
         size_t length = (size_t)(colon - (s + from));
         const char *name = trim(s + from, &length);
-        if (strlen(property) != length || memcmp(name, property, length) != 0) continue;
+        if (!same(property, name, length)) continue;
         copy(value, colon + 1, (size_t)(s + to - colon - 1));
         found = value[0] != 0;
     }

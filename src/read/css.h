@@ -1,8 +1,8 @@
 /* css.h -- as much of style sheets as drawings of creases need: properties of an element by its tag, class and name.
  * Uses  xml.h        Used by  svg.c
  *
- * Selectors of one part are understood (line, .valley, line.valley, #rim, *, and lists of them); others, and what stands in
- * @rules, are passed over. */
+ * Selectors of one part are understood (line, .valley, line.valley, #rim, *, and lists of them); others, and what
+ * stands in @rules, are passed over. */
 #ifndef RG_CSS_H
 #define RG_CSS_H
 

@@ -70,13 +70,15 @@ static int is(slice s, const char *word) { return s.n == strlen(word) && memcmp(
 static rg_status whole(const reader *r, long *x)
 {
     if (rg_number_whole(r->value.s, r->value.n, x)) return RG_OK;
-    return rg_fail(RG_EFORMAT, r->why, r->line, "group %ld is \"%.*s\", which is no whole number", r->code, show(r->value), r->value.s);
+    return rg_fail(RG_EFORMAT, r->why, r->line, "group %ld is \"%.*s\", which is no whole number", r->code, show(r->value),
+                   r->value.s);
 }
 
 static rg_status number(const reader *r, double *x)
 {
     if (rg_number_parse(r->value.s, r->value.n, x) && isfinite(*x)) return RG_OK;
-    return rg_fail(RG_EFORMAT, r->why, r->line, "group %ld is \"%.*s\", which is no finite number", r->code, show(r->value), r->value.s);
+    return rg_fail(RG_EFORMAT, r->why, r->line, "group %ld is \"%.*s\", which is no finite number", r->code, show(r->value),
+                   r->value.s);
 }
 
 /* ------------------------------------------------------------------------------------------- assignments ---- */
@@ -98,8 +100,8 @@ static int contains(slice s, const char *word)
 static char by_name(slice name)
 {
     static const struct { const char *word; char assignment; } words[] = {
-        {"mountain", RG_MOUNTAIN}, {"valley", RG_VALLEY}, {"unassigned", RG_UNASSIGNED}, {"aux", RG_FLAT}, {"facet", RG_FLAT},
-        {"flat", RG_FLAT}, {"cut", RG_BORDER}, {"border", RG_BORDER}, {"boundary", RG_BORDER}, {"contour", RG_BORDER},
+        {"mountain", RG_MOUNTAIN}, {"valley", RG_VALLEY}, {"unassigned", RG_UNASSIGNED}, {"aux", RG_FLAT},
+        {"facet", RG_FLAT}, {"flat", RG_FLAT}, {"cut", RG_BORDER}, {"border", RG_BORDER}, {"boundary", RG_BORDER}, {"contour", RG_BORDER},
         {"outline", RG_BORDER}};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (contains(name, words[i].word)) return words[i].assignment;
@@ -165,7 +167,8 @@ static rg_status groups(reader *r, entity *e, int corners)
         if (s == RG_OK && (r->code == 20 || r->code == 21)) s = number(r, &e->y[r->code - 20]);
         if (s == RG_OK && r->code == 42) s = number(r, &bulge);
         if (s == RG_OK && r->code == 42 && bulge != 0)
-            s = rg_fail(RG_EFORMAT, r->why, r->line, "%.*s: a bulge, where paper folds along straight lines only", show(e->name), e->name.s);
+            s = rg_fail(RG_EFORMAT, r->why, r->line, "%.*s: a bulge, where paper folds along straight lines only",
+                        show(e->name), e->name.s);
         if (s == RG_OK && r->code == 230) {
             s = number(r, &z);
             e->mirrored = s == RG_OK && z < 0;
@@ -248,7 +251,8 @@ static rg_status tables(reader *r)
         if (r->code == 0 && is(r->value, "ENDSEC")) return RG_OK;
         if (r->code == 0 && is(r->value, "EOF")) return r->pending = 1, RG_OK;
         if (r->code == 0 && is(r->value, "LAYER") && r->layer_count < MOST_LAYERS) {
-            s = rg_mem_grow(&r->out->mem, (void **)&r->layers, &r->layer_room, (size_t)r->layer_count + 1, sizeof *r->layers);
+            s = rg_mem_grow(&r->out->mem, (void **)&r->layers, &r->layer_room, (size_t)r->layer_count + 1,
+                            sizeof *r->layers);
             if (s != RG_OK) return s;
             l = &r->layers[r->layer_count++];
             *l = (layer){{"", 0}, WHITE};

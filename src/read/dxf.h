@@ -1,8 +1,8 @@
 /* dxf.h -- .dxf: LINE, LWPOLYLINE and POLYLINE of AutoCAD's exchange format, as text.
  * Uses  colour.h        Used by  read.c
  *
- * The assignment goes by the layer's name where that says it (mountain, valley, cut, border, aux ...), else by colour: the
- * line's own or its layer's. Curves are refused. y points up in the file. */
+ * The assignment goes by the layer's name where that says it (mountain, valley, cut, border, aux ...), else by colour:
+ * the line's own or its layer's. Curves are refused. y points up in the file. */
 #ifndef RG_DXF_H
 #define RG_DXF_H
 

@@ -8,7 +8,8 @@
 #include <string.h>
 
 enum { MOST_ELEMENTS = INT32_MAX / 16, MOST_INHERITED = 100, MOST_FRAMES_TRIED = 1000 };
-/* Coordinates in space lie in a plane if they are off it by less than this part of their size: single precision does so. */
+/* Coordinates in space lie in a plane if they are off it by less than this part of their size: single precision does
+ * so. */
 static const double FLATNESS = 1e-6;
 /* Areas and volumes of such coordinates still are finite. */
 static const double LARGEST = 1e100;
@@ -86,7 +87,8 @@ static rg_status coordinates(reader *r)
         for (size_t k = 0; good && k < n; k++) good = rg_value_number(rg_value_at(row, k), &x[k]);
         if (!good) return bad(r, "vertices_coords[%d]: not two or three numbers", (int)i);
         for (int k = 0; k < 3; k++)
-            if (!(fabs(x[k]) <= LARGEST)) return bad(r, "vertices_coords[%d]: %g is too large to compute with", (int)i, x[k]);
+            if (!(fabs(x[k]) <= LARGEST))
+                return bad(r, "vertices_coords[%d]: %g is too large to compute with", (int)i, x[k]);
         r->space[i] = (rg_vec3){x[0], x[1], x[2]};
     }
     return s;
@@ -119,7 +121,8 @@ static rg_status edges(reader *r)
         const rg_value *row = rg_value_at(v, (size_t)i);
         if (rg_value_count(row) != 2) return bad(r, "edges_vertices[%d]: not two vertices", (int)i);
         for (size_t k = 0; k < 2; k++)
-            if (!vertex(r, rg_value_at(row, k), &r->E[2 * (size_t)i + k])) return no_vertex(r, "edges_vertices", i, k, rg_value_at(row, k));
+            if (!vertex(r, rg_value_at(row, k), &r->E[2 * (size_t)i + k]))
+                return no_vertex(r, "edges_vertices", i, k, rg_value_at(row, k));
     }
     return RG_OK;
 }
@@ -185,14 +188,16 @@ static rg_status angles(reader *r)
             continue;
         }
         if (!rg_value_number(one, &r->angle[i])) return bad(r, "%s[%d]: no number", key, (int)i);
-        if (!(fabs(r->angle[i]) <= 180 + ROUNDING)) return bad(r, "%s[%d]: %g is not within 180 degrees", key, (int)i, r->angle[i]);
+        if (!(fabs(r->angle[i]) <= 180 + ROUNDING))
+            return bad(r, "%s[%d]: %g is not within 180 degrees", key, (int)i, r->angle[i]);
         r->angle[i] = fmax(-180, fmin(r->angle[i], 180));
         most = fmax(most, fabs(r->angle[i]));
     }
     if (!(most > 0 && most <= RG_PI + RADIANS)) return RG_OK;
     const int radians = most >= RG_PI - RADIANS;
     for (int32_t i = 0; radians && i < n; i++) r->angle[i] /= RG_DEG;
-    return rg_lines_warn(r->out, 0, radians ? "%s: the largest is pi: taken for radians" : "%s: none is above pi: are these radians? read as degrees", key);
+    return rg_lines_warn(r->out, 0, "%s: %s", key, radians ? "the largest is pi: taken for radians"
+                                                           : "none is above pi: are these radians? read as degrees");
 }
 
 /* --------------------------------------------------------------------------------------------------- plane ---- */
@@ -294,8 +299,8 @@ static rg_status turn_faces(reader *r, int *turn)
         return bad(r, "faces_vertices[%d]: a folded form, this face is turned over; a crease pattern is needed",
                    (int)(p->turn == *turn ? q->face : p->face));
     }
-    return left && right ? rg_lines_warn(r->out, 0, "faces_vertices: %d faces run counter-clockwise and %d clockwise", (int)left, (int)right)
-                         : RG_OK;
+    if (!left || !right) return RG_OK;
+    return rg_lines_warn(r->out, 0, "faces_vertices: %d faces run counter-clockwise and %d clockwise", (int)left, (int)right);
 }
 
 /* Edges from the sides of faces. */
@@ -363,15 +368,17 @@ static rg_status add_lines(reader *r, int turn)
             if (!contrary++) first = e;
             angle = -angle;
         }
-        if (turn < 0 && (letter == RG_MOUNTAIN || letter == RG_VALLEY)) letter = letter == RG_MOUNTAIN ? RG_VALLEY : RG_MOUNTAIN;
-        if (turn < 0) angle = -angle;
+        if (turn < 0) {
+            letter = letter == RG_MOUNTAIN ? RG_VALLEY : letter == RG_VALLEY ? RG_MOUNTAIN : letter;
+            angle = -angle;
+        }
         const double full = letter == RG_MOUNTAIN ? -180 : letter == RG_VALLEY ? 180 : NAN;
         rg_status s = rg_lines_add(r->out, r->X[r->E[2 * e]], r->X[r->E[2 * e + 1]], letter, 0);
         if (s != RG_OK) return s;
         if (!(angle == full)) r->out->line[r->out->count - 1].target = angle * RG_DEG;
     }
     if (!contrary) return RG_OK;
-    return rg_lines_warn(r->out, 0, "edges_foldAngle[%d]: the sign is not that of its assignment, which is kept; %d such edges",
+    return rg_lines_warn(r->out, 0, "edges_foldAngle[%d]: the sign is not that of its assignment, which is kept (%d such)",
                          (int)first, (int)contrary);
 }
 
@@ -387,9 +394,10 @@ static rg_status say(rg_lines *l, const rg_value *v, char **to)
 static rg_status metadata(reader *r)
 {
     rg_lines *l = r->out;
-    struct { const char *key; char **to; } keys[] = {{"file_title", &l->title}, {"frame_title", &l->title},
-        {"file_author", &l->author}, {"frame_author", &l->author}, {"file_description", &l->memo}, {"frame_description", &l->memo},
-        {"rigami:editor", &l->editor}, {"rigami:reference", &l->reference}};
+    struct { const char *key; char **to; } keys[] = {
+        {"file_title", &l->title}, {"frame_title", &l->title}, {"file_author", &l->author}, {"frame_author", &l->author},
+        {"file_description", &l->memo}, {"frame_description", &l->memo}, {"rigami:editor", &l->editor},
+        {"rigami:reference", &l->reference}};
     rg_status s = RG_OK;
     for (size_t i = 0; s == RG_OK && i < sizeof keys / sizeof *keys; i++) {
         s = say(l, rg_value_get(r->frame, keys[i].key), keys[i].to);
@@ -407,7 +415,7 @@ static rg_status warn_folded(reader *r)
     for (size_t i = 0; r->nf == 0 && i < rg_value_count(classes); i++) {
         const char *one = rg_value_text(rg_value_at(classes, i));
         if (one && strcmp(one, "foldedForm") == 0)
-            return rg_lines_warn(r->out, 0, "frame_classes: classed a folded form, and no faces to tell: taken for a crease pattern");
+            return rg_lines_warn(r->out, 0, "frame_classes: a folded form, and no faces to tell: taken for a crease pattern");
     }
     return RG_OK;
 }
@@ -421,7 +429,8 @@ static rg_status resolve(reader *r, int64_t number)
     int depth = 0;
     r->number = (int32_t)number;
     for (int64_t at = number;;) {
-        if (at < 0 || at > (int64_t)rg_value_count(frames)) return bad(r, "frame_parent: there is no frame %lld", (long long)at);
+        if (at < 0 || at > (int64_t)rg_value_count(frames))
+            return bad(r, "frame_parent: there is no frame %lld", (long long)at);
         if (depth == MOST_INHERITED) return bad(r, "frame_parent: frames inherit from each other without end");
         const rg_value *one = chain[depth++] = at == 0 ? r->root : rg_value_at(frames, (size_t)at - 1);
         if (rg_value_kind(one) != RG_KIND_OBJECT) return bad(r, "the frame is no object");
@@ -441,8 +450,8 @@ static rg_status resolve(reader *r, int64_t number)
 
 static int has_drawing(const reader *r)
 {
-    return rg_value_count(rg_value_get(r->frame, "vertices_coords")) > 0 &&
-           (rg_value_count(rg_value_get(r->frame, "edges_vertices")) > 0 || rg_value_count(rg_value_get(r->frame, "faces_vertices")) > 0);
+    const rg_value *edges = rg_value_get(r->frame, "edges_vertices"), *faces = rg_value_get(r->frame, "faces_vertices");
+    return rg_value_count(rg_value_get(r->frame, "vertices_coords")) > 0 && rg_value_count(edges) + rg_value_count(faces) > 0;
 }
 
 static rg_status read_frame(reader *r)
@@ -460,10 +469,11 @@ static rg_status read_frame(reader *r)
     if (s == RG_OK && !r->letter) {
         if (!(r->letter = rg_mem_array(&r->out->mem, (size_t)r->ne, 1))) return RG_ENOMEM;
         for (int32_t e = 0; e < r->ne; e++) r->letter[e] = guess(r, e);
-        s = rg_lines_warn(r->out, 0, "edges_assignment: there are none, they are taken from %s", r->angle ? "the fold angles" : "the faces");
+        s = rg_lines_warn(r->out, 0, "edges_assignment: there are none, they are taken from %s",
+                          r->angle ? "the fold angles" : "the faces");
     }
     if (s == RG_OK && turn < 0)
-        s = rg_lines_warn(r->out, 0, "faces_vertices: faces run clockwise, so this is the back: mountain and valley are exchanged");
+        s = rg_lines_warn(r->out, 0, "faces_vertices: they run clockwise, so this is the back: mountain and valley are exchanged");
     if (s == RG_OK) s = warn_folded(r);
     if (s == RG_OK) s = add_lines(r, turn);
     return s == RG_OK ? metadata(r) : s;
@@ -476,7 +486,8 @@ static rg_status choose(reader *r)
     const int32_t asked = r->s->file_frame;
     if (asked > 0 && (size_t)asked > frames)
         return rg_fail(RG_EFORMAT, r->why, 0, "file_frames: there is no frame %d, the last one is %zu", (int)asked, frames);
-    const int64_t from = asked >= 0 ? asked : 0, to = asked >= 0 ? asked : frames < MOST_FRAMES_TRIED ? (int64_t)frames : MOST_FRAMES_TRIED;
+    const int64_t last = frames < MOST_FRAMES_TRIED ? (int64_t)frames : MOST_FRAMES_TRIED;
+    const int64_t from = asked >= 0 ? asked : 0, to = asked >= 0 ? asked : last;
     rg_diag first = {0, ""};
     rg_status s = RG_OK, failed = RG_OK;
     for (int64_t i = from; i <= to; i++) {
@@ -498,7 +509,8 @@ rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, con
     rg_value *root = NULL;
     rg_lines_init(out, mem);
     rg_status s = size ? rg_value_parse(bytes, size, &root, why) : rg_fail(RG_EFORMAT, why, 0, "the file is empty");
-    if (s == RG_OK && rg_value_kind(root) != RG_KIND_OBJECT) s = rg_fail(RG_EFORMAT, why, 1, "JSON, but no FOLD: it is no object");
+    if (s == RG_OK && rg_value_kind(root) != RG_KIND_OBJECT)
+        s = rg_fail(RG_EFORMAT, why, 1, "JSON, but no FOLD: it is no object");
     reader r = {.out = out, .why = why, .s = settings, .root = root};
     if (s == RG_OK) s = choose(&r);
     if (s == RG_OK && keep) {

@@ -121,8 +121,9 @@ static int has_extension(const char *path, const char *extension)
 
 rg_format rg_read_extension(const char *path)
 {
-    static const struct { const char *extension; rg_format format; } known[] = {{"opx", RG_FORMAT_OPX}, {"xml", RG_FORMAT_OPX},
-        {"cp", RG_FORMAT_CP}, {"fold", RG_FORMAT_FOLD}, {"json", RG_FORMAT_FOLD}, {"svg", RG_FORMAT_SVG}, {"dxf", RG_FORMAT_DXF}};
+    static const struct { const char *extension; rg_format format; } known[] = {
+        {"opx", RG_FORMAT_OPX}, {"xml", RG_FORMAT_OPX}, {"cp", RG_FORMAT_CP}, {"fold", RG_FORMAT_FOLD},
+        {"json", RG_FORMAT_FOLD}, {"svg", RG_FORMAT_SVG}, {"dxf", RG_FORMAT_DXF}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (has_extension(path, known[i].extension)) return known[i].format;
     return RG_FORMAT_AUTO;
@@ -137,11 +138,13 @@ static const char *refusal(text t, const char *path)
     if (begins(t, "\xFF\xFE") || begins(t, "\xFE\xFF")) return "the text is UTF-16: save it as UTF-8";
     if (begins(t, "%PDF") || begins(t, "%!PS")) return "a PDF or PostScript file is not read: save it as .svg";
     if (begins(t, "PK\x03\x04") || begins(t, "\x1F\x8B")) return "a compressed file: unpack it first";
-    if (begins(t, "\x89PNG") || begins(t, "\xFF\xD8\xFF") || begins(t, "GIF8")) return "a picture of pixels has no lines to read";
+    if (begins(t, "\x89PNG") || begins(t, "\xFF\xD8\xFF") || begins(t, "GIF8"))
+        return "a picture of pixels has no lines to read";
     return NULL;
 }
 
-rg_status rg_read_format(const void *bytes, size_t size, const char *path, const rg_settings *s, rg_format *format, rg_diag *why)
+rg_status rg_read_format(const void *bytes, size_t size, const char *path, const rg_settings *s, rg_format *format,
+                         rg_diag *why)
 {
     text t = {bytes, (const char *)bytes + size};
     *format = s->format;
@@ -154,7 +157,8 @@ rg_status rg_read_format(const void *bytes, size_t size, const char *path, const
     return rg_fail(RG_EFORMAT, why, 1, "not a crease pattern that is known: ORIPA's .opx, .cp, .fold, .svg or .dxf");
 }
 
-rg_status rg_read_bytes(const void *bytes, size_t size, const char *path, const rg_settings *s, int keep, rg_lines *out, rg_diag *why)
+rg_status rg_read_bytes(const void *bytes, size_t size, const char *path, const rg_settings *s, int keep, rg_lines *out,
+                        rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(s->memory);
     rg_format format;
@@ -184,7 +188,8 @@ static rg_status slurp(FILE *f, const rg_memory *mem, char **bytes, size_t *size
 {
     size_t room = 0, got;
     do {
-        if (rg_mem_grow(mem, (void **)bytes, &room, *size + 65536, 1) != RG_OK) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
+        if (rg_mem_grow(mem, (void **)bytes, &room, *size + 65536, 1) != RG_OK)
+            return rg_fail(RG_ENOMEM, why, 0, "out of memory");
         got = fread(*bytes + *size, 1, room - *size, f);
         *size += got;
     } while (got > 0);

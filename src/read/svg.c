@@ -8,7 +8,8 @@
 
 /* Illustrator rounds to 0.001 of a point, Origami Simulator merges within 3 pixels. */
 static const double MERGE = 1e-3;
-/* A curve whose inner points are off its chord by less than this part of it is a straight line, drawn with a curve's tool. */
+/* A curve whose inner points are off its chord by less than this part of it is a straight line, drawn with a curve's
+ * tool. */
 static const double STRAIGHT = 1e-6;
 
 typedef struct matrix { double a, b, c, d, e, f; } matrix; /* x' = a x + c y + e, y' = b x + d y + f */
@@ -61,7 +62,8 @@ static rg_status length(const reader *r, const rg_xml_node *n, const char *name,
     const size_t unit = strcspn(s, " \t\r\n");
     if (s[unit + strspn(s + unit, " \t\r\n")] == 0)
         for (size_t i = 0; i < sizeof units / sizeof *units; i++)
-            if (strlen(units[i].unit) == unit && strncmp(units[i].unit, s, unit) == 0) return *x *= units[i].pixels, RG_OK;
+            if (strlen(units[i].unit) == unit && strncmp(units[i].unit, s, unit) == 0)
+                return *x *= units[i].pixels, RG_OK;
     return fail(r, n, "a length in units that are not known:", rg_xml_attribute(n, name));
 }
 
@@ -80,7 +82,8 @@ static int function(const char *name, size_t n, const double *v, int count, matr
 {
     const double angle = count > 0 ? v[0] * RG_DEG : 0;
     if (n == 6 && memcmp(name, "matrix", n) == 0 && count == 6) *m = (matrix){v[0], v[1], v[2], v[3], v[4], v[5]};
-    else if (n == 9 && memcmp(name, "translate", n) == 0 && (count == 1 || count == 2)) *m = shift(v[0], count > 1 ? v[1] : 0);
+    else if (n == 9 && memcmp(name, "translate", n) == 0 && (count == 1 || count == 2))
+        *m = shift(v[0], count > 1 ? v[1] : 0);
     else if (n == 5 && memcmp(name, "scale", n) == 0 && (count == 1 || count == 2))
         *m = (matrix){v[0], 0, 0, v[count - 1], 0, 0};
     else if (n == 5 && memcmp(name, "skewX", n) == 0 && count == 1) *m = (matrix){1, 0, tan(angle), 1, 0, 0};
@@ -192,7 +195,8 @@ static rg_status rectangle(reader *r, const rg_xml_node *n, const paint *p)
     if (s == RG_OK) s = length(r, n, "height", &h);
     if (s == RG_OK) s = length(r, n, "rx", &rx);
     if (s == RG_OK) s = length(r, n, "ry", &ry);
-    if (s == RG_OK && (rx > 0 || ry > 0)) return fail(r, n, "its corners are round: rx, ry", rg_xml_attribute(n, rx > 0 ? "rx" : "ry"));
+    if (s == RG_OK && (rx > 0 || ry > 0))
+        return fail(r, n, "its corners are round: rx, ry", rg_xml_attribute(n, rx > 0 ? "rx" : "ry"));
     const rg_vec2 corner[] = {{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}};
     for (int i = 0; s == RG_OK && i < 4 && w > 0 && h > 0; i++) s = segment(r, n, p, corner[i], corner[(i + 1) % 4]);
     return s;
@@ -220,7 +224,8 @@ static int on_chord(rg_vec2 a, rg_vec2 b, rg_vec2 x)
 {
     const rg_vec2 d = rg_vec2_sub(b, a), r = rg_vec2_sub(x, a);
     const double square = rg_vec2_dot(d, d), along = rg_vec2_dot(d, r);
-    return fabs(rg_vec2_cross(d, r)) <= STRAIGHT * square && along >= -STRAIGHT * square && along <= (1 + STRAIGHT) * square;
+    return fabs(rg_vec2_cross(d, r)) <= STRAIGHT * square && along >= -STRAIGHT * square &&
+           along <= (1 + STRAIGHT) * square;
 }
 
 /* How many numbers a path's command takes; -1: no command. */
@@ -271,7 +276,8 @@ static rg_status path(reader *r, const rg_xml_node *n, const paint *p)
         rg_vec2 to = start;
         for (int i = 0; i < count; i++)
             if (!next_number(&s, &v[i])) return fail(r, n, "path: a number is missing at", here);
-        if (count > 0 && !lead(command, v, at, &to)) return fail(r, n, "a curve, where paper folds along straight lines only:", here);
+        if (count > 0 && !lead(command, v, at, &to))
+            return fail(r, n, "a curve, where paper folds along straight lines only:", here);
         if ((command | 32) == 'm') {
             start = to;
             command = command == 'm' ? 'l' : 'L'; /* what follows without a command is lines */
@@ -290,8 +296,9 @@ static rg_status ring(reader *r, const rg_xml_node *n, const paint *p)
 {
     const char *name = rg_xml_name(n);
     if (p->known && rg_colour_assignment(p->stroke) == RG_BORDER)
-        return rg_fail(RG_EFORMAT, r->why, rg_xml_line(n), "<%s>: a curve as border, where only straight lines are known", name);
-    return r->told_ring++ ? RG_OK : rg_lines_warn(r->out, rg_xml_line(n), "<%s> is left out, as all circles: a mark, no crease", name);
+        return rg_fail(RG_EFORMAT, r->why, rg_xml_line(n), "<%s>: a curve as border, paper has straight ones here", name);
+    if (r->told_ring++) return RG_OK;
+    return rg_lines_warn(r->out, rg_xml_line(n), "<%s> is left out, as all circles: a mark, no crease", name);
 }
 
 static rg_status shape(reader *r, const rg_xml_node *n, const paint *p)

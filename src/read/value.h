@@ -7,10 +7,19 @@
 
 typedef struct json_t rg_value; /* known by name only: the library's header stays in value.c */
 
-typedef enum rg_kind { RG_KIND_NONE, RG_KIND_NULL, RG_KIND_BOOL, RG_KIND_INTEGER, RG_KIND_REAL, RG_KIND_TEXT, RG_KIND_LIST, RG_KIND_OBJECT } rg_kind;
+typedef enum rg_kind {
+    RG_KIND_NONE,
+    RG_KIND_NULL,
+    RG_KIND_BOOL,
+    RG_KIND_INTEGER,
+    RG_KIND_REAL,
+    RG_KIND_TEXT,
+    RG_KIND_LIST,
+    RG_KIND_OBJECT
+} rg_kind;
 
-/* RG_EFORMAT: why->line and why->text; also for a key that comes twice in one object. The depth is bounded, and numbers are
- * finite. RG_ENOMEM. Owner: the caller, rg_value_free. */
+/* RG_EFORMAT: why->line and why->text; also for a key that comes twice in one object. The depth is bounded, and numbers
+ * are finite. RG_ENOMEM. Owner: the caller, rg_value_free. */
 rg_status rg_value_parse(const void *bytes, size_t size, rg_value **root, rg_diag *why);
 void rg_value_free(rg_value *v);
 

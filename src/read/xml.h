@@ -1,8 +1,8 @@
 /* xml.h -- an XML file as a tree of elements.
  * Uses  libxml2        Used by  opx.c svg.c
  *
- * Loads nothing from anywhere and expands no entities; depth and length of names are bounded by the parser, the rest by the
- * size of the input. */
+ * Loads nothing from anywhere and expands no entities; depth and length of names are bounded by the parser, the rest by
+ * the size of the input. */
 #ifndef RG_XML_H
 #define RG_XML_H
 

@@ -20,8 +20,8 @@ rg_status rg_cp_write(const rg_lines *l, const char *path, rg_diag *why)
     for (int32_t i = 0; i < l->count; i++) {
         const rg_line *q = &l->line[i];
         char text[4][RG_NUMBER_ROOM];
-        fprintf(f.stream, "%d %s %s %s %s\n", code(q->assignment), rg_number_print(text[0], q->a.x), rg_number_print(text[1], -q->a.y),
-                rg_number_print(text[2], q->b.x), rg_number_print(text[3], -q->b.y));
+        fprintf(f.stream, "%d %s %s %s %s\n", code(q->assignment), rg_number_print(text[0], q->a.x),
+                rg_number_print(text[1], -q->a.y), rg_number_print(text[2], q->b.x), rg_number_print(text[3], -q->b.y));
     }
     return rg_file_commit(&f, why);
 }

@@ -5,9 +5,9 @@
 
 #include "read/lines.h"
 
-/* Writes the file whole or not at all; "-" is standard output. Every coordinate reads back as the same double; y points down in
- * the file. Lost: targets, titles, and the difference between unassigned, auxiliary and cut lines, which all become auxiliary
- * (4). RG_EWRITE, RG_ENOMEM: why->text. */
+/* Writes the file whole or not at all; "-" is standard output. Every coordinate reads back as the same double; y points
+ * down in the file. Lost: targets, titles, and the difference between unassigned, auxiliary and cut lines, which all
+ * become auxiliary (4). RG_EWRITE, RG_ENOMEM: why->text. */
 rg_status rg_cp_write(const rg_lines *l, const char *path, rg_diag *why);
 
 #endif

@@ -149,7 +149,8 @@ static rg_status put_edges_faces(rg_json *j, const rg_lines *l, const rg_fold_sh
 
 static rg_status put_faces(rg_json *j, const rg_lines *l, const rg_fold_sheet *s)
 {
-    const struct { const char *key; const int32_t *list; } lists[] = {{"faces_vertices", s->face_vertex}, {"faces_edges", s->face_edge}};
+    const struct { const char *key; const int32_t *list; } lists[] = {{"faces_vertices", s->face_vertex},
+                                                                      {"faces_edges", s->face_edge}};
     for (int i = 0; i < 2; i++) {
         rg_json_open(j, lists[i].key, '[');
         for (int32_t f = 0; f < s->nf; f++)

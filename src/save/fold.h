@@ -8,16 +8,18 @@
 /* The lines as a plane graph, with faces; all lent. */
 typedef struct rg_fold_sheet {
     int32_t nv, ne, nf;
-    const rg_vec2 *X;                                   /* [nv] */
-    const int32_t *E;                                   /* [2 ne] */
-    const char *letter;                                 /* [ne] FOLD's */
-    const double *angle;                                /* [ne] degrees */
-    const int32_t *face_start, *face_vertex, *face_edge; /* [nf + 1], [face_start[nf]] twice: edge k runs from vertex k on */
-    int same_vertices, same_edges, same_faces;          /* numbered as in lines.frame, so that what else is said there of them holds */
+    const rg_vec2 *X;          /* [nv] */
+    const int32_t *E;          /* [2 ne] */
+    const char *letter;        /* [ne] FOLD's */
+    const double *angle;       /* [ne] degrees */
+    const int32_t *face_start; /* [nf + 1] into the two that follow */
+    const int32_t *face_vertex, *face_edge;    /* edge k runs from vertex k to the next one */
+    int same_vertices, same_edges, same_faces; /* numbered as in lines.frame: what else is said there of them holds */
 } rg_fold_sheet;
 
-/* Writes the file whole or not at all; "-" is standard output. Every number reads back as the same double. What l->frame says
- * besides is written too where it still holds; *lost: out, how many of its keys are not. RG_EWRITE, RG_ENOMEM: why->text. */
+/* Writes the file whole or not at all; "-" is standard output. Every number reads back as the same double. What
+ * l->frame says besides is written too where it still holds; *lost: out, how many of its keys are not. RG_EWRITE,
+ * RG_ENOMEM: why->text. */
 rg_status rg_fold_write(const rg_lines *l, const rg_fold_sheet *sheet, const char *path, int32_t *lost, rg_diag *why);
 
 #endif

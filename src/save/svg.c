@@ -63,7 +63,8 @@ static void open_drawing(FILE *out, const rg_lines *l)
     }
     const double size = fmax(high.x - low.x, high.y - low.y), margin = MARGIN * size;
     char a[RG_NUMBER_ROOM], b[RG_NUMBER_ROOM], c[RG_NUMBER_ROOM], d[RG_NUMBER_ROOM];
-    fprintf(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"%s %s %s %s\">\n",
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"", out);
+    fprintf(out, " viewBox=\"%s %s %s %s\">\n",
             rg_number_print(a, low.x - margin), rg_number_print(b, -high.y - margin),
             rg_number_print(c, high.x - low.x + 2 * margin), rg_number_print(d, high.y - low.y + 2 * margin));
     say(out, "<title>", l->title, "</title>\n");
