@@ -1,5 +1,6 @@
 #include "fold/fold.h"
 #include "base/status.h"
+#include "fold/integrate.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -11,8 +12,6 @@ static const double FIRST_ANGLE = 0.01;
 /* Steps smaller than this part of the whole way are no progress. */
 static const double SMALLEST_STEP = 1e-6;
 static const int32_t MOST_STEPS = 20000;
-/* The part of the wish that the constraint must leave over for the motion to count as going on. */
-static const double LEAST_EFFICIENCY = 1e-5;
 static const double SOLVE_TOLERANCE = 1e-8;
 static const int32_t CORRECTIONS = 8;
 /* A correction this much longer than the step it corrects has left the branch. */
@@ -57,7 +56,8 @@ rg_status rg_fold_from_mesh(rg_mesh *m, const rg_settings *settings, rg_fold **f
     }
     f->mem = mem;
     f->settings = *settings;
-    if (f->settings.method == RG_METHOD_AUTO) f->settings.method = RG_METHOD_NEWTON;
+    if (f->settings.method == RG_METHOD_AUTO) f->settings.method = RG_METHOD_ADAPTIVE;
+    f->smooth = f->settings.method == RG_METHOD_ADAPTIVE;
     f->mesh = *m;
     memset(m, 0, sizeof *m);
     const int32_t N = f->mesh.N;
@@ -66,8 +66,9 @@ rg_status rg_fold_from_mesh(rg_mesh *m, const rg_settings *settings, rg_fold **f
     if (s == RG_EABSENT) rg_fail(s, why, 0, "this build has no such solver: it was made with GPL=0");
     if (s == RG_OK) s = rg_drive_init(&f->drive, &mem, &f->mesh, settings->to < 0 ? -1 : 1);
     if (s == RG_OK) s = rg_limit_init(&f->limit, &mem, &f->mesh);
-    double **array[] = {&f->rho, &f->trial, &f->wish, &f->t, &f->pull, &f->best, &f->end};
-    for (int i = 0; i < 7; i++)
+    if (s == RG_OK && f->smooth) s = rg_path_init(&f->path, &mem, N);
+    double **array[] = {&f->rho, &f->trial, &f->wish, &f->t, &f->pull, &f->best, &f->end, &f->k[0], &f->k[1], &f->k[2]};
+    for (int i = 0; i < 10; i++)
         if (!(*array[i] = rg_mem_array(&mem, (size_t)N, sizeof(double))) && s == RG_OK) s = RG_ENOMEM;
     if (s != RG_OK) {
         rg_fold_destroy(f);
@@ -103,8 +104,9 @@ void rg_fold_destroy(rg_fold *f)
     rg_project_free(&f->P);
     rg_drive_free(&f->drive);
     rg_limit_free(&f->limit);
-    double *array[] = {f->rho, f->trial, f->wish, f->t, f->pull, f->best, f->end};
-    for (int i = 0; i < 7; i++) rg_mem_free(&mem, array[i]);
+    rg_path_free(&f->path);
+    double *array[] = {f->rho, f->trial, f->wish, f->t, f->pull, f->best, f->end, f->k[0], f->k[1], f->k[2]};
+    for (int i = 0; i < 10; i++) rg_mem_free(&mem, array[i]);
     rg_mem_free(&mem, f);
 }
 
@@ -133,23 +135,6 @@ static void stop(rg_fold *f, const char *why)
     f->outcome = arrived ? RG_FOLDED : RG_STOPPED;
     snprintf(f->reason, sizeof f->reason, "%s%s", why,
              arrived ? "; every crease is within 1 % of its target" : "");
-}
-
-/* The allowed direction at f->rho: t for ds = 1, so that rho + ds t has progress s + ds. Returns the part of the wish
- * that was left over; 0: none. */
-static double direction(rg_fold *f)
-{
-    const int32_t N = f->mesh.N;
-    rg_cg_report rep;
-    rg_constraint_assemble(&f->K, f->rho);
-    f->assemblies++;
-    rg_project_renew(&f->P);
-    rg_drive_wish(&f->drive, f->rho, f->s, f->wish);
-    if (rg_project_step(&f->P, &f->K, f->wish, 0, NULL, f->t, SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (9) */
-    double along = rg_drive_progress(&f->drive, f->t);
-    if (along > 0)
-        for (int32_t i = 0; i < N; i++) f->t[i] /= along;
-    return along;
 }
 
 /* Creases beyond their limits are pulled back, along what the constraint allows; f->trial is then corrected. */
@@ -182,17 +167,24 @@ static int land(rg_fold *f)
     return 1;
 }
 
+/* A step of the method's own kind from f->rho along f->t to f->trial, closed. Beyond a limit, and where a stage has no
+ * direction, as in the folded state, Euler's is the method: it can be pulled back. */
+static int try_step(rg_fold *f, double ds)
+{
+    int higher = f->settings.method == RG_METHOD_HEUN  ? rg_integrate_heun(f, ds)
+                 : f->settings.method == RG_METHOD_RK4 ? rg_integrate_rk4(f, ds)
+                                                       : 0;
+    if (higher && !(rg_limit_pull(&f->limit, f->trial, f->pull) > 0)) return 1;
+    for (int32_t i = 0; i < f->mesh.N; i++) f->trial[i] = f->rho[i] + ds * f->t[i];
+    pull_back(f);
+    return rg_newton_correct(f, f->s + ds, CORRECTIONS);
+}
+
 static void step_newton(rg_fold *f)
 {
     const int32_t N = f->mesh.N;
     const double goal = rg_fold_frame_progress(f, f->frame);
-    if (f->steps == 1 && f->s == 0) {
-        double s1 = fmin(FIRST_ANGLE / RG_PI, goal);
-        if (!rg_start_leave_flat(f, s1)) stop(f, "no way off the flat state was found");
-        return;
-    }
-    double left = direction(f);
-    if (!(left > LEAST_EFFICIENCY)) {
+    if (!(rg_integrate_tangent(f, f->rho, f->s, 0, f->t) > 0)) {
         stop(f, "no motion that the facets allow folds any further");
         return;
     }
@@ -204,10 +196,8 @@ static void step_newton(rg_fold *f)
             stop(f, "the facets leave no way on: even the smallest step does not close");
             return;
         }
-        for (int32_t i = 0; i < N; i++) f->trial[i] = f->rho[i] + ds * f->t[i];
         double way = ds * fastest, strayed = 0;
-        pull_back(f);
-        if (!rg_newton_correct(f, f->s + ds, CORRECTIONS)) continue;
+        if (!try_step(f, ds)) continue;
         for (int32_t i = 0; i < N; i++) {
             double d = fabs(f->trial[i] - f->rho[i] - ds * f->t[i]);
             if (!(d <= strayed)) strayed = d;
@@ -251,6 +241,42 @@ static void step_euler(rg_fold *f)
     f->closure = rg_constraint_closure(&f->K, f->rho, NULL);
 }
 
+static void leave_flat(rg_fold *f)
+{
+    double s1 = fmin(FIRST_ANGLE / RG_PI, rg_fold_frame_progress(f, f->frame));
+    if (f->smooth) rg_path_insert(&f->path, 0, f->rho, NULL);
+    if (!rg_start_leave_flat(f, s1)) {
+        stop(f, "no way off the flat state was found");
+        return;
+    }
+    if (f->smooth && !(rg_integrate_tangent(f, f->rho, f->s, 0, f->t) > 0)) f->smooth = 0;
+    if (f->smooth) rg_path_insert(&f->path, f->s, f->rho, f->t);
+    f->h = f->s;
+    f->order = 1;
+}
+
+/* The next frame off the nodes, or another node where they do not reach it yet. */
+static void step_adaptive(rg_fold *f)
+{
+    rg_path *p = &f->path;
+    const double goal = rg_fold_frame_progress(f, f->frame);
+    const int32_t beyond = RG_PATH_WINDOW / 2;
+    double last = p->node[p->count - 1].s;
+    int ended = f->path_ended || last >= f->s_end;
+    int reached = goal <= last && (ended || (p->count > beyond && goal <= p->node[p->count - beyond].s));
+    if (reached && rg_integrate_read_off(f, goal)) {
+        accept(f, f->trial, goal);
+        return;
+    }
+    if (!reached && !ended) {
+        f->steps++;
+        f->path_ended = !rg_integrate_advance(f);
+        return;
+    }
+    f->smooth = 0; /* from the last node on, or from the last frame if that is all there is, step by step */
+    if (!reached) accept(f, p->node[p->count - 1].rho, last);
+}
+
 rg_status rg_fold_step(rg_fold *f, rg_step_info *info)
 {
     int64_t solves = f->P.solves, iterations = f->P.iterations;
@@ -268,6 +294,8 @@ rg_status rg_fold_step(rg_fold *f, rg_step_info *info)
             stop(f, "the number of steps ran out");
         } else {
             if (f->settings.method == RG_METHOD_EULER) step_euler(f);
+            else if (f->steps == 1 && f->s == 0) leave_flat(f);
+            else if (f->smooth) step_adaptive(f);
             else step_newton(f);
             if (f->outcome == RG_RUNNING && f->s >= rg_fold_frame_progress(f, f->frame)) frame = f->frame;
         }
@@ -276,7 +304,7 @@ rg_status rg_fold_step(rg_fold *f, rg_step_info *info)
             f->outcome = RG_FOLDED;
             if (f->s_end >= 1) stop(f, "all frames are made");
         }
-        f->steps++;
+        f->steps += !f->smooth || f->steps < 2;
     }
     f->seconds_solving += seconds() - from;
     *info = (rg_step_info){f->outcome, f->s, frame, f->closure, (int32_t)(f->P.solves - solves),

@@ -5,6 +5,7 @@
 
 #include "fold/drive.h"
 #include "fold/limit.h"
+#include "fold/path.h"
 #include "kinematics/project.h"
 
 struct rg_fold {
@@ -19,6 +20,13 @@ struct rg_fold {
     double *trial, *wish, *t;     /* [N] */
     double *pull, *best;          /* [N] */
     double *end;                  /* [N] the folded state that is aimed at */
+    double *k[3];                 /* [N] stages of heun and rk4; scratch of adaptive */
+    rg_path path;                 /* adaptive: the nodes; the state lags behind the last one */
+    double h;                     /* and the next step from there */
+    int one_way;                  /* as far as is known, the sheet can go one way only */
+    int32_t order;                /* of Adams and Bashforth's formula, where it can go several ways */
+    int smooth, path_ended;       /* steps are adaptive ones; and there is no way on from the last node for them */
+    int64_t nodes;                /* made by them */
     double s, s_end, ds;          /* progress, where to stop, size of the next step in s */
     int end_is_closed;            /* the folded state closes to tolerance: land on it exactly */
     int32_t frame;                /* the next frame to reach */

@@ -9,6 +9,8 @@ static const int32_t ITERATIONS_AT_LEAST = 2000;
 /* Above this many creases a sparse factorisation beats the iteration (it is even between 176 and 736). */
 static const int32_t CHOLESKY_FROM = 400;
 /* A factor of the same numbers takes a few iterations, one of others soon more than a new one would cost. */
+/* The part of what is held that the sheet can do; below this it is rounding. */
+static const double LEAST_LEFT = 1e-9;
 static const int32_t DIRECT_ITERATIONS = 200, STALE_ITERATIONS = 12;
 
 rg_status rg_project_init(rg_project *P, const rg_memory *mem, const rg_constraint *K, rg_solver solver)
@@ -26,9 +28,8 @@ rg_status rg_project_init(rg_project *P, const rg_memory *mem, const rg_constrai
     P->b = rg_mem_array(mem, 3 * (size_t)M, sizeof *P->b);
     P->y = rg_mem_array(mem, 3 * (size_t)M, sizeof *P->y);
     P->x = rg_mem_array(mem, (size_t)N, sizeof *P->x);
-    P->q = rg_mem_array(mem, (size_t)N, sizeof *P->q);
-    P->t = rg_mem_array(mem, (size_t)N, sizeof *P->t);
-    if (s == RG_OK && (!P->b || !P->y || !P->x || !P->q || !P->t)) s = RG_ENOMEM;
+    P->u = rg_mem_array(mem, 3 * (size_t)M, sizeof *P->u);
+    if (s == RG_OK && (!P->b || !P->y || !P->x || !P->u)) s = RG_ENOMEM;
     if (s != RG_OK) rg_project_free(P);
     return s;
 }
@@ -45,8 +46,7 @@ void rg_project_free(rg_project *P)
     rg_mem_free(&mem, P->b);
     rg_mem_free(&mem, P->y);
     rg_mem_free(&mem, P->x);
-    rg_mem_free(&mem, P->q);
-    rg_mem_free(&mem, P->t);
+    rg_mem_free(&mem, P->u);
     memset(P, 0, sizeof *P);
 }
 
@@ -68,24 +68,31 @@ static double dot(int32_t n, const double *a, const double *b)
     return sum;
 }
 
-/* z = G r, kept to what `held` leaves: with q = Z n the step orthogonal to n that solves best is G r - q (n . G r) / (n . q). */
+/* z = B^T P r. With n held, B (I - n n^T) takes the place of B, and P + u u^T / (1 - v.u) that of P, v = B n, u = P v. */
 static void pinv_held(void *project, const double *r, double *z)
 {
     rg_project *P = project;
-    const int32_t N = P->scale.B.N;
-    rg_cholesky_pinv(&P->cholesky, &P->scale.B, r, z);
+    const int32_t M = P->scale.B.M, N = P->scale.B.N;
+    double *y = P->y;
+    rg_cholesky_apply(&P->cholesky, r, y);
+    if (P->held) {
+        double c = dot(3 * M, P->u, r) / P->left;
+        for (int32_t i = 0; i < 3 * M; i++) y[i] += c * P->u[i];
+    }
+    rg_sparse_mul_t(&P->scale.B, y, z);
     if (!P->held) return;
-    double c = dot(N, P->held, z) / P->q_along;
-    for (int32_t i = 0; i < N; i++) z[i] -= c * P->q[i];
+    double along = dot(N, P->held, z);
+    for (int32_t i = 0; i < N; i++) z[i] -= along * P->held[i];
 }
 
 static void hold_on(rg_project *P, const double *hold)
 {
     P->held = hold;
-    if (!hold || P->q_of == hold) return;
-    rg_cholesky_null(&P->cholesky, &P->scale.B, hold, P->q);
-    P->q_along = dot(P->scale.B.N, hold, P->q);
-    P->q_of = hold;
+    if (!hold || P->u_of == hold) return;
+    rg_sparse_mul(&P->cholesky.B, hold, P->y);
+    rg_cholesky_apply(&P->cholesky, P->y, P->u);
+    P->left = fmax(1 - dot(3 * P->scale.B.M, P->y, P->u), LEAST_LEFT);
+    P->u_of = hold;
 }
 
 static rg_status factor(rg_project *P, const double *hold)
@@ -95,7 +102,7 @@ static rg_status factor(rg_project *P, const double *hold)
     P->factorizations++;
     P->factored = s == RG_OK;
     P->stale = 0;
-    P->q_of = NULL;
+    P->u_of = NULL;
     P->held = P->solver == RG_SOLVER_SVD ? hold : NULL;
     return s;
 }
@@ -149,23 +156,6 @@ static rg_status solve_any(rg_project *P, const rg_constraint *K, const double *
     return RG_OK;
 }
 
-/* What the sheet can do is read off by Z, but rounding in it is amplified: by some 1e-16 / beta of the result. So Z is
- * used twice, or on what a guess leaves, which makes that 1e-16 / beta of very little. What Z lets through of the rest,
- * slow modes, B then finds and takes out. */
-static rg_status tangent(rg_project *P, const rg_constraint *K, const double *wish, double *t, int guessed, double tol,
-                         rg_cg_report *rep)
-{
-    const int32_t N = K->C.N;
-    if (!guessed) rg_cholesky_null(&P->cholesky, &P->scale.B, wish, t);
-    for (int32_t i = 0; i < N; i++) P->x[i] = wish[i] - t[i];
-    rg_cholesky_null(&P->cholesky, &P->scale.B, P->x, P->x);
-    for (int32_t i = 0; i < N; i++) t[i] += P->x[i];
-    rg_sparse_mul(&P->scale.B, t, P->b);
-    rg_status s = solve_direct(P, NULL, P->b, P->x, 0, tol * sqrt(dot(N, wish, wish)), rep);
-    for (int32_t i = 0; i < N; i++) t[i] -= P->x[i]; /* (I - C^+ C) wish                  eq. (9) */
-    return s;
-}
-
 static rg_status step(rg_project *P, const rg_constraint *K, const double *drho0, int feed, const double *hold,
                       double *drho, double tol, rg_cg_report *rep)
 {
@@ -183,24 +173,19 @@ rg_status rg_project_step(rg_project *P, const rg_constraint *K, const double *d
                           const double *hold, double *drho, double tol, rg_cg_report *rep)
 {
     rg_status s = prepare(P, K, hold);
-    if (s != RG_OK) return s;
+    if (s == RG_OK) s = step(P, K, drho0, feed, hold, drho, tol, rep);
     P->solves++;
-    if (P->solver != RG_SOLVER_CHOLESKY || feed || hold || !drho0) return step(P, K, drho0, feed, hold, drho, tol, rep);
-    s = tangent(P, K, drho0, P->t, 0, tol, rep);
-    if (s != RG_OK) return s;
-    for (int32_t i = 0; i < K->C.N; i++) P->x[i] = drho0[i] - P->t[i];
-    memcpy(drho, P->t, (size_t)K->C.N * sizeof *drho);
-    rg_cholesky_reaction(&P->cholesky, &P->scale.B, P->x, P->y);
+    if (s != RG_OK || P->solver != RG_SOLVER_CHOLESKY || feed || hold) return s;
+    rg_sparse_mul(&P->scale.B, P->x, P->b); /* y = P B x of x = B^T y */
+    rg_cholesky_apply(&P->cholesky, P->b, P->y);
     rg_scale_rows_t(&P->scale, P->y);
-    return RG_OK;
+    return s;
 }
 
-rg_status rg_project_tangent(rg_project *P, const rg_constraint *K, const double *wish, double *t, int guessed,
-                             double tol, rg_cg_report *rep)
+rg_status rg_project_tangent(rg_project *P, const rg_constraint *K, const double *wish, double *t, double tol,
+                             rg_cg_report *rep)
 {
     rg_status s = prepare(P, K, NULL);
-    if (s != RG_OK) return s;
     P->solves++;
-    if (P->solver == RG_SOLVER_CHOLESKY) return tangent(P, K, wish, t, guessed, tol, rep);
-    return step(P, K, wish, 0, NULL, t, tol, rep);
+    return s == RG_OK ? step(P, K, wish, 0, NULL, t, tol, rep) : s;
 }

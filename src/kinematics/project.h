@@ -19,13 +19,13 @@ typedef struct rg_project {
     rg_pinv pinv;
     rg_cg_work cg;
     double *b, *y, *x; /* [3M] [3M] [N] */
-    double *t, *q;     /* [N] [N] q = Z n for the n that is held */
-    double q_along;    /* n . q */
-    const double *q_of; /* that n, NULL: q is not made yet */
+    double *u;         /* [3M] P B n for the n that is held */
+    double left;       /* 1 - (B n) . u */
+    const double *u_of; /* that n, NULL: u is not made yet */
     int fresh;         /* B and the preconditioner belong to the present numbers of C */
     int factored;      /* the factor belongs to them, or to numbers near them */
     int stale;         /* to numbers near them */
-    const double *held; /* the n that steps keep to, or, dense, that the pseudo-inverse is made for */
+    const double *held; /* the n that steps keep to */
     int64_t solves, iterations, factorizations;
 } rg_project;
 
@@ -50,12 +50,8 @@ void rg_project_renew_near(rg_project *P);
 rg_status rg_project_step(rg_project *P, const rg_constraint *K, const double *drho0, int feed,
                           const double *hold, double *drho, double tol, rg_cg_report *rep);
 
-/* t = (I - C^+ C) wish                                                                                   eq. (9)
- *   wish[N]  in   per unit of progress, radians
- *   t[N]     in   a guess at the answer, which saves work and rounding if it is good; out  the answer
- *   guessed  in   zero: t is not set
- *   tol      in   relative to the wish */
-rg_status rg_project_tangent(rg_project *P, const rg_constraint *K, const double *wish, double *t, int guessed,
-                             double tol, rg_cg_report *rep);
+/* The same without r, hold and P->y, cheaper: t = (I - C^+ C) wish, to tol relative to C^+ C wish.       eq. (9) */
+rg_status rg_project_tangent(rg_project *P, const rg_constraint *K, const double *wish, double *t, double tol,
+                             rg_cg_report *rep);
 
 #endif

@@ -137,14 +137,14 @@ void rg_cg_refine(const rg_sparse *B, rg_apply_pinv *G, void *ctx, const double 
 {
     const int32_t m = 3 * B->M, n = B->N;
     double *r = k->r, *w = k->w, *u = k->u, *z = k->s, *p = k->p;
-    double gamma = 0, shortest = INFINITY, first = 0, target = absolute;
+    double curvature = 0, shortest = INFINITY, first = 0, target = absolute;
     int32_t since = 0;
 
     residual(B, b, x, r);
     rep->stop = RG_CG_MAX_ITERATIONS;
     for (rep->iterations = 0;; rep->iterations++) {
         G(ctx, r, z);
-        double length = sqrt(dot(n, z, z)), old = gamma;
+        double length = sqrt(dot(n, z, z));
         if (rep->iterations == 0) first = length, target = fmax(absolute, relative * length);
         if (length <= 0.5 * shortest) shortest = length, since = 0;
         else since++;
@@ -156,12 +156,12 @@ void rg_cg_refine(const rg_sparse *B, rg_apply_pinv *G, void *ctx, const double 
         }
         if (rep->iterations >= max_iterations) break;
         rg_sparse_mul(B, z, u);
-        gamma = dot(m, r, u);
-        double beta = rep->iterations ? gamma / old : 0;
+        double beta = rep->iterations ? -dot(m, u, w) / curvature : 0;
         for (int32_t i = 0; i < n; i++) p[i] = z[i] + beta * p[i];
         for (int32_t i = 0; i < m; i++) w[i] = u[i] + beta * w[i]; /* w = B p */
-        double curvature = dot(m, w, w), alpha = gamma / curvature;
-        if (!(curvature > 0 && gamma > 0)) { /* rounding, if the steps have become short */
+        curvature = dot(m, w, w);
+        double gain = dot(m, r, w), alpha = gain / curvature;
+        if (!(curvature > 0 && gain > 0)) { /* rounding, if the steps have become short */
             rep->stop = length <= ROUNDED * first ? RG_CG_LEAST_SQUARES : RG_CG_BREAKDOWN;
             break;
         }

@@ -228,10 +228,11 @@ static rg_status init_shape(rg_cholesky *L, const rg_memory *mem, const rg_spars
     cholmod_start(&k->common);
     k->common.print = 0;
     L->order = rg_mem_array(mem, (size_t)L->n, sizeof *L->order);
-    L->x = rg_mem_array(mem, (size_t)B->N, sizeof *L->x);
-    L->y = rg_mem_array(mem, 3 * (size_t)B->M, sizeof *L->y);
+    L->x = rg_mem_array(mem, (size_t)L->n, sizeof *L->x);
+    L->B = *B;
+    L->B.x = rg_mem_array(mem, (size_t)B->start[B->M], sizeof *B->x);
     k->b = cholmod_allocate_dense((size_t)L->n, 1, (size_t)L->n, CHOLMOD_REAL, &k->common);
-    rg_status s = L->order && L->x && L->y && k->b ? find_order(L, B) : RG_ENOMEM;
+    rg_status s = L->order && L->x && L->B.x && k->b ? find_order(L, B) : RG_ENOMEM;
     if (s != RG_OK) rg_cholesky_free(L);
     return s;
 }
@@ -284,7 +285,7 @@ void rg_cholesky_free(rg_cholesky *L)
     rg_mem_free(&L->mem, L->order);
     rg_mem_free(&L->mem, L->to);
     rg_mem_free(&L->mem, L->x);
-    rg_mem_free(&L->mem, L->y);
+    rg_mem_free(&L->mem, L->B.x);
     if (k) {
         cholmod_free_sparse(&k->A, &k->common);
         cholmod_free_factor(&k->L, &k->common);
@@ -302,6 +303,7 @@ rg_status rg_cholesky_update(rg_cholesky *L, const rg_sparse *B)
 {
     state *k = L->state;
     if (!k) return RG_OK;
+    memcpy(L->B.x, B->x, (size_t)B->start[B->M] * sizeof *B->x);
     memset(k->A->x, 0, k->A->nzmax * sizeof(double));
     if (L->shape == RG_SHAPE_COLUMNS) add_columns(B, L->to, k->A->x);
     else add_rows(B, L->to, k->A->x);
@@ -346,42 +348,21 @@ static void solve(rg_cholesky *L, double *b) { (void)L, (void)b; }
 
 #endif
 
-void rg_cholesky_pinv(rg_cholesky *L, const rg_sparse *B, const double *r, double *z)
+void rg_cholesky_apply(rg_cholesky *L, const double *r, double *y)
 {
-    if (L->shape == RG_SHAPE_COLUMNS) {
-        rg_sparse_mul_t(B, r, z);
-        if (L->state) solve(L, z);
-        return;
-    }
-    memcpy(L->y, r, 3 * (size_t)B->M * sizeof *r);
-    if (L->state) solve(L, L->y);
-    rg_sparse_mul_t(B, L->y, z);
-}
-
-void rg_cholesky_null(rg_cholesky *L, const rg_sparse *B, const double *v, double *g)
-{
-    memmove(g, v, (size_t)B->N * sizeof *v);
+    const int32_t m = 3 * L->B.M;
     if (!L->state) return;
-    if (L->shape == RG_SHAPE_COLUMNS) {
-        solve(L, g);
-        for (int32_t i = 0; i < B->N; i++) g[i] *= L->beta;
+    if (L->shape == RG_SHAPE_ROWS) {
+        memmove(y, r, (size_t)m * sizeof *r);
+        solve(L, y);
         return;
     }
-    rg_sparse_mul(B, v, L->y);
-    solve(L, L->y);
-    rg_sparse_mul_t(B, L->y, L->x);
-    for (int32_t i = 0; i < B->N; i++) g[i] -= L->x[i];
-}
-
-void rg_cholesky_reaction(rg_cholesky *L, const rg_sparse *B, const double *x, double *y)
-{
-    if (!L->state) return;
-    if (L->shape == RG_SHAPE_COLUMNS) {
-        memcpy(L->x, x, (size_t)B->N * sizeof *x);
-        solve(L, L->x);
-        rg_sparse_mul(B, L->x, y);
-        return;
+    rg_sparse_mul_t(&L->B, r, L->x);
+    solve(L, L->x);
+    for (int32_t k = 0; k < L->B.M; k++) {
+        rg_vec3 sum = rg_sparse_mul_row(&L->B, k, L->x);
+        y[3 * k] = (r[3 * k] - sum.x) / L->beta;
+        y[3 * k + 1] = (r[3 * k + 1] - sum.y) / L->beta;
+        y[3 * k + 2] = (r[3 * k + 2] - sum.z) / L->beta;
     }
-    rg_sparse_mul(B, x, y);
-    solve(L, y);
 }

@@ -2,13 +2,13 @@
  * Paper    the backslash of eq. (15)        Uses  sparse.h, CHOLMOD        Used by  project.c
  *
  * Flat, folded flat, and everywhere on a sheet with more constraints than creases, B B^T is singular; so is B^T B
- * wherever the sheet can move. A small beta on the diagonal makes both regular, and both shapes give the same operators,
+ * wherever the sheet can move. A small beta on the diagonal makes both regular, and they are worth the same,
  *
- *     G = B^T (B B^T + beta I)^-1 = (B^T B + beta I)^-1 B^T          close to B^+
- *     Z = I - G B = beta (B^T B + beta I)^-1                         close to I - B^+ B
+ *     P = (B B^T + beta I)^-1 = (I - B (B^T B + beta I)^-1 B^T) / beta
  *
- * so the cheaper one is factored: columns, unless vertices of many creases fill them up. Modes of B below beta^(1/2), of
- * which a smooth sheet has few, are left to the iteration in cg.h. */
+ * so the cheaper one is factored: columns, unless vertices of many creases fill them up. x = B^T P b is nearly B^+ b, and
+ * as B^T is applied last it has no part along what the sheet can do, whatever P is: not even when P is of a state that has
+ * been left. Modes of B below beta^(1/2), of which a smooth sheet has few, are left to the iteration in cg.h. */
 #ifndef RG_CHOLESKY_H
 #define RG_CHOLESKY_H
 
@@ -25,7 +25,8 @@ typedef struct rg_cholesky {
     int64_t factorizations, triangular; /* how often it was factored, and solved with */
     int32_t *order;             /* [n] place in the factor of each row */
     int32_t *to;                /* where each product of two blocks goes among the numbers of the matrix */
-    double *x, *y;              /* [N] [3M] scratch */
+    rg_sparse B;                /* what was factored: the pattern is borrowed, the numbers are a copy */
+    double *x;                  /* [n] scratch */
     void *state;                /* CHOLMOD's, allocated by CHOLMOD; order and pattern are found once, in init */
 } rg_cholesky;
 
@@ -37,11 +38,7 @@ rg_status rg_cholesky_init(rg_cholesky *L, const rg_memory *mem, const rg_sparse
 void rg_cholesky_free(rg_cholesky *L);
 /* Factors anew. RG_ENOMEM. */
 rg_status rg_cholesky_update(rg_cholesky *L, const rg_sparse *B);
-/* z[N] = G r, r[3M]. B: of the factorisation, or near it: then G is nearly the pseudo-inverse of that. */
-void rg_cholesky_pinv(rg_cholesky *L, const rg_sparse *B, const double *r, double *z);
-/* g[N] = Z v, v[N]; may be the same array. */
-void rg_cholesky_null(rg_cholesky *L, const rg_sparse *B, const double *v, double *g);
-/* y[3M], as short as may be, of B^T y = x where x[N] is in the range of B^T: what each row does to bring x about. */
-void rg_cholesky_reaction(rg_cholesky *L, const rg_sparse *B, const double *x, double *y);
+/* y = P r, both [3M], may be the same array. An rg_apply but for the const: not for two threads at once. */
+void rg_cholesky_apply(rg_cholesky *L, const double *r, double *y);
 
 #endif

@@ -51,26 +51,18 @@ void rg_sparse_free(rg_sparse *C)
 void rg_sparse_mul(const rg_sparse *C, const double *x, double *y)
 {
     for (int32_t k = 0; k < C->M; k++) {
-        rg_vec3 sum = {0, 0, 0};
-        for (int32_t j = C->start[k]; j < C->start[k + 1]; j++) sum = rg_vec3_axpy(x[C->col[j]], C->x[j], sum);
+        rg_vec3 sum = rg_sparse_mul_row(C, k, x);
         y[3 * k] = sum.x;
         y[3 * k + 1] = sum.y;
         y[3 * k + 2] = sum.z;
     }
 }
 
-static double dot_row(const rg_sparse *C, int32_t j, const double *y)
-{
-    const double *yk = y + 3 * C->row[j];
-    return C->x[j].x * yk[0] + C->x[j].y * yk[1] + C->x[j].z * yk[2];
-}
-
 void rg_sparse_mul_t(const rg_sparse *C, const double *y, double *x)
 {
-    for (int32_t i = 0; i < C->N; i++) {
-        double sum = 0;
-        if (C->slot[i][0] >= 0) sum += dot_row(C, C->slot[i][0], y);
-        if (C->slot[i][1] >= 0) sum += dot_row(C, C->slot[i][1], y);
-        x[i] = sum;
+    memset(x, 0, (size_t)C->N * sizeof *x);
+    for (int32_t k = 0; k < C->M; k++) {
+        rg_vec3 v = {y[3 * k], y[3 * k + 1], y[3 * k + 2]};
+        for (int32_t j = C->start[k]; j < C->start[k + 1]; j++) x[C->col[j]] += rg_vec3_dot(C->x[j], v);
     }
 }

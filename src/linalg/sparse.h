@@ -23,6 +23,13 @@ rg_status rg_sparse_init(rg_sparse *C, const rg_memory *mem, int32_t M, int32_t 
                          const int32_t *col);
 void rg_sparse_free(rg_sparse *C);
 
+/* Block row k of C x. */
+static inline rg_vec3 rg_sparse_mul_row(const rg_sparse *C, int32_t k, const double *x)
+{
+    rg_vec3 sum = {0, 0, 0};
+    for (int32_t j = C->start[k]; j < C->start[k + 1]; j++) sum = rg_vec3_axpy(x[C->col[j]], C->x[j], sum);
+    return sum;
+}
 /* y = C x       x[N], y[3M].  One of these is the "pass" that costs are counted in. */
 void rg_sparse_mul(const rg_sparse *C, const double *x, double *y);
 /* x = C^T y     y[3M], x[N] */

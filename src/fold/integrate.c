@@ -1,0 +1,279 @@
+#include "fold/integrate.h"
+#include "fold/fold.h"
+
+#include <string.h>
+
+static const double SOLVE_TOLERANCE = 1e-14;
+static const int32_t CORRECTIONS = 8;
+/* The polynomial between nodes is off in the angles by more than it is off in closure, so it must close this much better
+ * than asked for. */
+static const double READ_OFF_MARGIN = 0.5;
+/* And steps are planned for this part of that. */
+static const double STEP_MARGIN = 0.3;
+/* A prediction that closes to this is near enough for one factorisation there to serve the node. */
+static const double GOOD_PREDICTION = 1e-4, POOR_PREDICTION = 1e-2;
+/* The next step against this one. */
+static const double LARGEST_GROWTH = 3, LARGEST_CUT = 0.2;
+static const double SMALLEST_STEP = 1e-5;
+/* Every so many nodes it is asked again whether the sheet can go one way only: whether closing undoes all but this
+ * part of what Adams's formula moves. */
+static const int32_t ASK_AGAIN = 4;
+static const double ONE_WAY = 1e-2;
+/* Adams's formula moves less than this: rounding, which is not worth a correction. */
+static const double SET_RIGHT_FROM = 1e-13;
+/* And this far it may move along the paper's motions without the direction being asked for again. */
+static const double SAME_DIRECTION = 1e-7;
+/* What it should move, radians, for the motion to be true to some tenth of that. */
+static const double GOOD_SET_RIGHT = 1e-4;
+/* More than this is no correction: the step was too long. */
+static const double FARTHEST_SET_RIGHT = 1e-3;
+/* t's in Adams's formula at the most, the new one among them. */
+static const int32_t ADAMS_NODES = 8;
+/* How far from the folded state, radians, the prediction of it may be. */
+static const double LANDING = 0.01;
+/* The part of the wish that the constraint must leave over for the motion to count as going on. */
+static const double LEAST_EFFICIENCY = 1e-5;
+
+
+double rg_integrate_tangent(rg_fold *f, const double *rho, double s, int near, double *t)
+{
+    const int32_t N = f->mesh.N;
+    rg_cg_report rep;
+    if (!near) {
+        rg_constraint_assemble(&f->K, rho);
+        f->assemblies++;
+        rg_project_renew(&f->P);
+    }
+    rg_drive_wish(&f->drive, rho, s, f->wish);
+    if (rg_project_tangent(&f->P, &f->K, f->wish, t, SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (9) */
+    double along = rg_drive_progress(&f->drive, t);
+    if (!(along > LEAST_EFFICIENCY)) return 0;
+    for (int32_t i = 0; i < N; i++) t[i] /= along;
+    return along;
+}
+
+/* ------------------------------------------------------------------------------------------- fixed order ---- */
+
+/* k = t at rho + ds (part of `from`), once that is closed. */
+static int stage(rg_fold *f, double ds, const double *from, double *k)
+{
+    for (int32_t i = 0; i < f->mesh.N; i++) f->trial[i] = f->rho[i] + ds * from[i];
+    if (!rg_newton_correct(f, f->s + ds, CORRECTIONS)) return 0;
+    return rg_integrate_tangent(f, f->trial, f->s + ds, 1, k) > 0;
+}
+
+int rg_integrate_heun(rg_fold *f, double ds)
+{
+    double *k2 = f->k[0];
+    if (!stage(f, ds, f->t, k2)) return 0;
+    for (int32_t i = 0; i < f->mesh.N; i++) f->trial[i] = f->rho[i] + ds / 2 * (f->t[i] + k2[i]);
+    return rg_newton_correct(f, f->s + ds, CORRECTIONS);
+}
+
+int rg_integrate_rk4(rg_fold *f, double ds)
+{
+    double *k2 = f->k[0], *k3 = f->k[1], *k4 = f->k[2];
+    if (!stage(f, ds / 2, f->t, k2) || !stage(f, ds / 2, k2, k3) || !stage(f, ds, k3, k4)) return 0;
+    for (int32_t i = 0; i < f->mesh.N; i++)
+        f->trial[i] = f->rho[i] + ds / 6 * (f->t[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
+    return rg_newton_correct(f, f->s + ds, CORRECTIONS);
+}
+
+/* ---------------------------------------------------------------------------------------------- adaptive ---- */
+
+/* The last nodes, as many as a window takes. */
+static int32_t last_nodes(const rg_path *p, int32_t *first)
+{
+    int32_t n = p->count < RG_PATH_WINDOW ? p->count : RG_PATH_WINDOW;
+    *first = p->count - n;
+    return n;
+}
+
+/* The last nodes where t is known, `most` at the most. */
+static int32_t adams_nodes(const rg_path *p, int32_t most, int32_t *first)
+{
+    *first = p->count;
+    while (*first > 0 && p->node[*first - 1].has_t && p->count - *first < most) --*first;
+    return p->count - *first;
+}
+
+/* out = rho at node `from` + the integral of t up to s, by the polynomial through n t's from `first` on. */
+static void adams(const rg_path *p, int32_t first, int32_t n, int32_t from, double s, double *out)
+{
+    double w[RG_PATH_NODES];
+    rg_path_integral(p, first, n, p->node[from].s, s, w);
+    memcpy(out, p->node[from].rho, (size_t)p->N * sizeof *out);
+    for (int32_t j = 0; j < n; j++) {
+        const double *t = p->node[first + j].t;
+        for (int32_t i = 0; i < p->N; i++) out[i] += w[j] * t[i];
+    }
+}
+
+/* f->trial moves to where Adams and Moulton's formula leads from the last node, f->t being t at f->trial. Returns how
+ * far the farthest crease moves; where it was is in f->k[0]. */
+static double set_right(rg_fold *f, double s)
+{
+    rg_path *p = &f->path;
+    double far = 0;
+    int32_t first;
+    memcpy(f->k[0], f->trial, (size_t)p->N * sizeof *f->trial);
+    rg_path_insert(p, s, f->trial, f->t); /* for a moment */
+    int32_t n = adams_nodes(p, f->order < ADAMS_NODES ? f->order + 1 : ADAMS_NODES, &first);
+    adams(p, first, n, p->count - 2, s, f->trial);
+    p->count--;
+    for (int32_t i = 0; i < p->N; i++)
+        if (!(fabs(f->trial[i] - f->k[0][i]) <= far)) far = fabs(f->trial[i] - f->k[0][i]);
+    return far;
+}
+
+/* f->trial at s, beyond the last node. Where the sheet can go one way only, whatever is off is off across the path and
+ * closing takes it away: the polynomial of the highest degree is best. Elsewhere what is off along the sheet's freedoms
+ * would stay and be amplified, and Adams and Bashforth's formula is what does not do that. */
+static void predict(rg_fold *f, double s)
+{
+    const rg_path *p = &f->path;
+    int32_t first, n;
+    if (f->one_way) {
+        n = last_nodes(p, &first);
+        rg_path_evaluate(p, first, n, s, f->trial, NULL);
+    } else {
+        n = adams_nodes(p, f->order, &first);
+        adams(p, first, n, p->count - 1, s, f->trial);
+    }
+}
+
+/* The order that would have predicted the last node best is taken for the next one: where a freedom of the sheet is stiff
+ * the higher orders are the first to be unstable, and it shows in them. */
+static void choose_order(rg_fold *f)
+{
+    const rg_path *p = &f->path;
+    const rg_node *last = &p->node[p->count - 1];
+    double least = INFINITY;
+    rg_path before = *p; /* without the last node; arrays are shared */
+    before.count--;
+    for (int32_t order = 1; order <= ADAMS_NODES; order++) {
+        int32_t first, n = adams_nodes(&before, order, &first);
+        if (n < order) break;
+        adams(&before, first, n, before.count - 1, last->s, f->k[0]);
+        double e = 0;
+        for (int32_t i = 0; i < p->N; i++) e += (f->k[0][i] - last->rho[i]) * (f->k[0][i] - last->rho[i]);
+        if (e < least) least = e, f->order = order;
+    }
+}
+
+/* What the error of a prediction at s is proportional to. */
+static double reach(const rg_fold *f, double s)
+{
+    const rg_path *p = &f->path;
+    int32_t first, n;
+    if (f->one_way) {
+        n = last_nodes(p, &first);
+        return rg_path_reach(p, first, n, s, 2);
+    }
+    n = adams_nodes(p, f->order, &first);
+    return (s - p->node[p->count - 1].s) * rg_path_reach(p, first, n, s, 1);
+}
+
+/* How much longer a step may be if it makes an error of e, may make one of `most`, and is of that order. */
+static double scale(double e, double most, int order)
+{
+    return pow(most / fmax(e, 1e-3 * most), 1.0 / order);
+}
+
+/* The next step. h: the one just made, `rate`: error of closure of its prediction over its reach, far: see set_right. */
+static double next_step(rg_fold *f, double h, double rate, double far)
+{
+    const rg_path *p = &f->path;
+    const double last = p->node[p->count - 1].s, goal = STEP_MARGIN * READ_OFF_MARGIN * f->settings.tol;
+    double longest = LARGEST_GROWTH * h, spacing = rg_fold_frame_progress(f, 1);
+    if (f->one_way && p->count > RG_PATH_WINDOW) {
+        /* Of twelve conditions at even distance, half way between the middle two: (1/2 3/2 5/2)^4 = 12.36. */
+        longest = fmin(longest, pow(goal / (12.36 * fmax(rate, 1e-300)), 1.0 / 12));
+    } else if (p->count > RG_PATH_WINDOW) {
+        double between = p->node[p->count - 3].s - p->node[p->count - 4].s;
+        rg_path_evaluate(p, p->count - RG_PATH_WINDOW, RG_PATH_WINDOW, p->node[p->count - 4].s + between / 2, f->k[0], NULL);
+        between *= scale(rg_constraint_closure(&f->K, f->k[0], NULL), goal, 12);
+        longest = fmin(longest, between < 1.5 * spacing ? spacing : between); /* a node at each frame needs no more */
+    }
+    if (!f->one_way) longest = fmin(longest, h * scale(far, GOOD_SET_RIGHT, f->order + 1));
+    double x = longest;
+    while (x > LARGEST_CUT * h && rate * reach(f, last + x) > GOOD_PREDICTION) x *= 0.95;
+    return fmax(x, LARGEST_CUT * h);
+}
+
+static int land(rg_fold *f)
+{
+    for (int32_t i = 0; i < f->mesh.N; i++)
+        if (!(fabs(f->trial[i] - f->end[i]) <= LANDING)) return 0;
+    rg_path_insert(&f->path, 1, f->end, NULL);
+    return 1;
+}
+
+/* A node at s from the prediction in f->trial. far: see set_right. Non-zero: it is made, in f->trial and f->t. */
+static int make_node(rg_fold *f, double s, double *far)
+{
+    const int32_t N = f->mesh.N;
+    if (!rg_newton_close(f, s, CORRECTIONS, 0)) return 0;
+    if (!(rg_integrate_tangent(f, f->trial, s, 1, f->t) > 0)) return 0;
+    *far = 0;
+    if (!f->one_way || f->path.count < RG_PATH_WINDOW || f->nodes % ASK_AGAIN == 0) {
+        *far = set_right(f, s);
+        if (!(*far <= FARTHEST_SET_RIGHT)) return 0;
+        if (*far > SET_RIGHT_FROM) {
+            if (!rg_newton_close(f, s, CORRECTIONS, 1)) return 0;
+            double moved = 0;
+            for (int32_t i = 0; i < N; i++) moved = fmax(moved, fabs(f->trial[i] - f->k[0][i]));
+            f->one_way = moved <= ONE_WAY * *far;
+            if (moved > SAME_DIRECTION && !(rg_integrate_tangent(f, f->trial, s, 1, f->t) > 0)) return 0;
+        }
+    }
+    return !(rg_limit_pull(&f->limit, f->trial, f->pull) > 0);
+}
+
+/* Where the next node is put for a step of h: the end if that is near, a frame if one is, for which it then costs
+ * nothing more. */
+static double snap(const rg_fold *f, double from, double h)
+{
+    if (from + 1.2 * h >= f->s_end) return f->s_end;
+    int32_t frame = (int32_t)((from + h) / rg_fold_frame_progress(f, 1) + 0.5);
+    double s = rg_fold_frame_progress(f, frame);
+    return !f->one_way && fabs(s - from - h) <= 0.3 * h ? s : from + h;
+}
+
+int rg_integrate_advance(rg_fold *f)
+{
+    rg_path *p = &f->path;
+    const double from = p->node[p->count - 1].s;
+    for (double h = f->h;; h /= 2) {
+        if (!(h > SMALLEST_STEP)) return 0;
+        double s = snap(f, from, h), far;
+        h = s - from;
+        predict(f, s);
+        if (s >= 1) {
+            if (f->end_is_closed && land(f)) return 1;
+            continue; /* the wish has no direction at the end itself */
+        }
+        double error = rg_constraint_closure(&f->K, f->trial, NULL), rate = error / reach(f, s);
+        if (!(error <= POOR_PREDICTION) || !make_node(f, s, &far)) continue;
+        rg_path_insert(p, s, f->trial, f->t);
+        f->nodes++;
+        if (!f->one_way) choose_order(f);
+        f->h = next_step(f, h, rate, far);
+        return 1;
+    }
+}
+
+int rg_integrate_read_off(rg_fold *f, double s)
+{
+    rg_path *p = &f->path;
+    int32_t first, n;
+    rg_path_window(p, s, &first, &n);
+    rg_path_evaluate(p, first, n, s, f->trial, f->t);
+    f->closure = rg_constraint_closure(&f->K, f->trial, NULL);
+    if (f->closure <= READ_OFF_MARGIN * f->settings.tol) return 1;
+    if (!rg_newton_close(f, s, CORRECTIONS, 0)) return 0;
+    if (rg_integrate_tangent(f, f->trial, s, 1, f->t) > 0) rg_path_insert(p, s, f->trial, f->t);
+    f->nodes++;
+    f->h *= 0.8;
+    return 1;
+}
