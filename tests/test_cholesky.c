@@ -113,7 +113,7 @@ static void three_solutions(const grid *g, const double *b, double x[3][MOST])
     for (int shape = 0; shape < 2; shape++) {
         solver s = {.B = B};
         assert_int_equal(rg_cholesky_init(&s.L, &mem, B, shape ? RG_SHAPE_COLUMNS : RG_SHAPE_ROWS), RG_OK);
-        assert_int_equal(rg_cholesky_update(&s.L, B), RG_OK);
+        rg_cholesky_update(&s.L, B);
         memset(x[shape], 0, sizeof x[shape]);
         rg_cg_refine(B, pinv, &s, b, x[shape], 1e-13, 0, 100, &w, &rep);
         assert_in_range(rep.stop, RG_CG_CONVERGED, RG_CG_LEAST_SQUARES);
@@ -173,7 +173,7 @@ static void apply_inverts(void **state)
             for (int i = 0; i < g.C.N; i++) v[i] = noise(&seed);
             rg_sparse_mul(&g.S.B, v, r);
             assert_int_equal(rg_cholesky_init(&L, &mem, &g.S.B, shape ? RG_SHAPE_COLUMNS : RG_SHAPE_ROWS), RG_OK);
-            assert_int_equal(rg_cholesky_update(&L, &g.S.B), RG_OK);
+            rg_cholesky_update(&L, &g.S.B);
             rg_cholesky_apply(&L, r, y);
             rg_sparse_mul_t(&g.S.B, y, x);
             rg_sparse_mul(&g.S.B, x, c);
@@ -201,7 +201,7 @@ static void a_stale_factor_moves_nothing_along_what_is_free(void **state)
     rg_scale_update(&S, &C);
     for (int shape = 0; shape < 2; shape++) {
         assert_int_equal(rg_cholesky_init(&L, &mem, &S.B, shape ? RG_SHAPE_COLUMNS : RG_SHAPE_ROWS), RG_OK);
-        assert_int_equal(rg_cholesky_update(&L, &S.B), RG_OK);
+        rg_cholesky_update(&L, &S.B);
         for (int j = 1; j < 5; j++) S.B.x[j].x += 0.05 * noise(&seed);
         double r[3] = {0.3, -1.25, 2.385}, y[3], z[5], b[3];
         rg_cholesky_apply(&L, r, y);
@@ -234,7 +234,7 @@ static void a_crease_at_no_vertex_is_left_alone(void **state)
     C.x[0] = (rg_vec3){1, 0, 0}, C.x[1] = (rg_vec3){0, 1, 0}, C.x[2] = (rg_vec3){0.6, 0.8, 0};
     for (int shape = 0; shape < 2; shape++) {
         assert_int_equal(rg_cholesky_init(&L, &mem, &C, shape ? RG_SHAPE_COLUMNS : RG_SHAPE_ROWS), RG_OK);
-        assert_int_equal(rg_cholesky_update(&L, &C), RG_OK);
+        rg_cholesky_update(&L, &C);
         rg_cholesky_apply(&L, r, y);
         rg_sparse_mul_t(&C, y, z);
         near(z[1], 0, 0);
@@ -256,7 +256,7 @@ static void no_vertex_at_all(void **state)
     int32_t start[] = {0};
     assert_int_equal(rg_sparse_init(&C, &mem, 0, 2, start, NULL), RG_OK);
     assert_int_equal(rg_cholesky_init(&L, &mem, &C, RG_SHAPE_AUTO), RG_OK);
-    assert_int_equal(rg_cholesky_update(&L, &C), RG_OK);
+    rg_cholesky_update(&L, &C);
     rg_cholesky_apply(&L, NULL, NULL);
     rg_cholesky_free(&L);
     rg_sparse_free(&C);

@@ -97,8 +97,9 @@ static void hold_on(rg_project *P, const double *hold)
 
 static rg_status factor(rg_project *P, const double *hold)
 {
-    rg_status s = P->solver == RG_SOLVER_SVD ? rg_pinv_update(&P->pinv, &P->scale.B, hold)
-                                             : rg_cholesky_update(&P->cholesky, &P->scale.B);
+    rg_status s = RG_OK;
+    if (P->solver == RG_SOLVER_SVD) s = rg_pinv_update(&P->pinv, &P->scale.B, hold);
+    else rg_cholesky_update(&P->cholesky, &P->scale.B);
     P->factorizations++;
     P->factored = s == RG_OK;
     P->stale = 0;

@@ -2,31 +2,19 @@
 
 #include <string.h>
 
-#ifdef RG_GPL
-#include <cholmod.h>
-
-/* The rows of B have length 1. Rounding along what the sheet can do is amplified by 1 / beta, so beta is far above it;
- * modes that are slower than beta cost the iteration a step each, so it is below all but a few: the slowest mode of a
- * sheet of n x n vertices is about n^-4. */
+/* The rows of B have length 1. Rounding is amplified by 1 / beta, so beta is far above it; modes that are slower than beta
+ * cost the iteration a step each, so it is below all but a few: the slowest mode of a sheet of n x n vertices is about
+ * n^-4. */
 static const double BETA = 1e-9;
 /* Where a pivot fails all the same. */
 static const double BETA_GROWTH = 100, BETA_LARGEST = 1e-2;
-/* METIS takes as long as several factorisations of a small sheet, and pays on a large one. */
-static const double METIS_FROM = 3e8;
 /* A vertex of that many creases makes so large a clique of columns that both shapes are tried. */
 static const int32_t HIGH_DEGREE = 10;
 
-typedef struct state {
-    cholmod_common common;
-    cholmod_sparse *A; /* one triangle of the matrix, in the order of the factor */
-    cholmod_factor *L;
-    cholmod_dense *b, *z, *work[2];
-} state;
+int rg_cholesky_built(void) { return rg_supernodal_built(); }
 
-int rg_cholesky_built(void) { return 1; }
-
-/* Calls visit(ctx, row, column) for each product of two numbers of B that is added to the matrix, in the order of
- * add_products below: the lower triangle, in the order of B. */
+/* Calls visit(ctx, i, j) for each product of two numbers of B that is added to the matrix at (i, j), in the order in which
+ * add_columns and add_rows add them. */
 typedef void visitor(void *ctx, int32_t i, int32_t j);
 
 static void visit_columns(const rg_sparse *B, visitor *visit, void *ctx)
@@ -49,9 +37,9 @@ static void visit_rows(const rg_sparse *B, visitor *visit, void *ctx)
     }
 }
 
-static void visit_all(const rg_cholesky *L, const rg_sparse *B, visitor *visit, void *ctx)
+static void visit_all(rg_shape shape, const rg_sparse *B, visitor *visit, void *ctx)
 {
-    if (L->shape == RG_SHAPE_COLUMNS) visit_columns(B, visit, ctx);
+    if (shape == RG_SHAPE_COLUMNS) visit_columns(B, visit, ctx);
     else visit_rows(B, visit, ctx);
 }
 
@@ -83,46 +71,30 @@ static void add_rows(const rg_sparse *B, const int32_t *to, double *x)
     }
 }
 
-/* Collects the places (i, j) of the products, by columns. */
-typedef struct places {
-    const int32_t *order; /* NULL: as they come */
-    int upper;            /* row <= column, else row >= column */
-    int32_t n, *count, *start, *row, *to;
-    int64_t products, at;
-} places;
-
-static void place(const places *p, int32_t *i, int32_t *j)
-{
-    if (p->order) *i = p->order[*i], *j = p->order[*j];
-    if (p->upper ? *i > *j : *i < *j) {
-        int32_t swap = *i;
-        *i = *j, *j = swap;
-    }
-}
+/* The products, listed by columns of the lower triangle, and where they go. */
+typedef struct products {
+    int32_t count, *start, *row; /* [n + 1] */
+    const rg_supernodal *L;
+    int32_t *to;
+} products;
 
 static void count_one(void *ctx, int32_t i, int32_t j)
 {
-    places *p = ctx;
-    place(p, &i, &j);
-    p->count[j]++;
-    p->products++;
+    products *p = ctx;
+    p->start[(i > j ? i : j) + 1]++;
+    p->count++;
 }
 
 static void enter_one(void *ctx, int32_t i, int32_t j)
 {
-    places *p = ctx;
-    place(p, &i, &j);
-    p->row[p->start[j] + p->count[j]++] = i;
+    products *p = ctx;
+    p->row[p->start[i > j ? i : j]++] = i > j ? j : i;
 }
 
-/* Columns are short: a look through the rows is as quick as anything. */
 static void find_one(void *ctx, int32_t i, int32_t j)
 {
-    places *p = ctx;
-    place(p, &i, &j);
-    int32_t at = p->start[j];
-    while (p->row[at] != i) at++;
-    p->to[p->at++] = at;
+    products *p = ctx;
+    *p->to++ = rg_supernodal_slot(p->L, i, j);
 }
 
 static int32_t sort_unique(int32_t *row, int32_t n)
@@ -139,117 +111,55 @@ static int32_t sort_unique(int32_t *row, int32_t n)
     return kept;
 }
 
-/* The pattern of the matrix as CHOLMOD has it, and with `to` the way of each product into it. */
-static cholmod_sparse *pattern(rg_cholesky *L, const rg_sparse *B, const int32_t *order, int upper, int32_t **to)
+static rg_status init_shape(rg_cholesky *P, const rg_memory *mem, const rg_sparse *B, rg_shape shape)
 {
-    state *k = L->state;
-    places p = {.order = order, .upper = upper, .n = L->n};
-    cholmod_sparse *A = NULL;
-    p.count = rg_mem_array(&L->mem, (size_t)L->n, sizeof *p.count);
-    p.start = rg_mem_array(&L->mem, (size_t)L->n + 1, sizeof *p.start);
-    if (!p.count || !p.start) goto out;
-    visit_all(L, B, count_one, &p);
-    for (int32_t j = 0; j < L->n; j++) p.start[j + 1] = p.start[j] + p.count[j] + 1;
-    p.row = rg_mem_array(&L->mem, (size_t)p.start[L->n], sizeof *p.row);
-    if (!p.row) goto out;
-    for (int32_t j = 0; j < L->n; j++) { /* the diagonal, also of a crease at no vertex */
-        p.row[p.start[j]] = j;
-        p.count[j] = 1;
-    }
-    visit_all(L, B, enter_one, &p);
-    int32_t at = 0;
-    for (int32_t j = 0; j < L->n; j++) {
-        int32_t n = sort_unique(p.row + p.start[j], p.count[j]);
-        memmove(p.row + at, p.row + p.start[j], (size_t)n * sizeof *p.row);
-        p.start[j] = at;
-        at += n;
-    }
-    p.start[L->n] = at;
-    A = cholmod_allocate_sparse((size_t)L->n, (size_t)L->n, (size_t)at, 1, 1, upper ? 1 : -1, CHOLMOD_REAL, &k->common);
-    if (!A) goto out;
-    memcpy(A->p, p.start, ((size_t)L->n + 1) * sizeof *p.start);
-    memcpy(A->i, p.row, (size_t)at * sizeof *p.row);
-    memset(A->x, 0, (size_t)at * sizeof(double));
-    if (to) {
-        p.to = *to = rg_mem_array(&L->mem, (size_t)p.products, sizeof *p.to);
-        if (p.to) visit_all(L, B, find_one, &p);
-        else cholmod_free_sparse(&A, &k->common);
-    }
-out:
-    rg_mem_free(&L->mem, p.count);
-    rg_mem_free(&L->mem, p.start);
-    rg_mem_free(&L->mem, p.row);
-    return A;
-}
-
-static cholmod_factor *analyze(state *k, cholmod_sparse *A, int ordering)
-{
-    k->common.nmethods = 1;
-    k->common.method[0].ordering = ordering;
-    k->common.postorder = ordering != CHOLMOD_NATURAL;
-    return cholmod_analyze(A, &k->common);
-}
-
-/* The order by AMD, or METIS where that leaves less to do. */
-static rg_status find_order(rg_cholesky *L, const rg_sparse *B)
-{
-    state *k = L->state;
+    const int32_t n = shape == RG_SHAPE_ROWS ? 3 * B->M : B->N;
+    memset(P, 0, sizeof *P);
+    P->mem = *mem;
+    P->shape = shape;
+    products p = {.start = rg_mem_array(mem, (size_t)n + 2, sizeof *p.start)};
     rg_status s = RG_ENOMEM;
-    cholmod_factor *metis = NULL, *amd = NULL, *best;
-    cholmod_sparse *A = pattern(L, B, NULL, 1, NULL);
-    if (!A || !(amd = analyze(k, A, CHOLMOD_AMD))) goto out;
-    best = amd;
-    L->flops = k->common.fl;
-    L->entries = k->common.lnz;
-    if (L->flops > METIS_FROM && (metis = analyze(k, A, CHOLMOD_METIS)) != NULL && k->common.fl < L->flops) {
-        best = metis;
-        L->flops = k->common.fl;
-        L->entries = k->common.lnz;
+    if (!p.start) return s;
+    for (int32_t j = 0; j < n; j++) count_one(&p, j, j); /* the diagonal, also of a crease at no vertex */
+    visit_all(shape, B, count_one, &p);
+    for (int32_t j = 0; j < n; j++) p.start[j + 1] += p.start[j];
+    p.row = rg_mem_array(mem, (size_t)p.count, sizeof *p.row);
+    if (p.row) {
+        for (int32_t j = 0; j < n; j++) enter_one(&p, j, j);
+        visit_all(shape, B, enter_one, &p); /* start[j] is now where j + 1 starts */
+        int32_t at = 0, from = 0;
+        for (int32_t j = 0; j < n; j++) {
+            int32_t kept = sort_unique(p.row + from, p.start[j] - from);
+            memmove(p.row + at, p.row + from, (size_t)kept * sizeof *p.row);
+            from = p.start[j];
+            p.start[j] = at;
+            at += kept;
+        }
+        p.start[n] = at;
+        s = rg_supernodal_init(&P->L, mem, n, p.start, p.row);
     }
-    const int *perm = best->Perm;
-    for (int32_t j = 0; j < L->n; j++) L->order[perm[j]] = j;
-    s = RG_OK;
-out:
-    cholmod_free_sparse(&A, &k->common);
-    cholmod_free_factor(&amd, &k->common);
-    cholmod_free_factor(&metis, &k->common);
+    rg_mem_free(mem, p.start);
+    rg_mem_free(mem, p.row);
     return s;
 }
 
-static rg_status init_shape(rg_cholesky *L, const rg_memory *mem, const rg_sparse *B, rg_shape shape)
+static void count_only(void *ctx, int32_t i, int32_t j)
 {
-    memset(L, 0, sizeof *L);
-    L->mem = *mem;
-    L->shape = shape;
-    L->n = shape == RG_SHAPE_ROWS ? 3 * B->M : B->N;
-    if (B->M == 0) return RG_OK;
-    state *k = L->state = rg_mem_array(mem, 1, sizeof *k);
-    if (!k) return RG_ENOMEM;
-    cholmod_start(&k->common);
-    k->common.print = 0;
-    L->order = rg_mem_array(mem, (size_t)L->n, sizeof *L->order);
-    L->x = rg_mem_array(mem, (size_t)L->n, sizeof *L->x);
-    L->B = *B;
-    L->B.x = rg_mem_array(mem, (size_t)B->start[B->M], sizeof *B->x);
-    k->b = cholmod_allocate_dense((size_t)L->n, 1, (size_t)L->n, CHOLMOD_REAL, &k->common);
-    rg_status s = L->order && L->x && L->B.x && k->b ? find_order(L, B) : RG_ENOMEM;
-    if (s != RG_OK) rg_cholesky_free(L);
-    return s;
+    (void)i, (void)j;
+    ++*(int32_t *)ctx;
 }
 
-/* The numbers are entered in the order of the factor, so that CHOLMOD has nothing to move: it wants the upper triangle
- * for its simplicial, the lower one for its supernodal factorisation. */
-static rg_status finish_init(rg_cholesky *L, const rg_sparse *B)
+static rg_status finish_init(rg_cholesky *P, const rg_sparse *B)
 {
-    state *k = L->state;
-    if (!k) return RG_OK;
-    int supernodal = L->flops >= k->common.supernodal_switch * L->entries;
-    k->common.supernodal = supernodal ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
-    k->A = pattern(L, B, L->order, !supernodal, &L->to);
-    k->L = k->A ? analyze(k, k->A, CHOLMOD_NATURAL) : NULL;
-    if (k->L) return RG_OK;
-    rg_cholesky_free(L);
-    return RG_ENOMEM;
+    int32_t count = 0;
+    visit_all(P->shape, B, count_only, &count);
+    P->to = rg_mem_array(&P->mem, (size_t)count, sizeof *P->to);
+    P->x = rg_mem_array(&P->mem, (size_t)B->N, sizeof *P->x);
+    P->B = *B;
+    P->B.x = rg_mem_array(&P->mem, (size_t)B->start[B->M], sizeof *B->x);
+    if (!P->to || !P->x || !P->B.x) return RG_ENOMEM;
+    visit_all(P->shape, B, find_one, &(products){.L = &P->L, .to = P->to});
+    return RG_OK;
 }
 
 static int32_t largest_degree(const rg_sparse *B)
@@ -260,109 +170,60 @@ static int32_t largest_degree(const rg_sparse *B)
     return most;
 }
 
-rg_status rg_cholesky_init(rg_cholesky *L, const rg_memory *mem, const rg_sparse *B, rg_shape shape)
+rg_status rg_cholesky_init(rg_cholesky *P, const rg_memory *mem, const rg_sparse *B, rg_shape shape)
 {
-    rg_cholesky rows;
-    rg_status s = init_shape(L, mem, B, shape == RG_SHAPE_ROWS ? shape : RG_SHAPE_COLUMNS);
-    if (s != RG_OK) return s;
-    if (shape == RG_SHAPE_AUTO && largest_degree(B) >= HIGH_DEGREE) {
+    rg_status s = init_shape(P, mem, B, shape == RG_SHAPE_ROWS ? shape : RG_SHAPE_COLUMNS);
+    if (s == RG_OK && shape == RG_SHAPE_AUTO && largest_degree(B) >= HIGH_DEGREE) {
+        rg_cholesky rows;
         s = init_shape(&rows, mem, B, RG_SHAPE_ROWS);
-        if (s != RG_OK) {
-            rg_cholesky_free(L);
-            return s;
-        }
-        rg_cholesky dearer = rows.flops < L->flops ? *L : rows;
-        if (rows.flops < L->flops) *L = rows;
+        int better = s == RG_OK && rows.L.flops < P->L.flops;
+        rg_cholesky dearer = better ? *P : rows;
+        if (better) *P = rows;
         rg_cholesky_free(&dearer);
     }
-    return finish_init(L, B);
+    if (s == RG_OK) s = finish_init(P, B);
+    if (s != RG_OK) rg_cholesky_free(P);
+    return s;
 }
 
-void rg_cholesky_free(rg_cholesky *L)
+void rg_cholesky_free(rg_cholesky *P)
 {
-    if (!L->mem.resize) return;
-    state *k = L->state;
-    rg_mem_free(&L->mem, L->order);
-    rg_mem_free(&L->mem, L->to);
-    rg_mem_free(&L->mem, L->x);
-    rg_mem_free(&L->mem, L->B.x);
-    if (k) {
-        cholmod_free_sparse(&k->A, &k->common);
-        cholmod_free_factor(&k->L, &k->common);
-        cholmod_free_dense(&k->b, &k->common);
-        cholmod_free_dense(&k->z, &k->common);
-        cholmod_free_dense(&k->work[0], &k->common);
-        cholmod_free_dense(&k->work[1], &k->common);
-        cholmod_finish(&k->common);
-        rg_mem_free(&L->mem, k);
+    if (!P->mem.resize) return;
+    rg_supernodal_free(&P->L);
+    rg_mem_free(&P->mem, P->to);
+    rg_mem_free(&P->mem, P->x);
+    rg_mem_free(&P->mem, P->B.x);
+    memset(P, 0, sizeof *P);
+}
+
+void rg_cholesky_update(rg_cholesky *P, const rg_sparse *B)
+{
+    memcpy(P->B.x, B->x, (size_t)B->start[B->M] * sizeof *B->x);
+    for (P->beta = BETA;; P->beta *= BETA_GROWTH) {
+        rg_supernodal_clear(&P->L);
+        if (P->shape == RG_SHAPE_COLUMNS) add_columns(B, P->to, P->L.x);
+        else add_rows(B, P->to, P->L.x);
+        P->factorizations++;
+        if (rg_supernodal_factor(&P->L, P->beta)) return;
+        if (P->beta >= BETA_LARGEST) return; /* NaN in B: whoever solves with it sees NaN come out */
     }
-    memset(L, 0, sizeof *L);
 }
 
-rg_status rg_cholesky_update(rg_cholesky *L, const rg_sparse *B)
+void rg_cholesky_apply(rg_cholesky *P, const double *r, double *y)
 {
-    state *k = L->state;
-    if (!k) return RG_OK;
-    memcpy(L->B.x, B->x, (size_t)B->start[B->M] * sizeof *B->x);
-    memset(k->A->x, 0, k->A->nzmax * sizeof(double));
-    if (L->shape == RG_SHAPE_COLUMNS) add_columns(B, L->to, k->A->x);
-    else add_rows(B, L->to, k->A->x);
-    for (double beta = BETA; beta <= BETA_LARGEST; beta *= BETA_GROWTH) {
-        double shift[2] = {beta, 0};
-        L->factorizations++;
-        if (!cholmod_factorize_p(k->A, shift, NULL, 0, k->L, &k->common)) return RG_ENOMEM;
-        L->beta = beta;
-        if (k->L->minor == k->L->n) return RG_OK;
-    }
-    return RG_OK; /* NaN in B: whoever solves with it sees NaN come out */
-}
-
-/* b <- (matrix + beta I) \ b */
-static void solve(rg_cholesky *L, double *b)
-{
-    state *k = L->state;
-    double *x = k->b->x;
-    for (int32_t j = 0; j < L->n; j++) x[L->order[j]] = b[j];
-    L->triangular++;
-    if (!cholmod_solve2(CHOLMOD_A, k->L, k->b, NULL, &k->z, NULL, &k->work[0], &k->work[1], &k->common)) return;
-    x = k->z->x;
-    for (int32_t j = 0; j < L->n; j++) b[j] = x[L->order[j]];
-}
-
-#else
-
-int rg_cholesky_built(void) { return 0; }
-rg_status rg_cholesky_init(rg_cholesky *L, const rg_memory *mem, const rg_sparse *B, rg_shape shape)
-{
-    (void)mem, (void)B, (void)shape;
-    memset(L, 0, sizeof *L);
-    return RG_EABSENT;
-}
-void rg_cholesky_free(rg_cholesky *L) { (void)L; }
-rg_status rg_cholesky_update(rg_cholesky *L, const rg_sparse *B)
-{
-    (void)L, (void)B;
-    return RG_EABSENT;
-}
-static void solve(rg_cholesky *L, double *b) { (void)L, (void)b; }
-
-#endif
-
-void rg_cholesky_apply(rg_cholesky *L, const double *r, double *y)
-{
-    const int32_t m = 3 * L->B.M;
-    if (!L->state) return;
-    if (L->shape == RG_SHAPE_ROWS) {
-        memmove(y, r, (size_t)m * sizeof *r);
-        solve(L, y);
+    const int32_t M = P->B.M;
+    P->triangular++;
+    if (P->shape == RG_SHAPE_ROWS) {
+        memmove(y, r, 3 * (size_t)M * sizeof *r);
+        rg_supernodal_solve(&P->L, y);
         return;
     }
-    rg_sparse_mul_t(&L->B, r, L->x);
-    solve(L, L->x);
-    for (int32_t k = 0; k < L->B.M; k++) {
-        rg_vec3 sum = rg_sparse_mul_row(&L->B, k, L->x);
-        y[3 * k] = (r[3 * k] - sum.x) / L->beta;
-        y[3 * k + 1] = (r[3 * k + 1] - sum.y) / L->beta;
-        y[3 * k + 2] = (r[3 * k + 2] - sum.z) / L->beta;
+    rg_sparse_mul_t(&P->B, r, P->x);
+    rg_supernodal_solve(&P->L, P->x);
+    for (int32_t k = 0; k < M; k++) {
+        rg_vec3 sum = rg_sparse_mul_row(&P->B, k, P->x);
+        y[3 * k] = (r[3 * k] - sum.x) / P->beta;
+        y[3 * k + 1] = (r[3 * k + 1] - sum.y) / P->beta;
+        y[3 * k + 2] = (r[3 * k + 2] - sum.z) / P->beta;
     }
 }

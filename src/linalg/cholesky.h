@@ -1,5 +1,5 @@
 /* cholesky.h -- a sparse factorisation, and with it a pseudo-inverse of B that is nearly exact.
- * Paper    the backslash of eq. (15)        Uses  sparse.h, CHOLMOD        Used by  project.c
+ * Paper    the backslash of eq. (15)        Uses  sparse.h supernodal.h        Used by  project.c
  *
  * Flat, folded flat, and everywhere on a sheet with more constraints than creases, B B^T is singular; so is B^T B
  * wherever the sheet can move. A small beta on the diagonal makes both regular, and they are worth the same,
@@ -13,32 +13,30 @@
 #define RG_CHOLESKY_H
 
 #include "linalg/sparse.h"
+#include "linalg/supernodal.h"
 
 typedef enum rg_shape { RG_SHAPE_AUTO, RG_SHAPE_ROWS, RG_SHAPE_COLUMNS } rg_shape;
 
 typedef struct rg_cholesky {
     rg_memory mem;
-    rg_shape shape;             /* ROWS: of B B^T, 3M; COLUMNS: of B^T B, N */
-    int32_t n;                  /* its order */
-    double beta;                /* on the diagonal, at the last update */
-    double flops, entries;      /* of one factorisation, of the factor */
+    rg_shape shape;       /* ROWS: of B B^T, 3M; COLUMNS: of B^T B, N */
+    double beta;          /* on the diagonal, at the last update */
     int64_t factorizations, triangular; /* how often it was factored, and solved with */
-    int32_t *order;             /* [n] place in the factor of each row */
-    int32_t *to;                /* where each product of two blocks goes among the numbers of the matrix */
-    rg_sparse B;                /* what was factored: the pattern is borrowed, the numbers are a copy */
-    double *x;                  /* [n] scratch */
-    void *state;                /* CHOLMOD's, allocated by CHOLMOD; order and pattern are found once, in init */
+    rg_supernodal L;
+    int32_t *to;          /* where each product of two numbers of B is added */
+    rg_sparse B;          /* what was factored: the pattern is borrowed, the numbers are a copy */
+    double *x;            /* [N] scratch */
 } rg_cholesky;
 
 int rg_cholesky_built(void); /* non-zero: this build has it */
 
 /* B gives the pattern; its numbers may change, its place may not. AUTO: the shape that costs less.
- * RG_EABSENT in a build without CHOLMOD. */
-rg_status rg_cholesky_init(rg_cholesky *L, const rg_memory *mem, const rg_sparse *B, rg_shape shape);
-void rg_cholesky_free(rg_cholesky *L);
-/* Factors anew. RG_ENOMEM. */
-rg_status rg_cholesky_update(rg_cholesky *L, const rg_sparse *B);
-/* y = P r, both [3M], may be the same array. An rg_apply but for the const: not for two threads at once. */
-void rg_cholesky_apply(rg_cholesky *L, const double *r, double *y);
+ * RG_EABSENT in a build without CHOLMOD, RG_ENOMEM. */
+rg_status rg_cholesky_init(rg_cholesky *P, const rg_memory *mem, const rg_sparse *B, rg_shape shape);
+void rg_cholesky_free(rg_cholesky *P);
+/* Factors anew. Allocates nothing. */
+void rg_cholesky_update(rg_cholesky *P, const rg_sparse *B);
+/* y = P r, both [3M], may be the same array. Not for two threads at once. Allocates nothing. */
+void rg_cholesky_apply(rg_cholesky *P, const double *r, double *y);
 
 #endif

@@ -1,0 +1,338 @@
+#include "linalg/supernodal.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Numbers are read four at a time, also behind the last row of a panel, where they are of no consequence. */
+enum { PAD = 8 };
+
+typedef double quad __attribute__((vector_size(32)));
+typedef double quad_anywhere __attribute__((vector_size(32), aligned(8)));
+
+/* The same code once more for wider registers: the same operations in the same order, so the same bits. */
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(RG_NO_CLONES)
+#if defined(__has_attribute)
+#if __has_attribute(target_clones)
+#define WIDE __attribute__((target_clones("avx2", "default")))
+#endif
+#endif
+#endif
+#ifndef WIDE
+#define WIDE
+#endif
+
+/* c (m x n, columns of `room`) = a b^T over k columns; a and b are rows of one panel with columns of `tall`. m and n are
+ * rounded up to four. */
+WIDE static void multiply(int32_t m, int32_t n, int32_t k, const double *a, const double *b, int32_t tall, double *c,
+                          int32_t room)
+{
+    for (int32_t j = 0; j < n; j += 4)
+        for (int32_t i = j & ~3; i < m; i += 4) {
+            const double *p = a + i, *q = b + j;
+            quad c0 = {0}, c1 = {0}, c2 = {0}, c3 = {0};
+            for (int32_t l = 0; l < k; l++, p += tall, q += tall) {
+                quad v = *(const quad_anywhere *)p;
+                c0 += v * q[0];
+                c1 += v * q[1];
+                c2 += v * q[2];
+                c3 += v * q[3];
+            }
+            double *to = c + (size_t)j * (size_t)room + i;
+            *(quad_anywhere *)to = c0;
+            *(quad_anywhere *)(to + room) = c1;
+            *(quad_anywhere *)(to + 2 * (size_t)room) = c2;
+            *(quad_anywhere *)(to + 3 * (size_t)room) = c3;
+        }
+}
+
+/* Columns of a panel from `first` on, four or fewer, `tall` rows, their updates from before done: factored. */
+static int factor_columns(double *x, int32_t tall, int32_t first, int32_t last)
+{
+    for (int32_t j = first; j < last; j++) {
+        double *col = x + (size_t)j * (size_t)tall, pivot = col[j];
+        if (!(pivot > 0)) return 0;
+        double root = sqrt(pivot), inverse = 1 / root;
+        col[j] = root;
+        for (int32_t i = j + 1; i < tall; i++) col[i] *= inverse;
+        for (int32_t l = j + 1; l < last; l++) {
+            double *next = x + (size_t)l * (size_t)tall, f = col[l];
+            for (int32_t i = l; i < tall; i++) next[i] -= f * col[i];
+        }
+    }
+    return 1;
+}
+
+static int factor_panel(double *x, int32_t tall, int32_t wide, double *update)
+{
+    for (int32_t first = 0; first < wide; first += 4) {
+        int32_t last = first + 4 < wide ? first + 4 : wide, m = tall - first, room = m + 4;
+        if (first > 0) {
+            multiply(m, last - first, first, x + first, x + first, tall, update, room);
+            for (int32_t j = first; j < last; j++) {
+                double *col = x + (size_t)j * (size_t)tall;
+                const double *u = update + (size_t)(j - first) * (size_t)room - first;
+                for (int32_t i = j; i < tall; i++) col[i] -= u[i];
+            }
+        }
+        if (!factor_columns(x, tall, first, last)) return 0;
+    }
+    return 1;
+}
+
+static void hang(rg_supernodal *L, int32_t d)
+{
+    int32_t at = L->start[d] + L->done[d];
+    if (at == L->start[d + 1]) return;
+    int32_t s = L->of[L->row[at]];
+    L->next[d] = L->head[s];
+    L->head[s] = d;
+}
+
+/* Takes from panel s what d, finished, contributes: the products of its rows from `done` on with those among them that
+ * are columns of s. */
+static void take_from(rg_supernodal *L, int32_t s, int32_t d)
+{
+    const int32_t tall = L->start[d + 1] - L->start[d], wide = L->column[d + 1] - L->column[d], from = L->done[d];
+    const int32_t *row = L->row + L->start[d] + from, rows = tall - from, s_tall = L->start[s + 1] - L->start[s];
+    const double *x = L->x + L->panel[d] + from;
+    int32_t n = 0;
+    while (n < rows && row[n] < L->column[s + 1]) n++;
+    const int32_t room = rows + 4;
+    multiply(rows, n, wide, x, x, tall, L->update, room);
+    for (int32_t j = 0; j < n; j++) {
+        double *to = L->x + L->panel[s] + (size_t)(row[j] - L->column[s]) * (size_t)s_tall;
+        const double *u = L->update + (size_t)j * (size_t)room;
+        for (int32_t i = j; i < rows; i++) to[L->map[row[i]]] -= u[i];
+    }
+    L->done[d] += n;
+}
+
+int rg_supernodal_factor(rg_supernodal *L, double beta)
+{
+    for (int32_t s = 0; s < L->count; s++) L->head[s] = -1;
+    for (int32_t s = 0; s < L->count; s++) {
+        const int32_t tall = L->start[s + 1] - L->start[s], wide = L->column[s + 1] - L->column[s];
+        const int32_t *row = L->row + L->start[s];
+        double *x = L->x + L->panel[s];
+        for (int32_t i = 0; i < tall; i++) L->map[row[i]] = i;
+        for (int32_t j = 0; j < wide; j++) x[(size_t)j * (size_t)tall + (size_t)j] += beta;
+        for (int32_t d = L->head[s], then; d >= 0; d = then) {
+            then = L->next[d];
+            take_from(L, s, d);
+            hang(L, d);
+        }
+        if (!factor_panel(x, tall, wide, L->update)) return 0;
+        L->done[s] = wide;
+        hang(L, s);
+    }
+    return 1;
+}
+
+/* u[m] = sum of n columns of x, `tall` apart, times b */
+WIDE static void columns_times(const double *x, int32_t tall, int32_t m, int32_t n, const double *b, double *u)
+{
+    for (int32_t i = 0; i < m; i++) u[i] = 0;
+    int32_t j = 0;
+    for (; j + 4 <= n; j += 4, x += 4 * (size_t)tall) {
+        const double *x1 = x + tall, *x2 = x1 + tall, *x3 = x2 + tall;
+        for (int32_t i = 0; i < m; i++) u[i] += x[i] * b[j] + x1[i] * b[j + 1] + (x2[i] * b[j + 2] + x3[i] * b[j + 3]);
+    }
+    for (; j < n; j++, x += tall)
+        for (int32_t i = 0; i < m; i++) u[i] += x[i] * b[j];
+}
+
+/* b[n] -= the n columns of x, `tall` apart, each times u[m] */
+WIDE static void columns_dot(const double *x, int32_t tall, int32_t m, int32_t n, const double *u, double *b)
+{
+    int32_t j = 0;
+    for (; j + 4 <= n; j += 4, x += 4 * (size_t)tall) {
+        const double *x1 = x + tall, *x2 = x1 + tall, *x3 = x2 + tall;
+        double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+        for (int32_t i = 0; i < m; i++) s0 += x[i] * u[i], s1 += x1[i] * u[i], s2 += x2[i] * u[i], s3 += x3[i] * u[i];
+        b[j] -= s0, b[j + 1] -= s1, b[j + 2] -= s2, b[j + 3] -= s3;
+    }
+    for (; j < n; j++, x += tall) {
+        double s = 0;
+        for (int32_t i = 0; i < m; i++) s += x[i] * u[i];
+        b[j] -= s;
+    }
+}
+
+void rg_supernodal_solve(rg_supernodal *L, double *b)
+{
+    double *y = L->b, *u = L->update;
+    for (int32_t i = 0; i < L->n; i++) y[L->place[i]] = b[i];
+    for (int32_t s = 0; s < L->count; s++) { /* L y = b */
+        const int32_t tall = L->start[s + 1] - L->start[s], wide = L->column[s + 1] - L->column[s], below = tall - wide;
+        const int32_t *row = L->row + L->start[s] + wide;
+        const double *x = L->x + L->panel[s];
+        double *own = y + L->column[s];
+        for (int32_t j = 0; j < wide; j++) {
+            const double *col = x + (size_t)j * (size_t)tall;
+            own[j] /= col[j];
+            for (int32_t i = j + 1; i < wide; i++) own[i] -= col[i] * own[j];
+        }
+        columns_times(x + wide, tall, below, wide, own, u);
+        for (int32_t i = 0; i < below; i++) y[row[i]] -= u[i];
+    }
+    for (int32_t s = L->count - 1; s >= 0; s--) { /* L^T y = y */
+        const int32_t tall = L->start[s + 1] - L->start[s], wide = L->column[s + 1] - L->column[s], below = tall - wide;
+        const int32_t *row = L->row + L->start[s] + wide;
+        const double *x = L->x + L->panel[s];
+        double *own = y + L->column[s];
+        for (int32_t i = 0; i < below; i++) u[i] = y[row[i]];
+        columns_dot(x + wide, tall, below, wide, u, own);
+        for (int32_t j = wide - 1; j >= 0; j--) {
+            const double *col = x + (size_t)j * (size_t)tall;
+            for (int32_t i = j + 1; i < wide; i++) own[j] -= col[i] * own[i];
+            own[j] /= col[j];
+        }
+    }
+    for (int32_t i = 0; i < L->n; i++) b[i] = y[L->place[i]];
+}
+
+void rg_supernodal_clear(rg_supernodal *L)
+{
+    memset(L->x, 0, (size_t)L->panel[L->count] * sizeof *L->x);
+}
+
+int32_t rg_supernodal_slot(const rg_supernodal *L, int32_t i, int32_t j)
+{
+    int32_t r = L->place[i], c = L->place[j];
+    if (r < c) r = L->place[j], c = L->place[i];
+    int32_t s = L->of[c], low = L->start[s], high = L->start[s + 1];
+    while (high - low > 1) {
+        int32_t middle = low + (high - low) / 2;
+        if (L->row[middle] <= r) low = middle;
+        else high = middle;
+    }
+    return L->panel[s] + (c - L->column[s]) * (L->start[s + 1] - L->start[s]) + (low - L->start[s]);
+}
+
+void rg_supernodal_free(rg_supernodal *L)
+{
+    if (!L->mem.resize) return;
+    void *all[] = {L->place, L->column, L->start, L->row, L->panel, L->x, L->of, L->head, L->next, L->done, L->map, L->update, L->b};
+    for (int i = 0; i < 13; i++) rg_mem_free(&L->mem, all[i]);
+    memset(L, 0, sizeof *L);
+}
+
+#ifdef RG_GPL
+#include <cholmod.h>
+
+/* METIS takes as long as several factorisations of a small sheet, and pays on a large one. */
+static const double METIS_FROM = 3e8;
+
+int rg_supernodal_built(void) { return 1; }
+
+/* The room that `multiply` needs at the most. */
+static size_t room_for_updates(const rg_supernodal *L)
+{
+    size_t most = 0;
+    for (int32_t s = 0; s < L->count; s++) {
+        int32_t tall = L->start[s + 1] - L->start[s];
+        const int32_t *row = L->row + L->start[s];
+        for (int32_t i = 0, j; i < tall; i = j) { /* runs of rows in one supernode */
+            for (j = i; j < tall && L->of[row[j]] == L->of[row[i]]; j++) {}
+            size_t room = (size_t)(tall - i + 4) * (size_t)(j - i + 4);
+            if (room > most) most = room;
+        }
+    }
+    return most + PAD;
+}
+
+static rg_status copy_pattern(rg_supernodal *L, const cholmod_factor *F)
+{
+    const rg_memory *mem = &L->mem;
+    const int *perm = F->Perm, *super = F->super, *pi = F->pi, *px = F->px, *s = F->s;
+    const size_t n = (size_t)L->n, count = F->nsuper;
+    if (F->xsize > INT32_MAX - PAD) return RG_ENOMEM;
+    L->count = (int32_t)count;
+    L->place = rg_mem_array(mem, n, sizeof *L->place);
+    L->column = rg_mem_array(mem, count + 1, sizeof *L->column);
+    L->start = rg_mem_array(mem, count + 1, sizeof *L->start);
+    L->panel = rg_mem_array(mem, count + 1, sizeof *L->panel);
+    L->row = rg_mem_array(mem, F->ssize, sizeof *L->row);
+    L->x = rg_mem_array(mem, F->xsize + PAD, sizeof *L->x);
+    L->of = rg_mem_array(mem, n, sizeof *L->of);
+    L->head = rg_mem_array(mem, count, sizeof *L->head);
+    L->next = rg_mem_array(mem, count, sizeof *L->next);
+    L->done = rg_mem_array(mem, count, sizeof *L->done);
+    L->map = rg_mem_array(mem, n, sizeof *L->map);
+    L->b = rg_mem_array(mem, n, sizeof *L->b);
+    if (!L->place || !L->column || !L->start || !L->panel || !L->row || !L->x || !L->of || !L->head || !L->next ||
+        !L->done || !L->map || !L->b)
+        return RG_ENOMEM;
+    for (int32_t i = 0; i < L->n; i++) L->place[perm[i]] = i;
+    for (int32_t k = 0; k <= L->count; k++) L->column[k] = super[k], L->start[k] = pi[k], L->panel[k] = px[k];
+    for (int32_t i = 0; i < L->start[L->count]; i++) L->row[i] = s[i];
+    for (int32_t k = 0; k < L->count; k++)
+        for (int32_t j = L->column[k]; j < L->column[k + 1]; j++) L->of[j] = k;
+    L->update = rg_mem_array(mem, room_for_updates(L), sizeof *L->update);
+    return L->update ? RG_OK : RG_ENOMEM;
+}
+
+static cholmod_factor *analyze(cholmod_sparse *A, int ordering, cholmod_common *cc)
+{
+    cc->nmethods = 1;
+    cc->method[0].ordering = ordering;
+    cc->supernodal = CHOLMOD_SUPERNODAL;
+    return cholmod_analyze(A, cc);
+}
+
+static rg_status order(rg_supernodal *L, cholmod_sparse *A, cholmod_common *cc)
+{
+    rg_status s = RG_ENOMEM;
+    cholmod_factor *metis = NULL, *amd = analyze(A, CHOLMOD_AMD, cc), *best = amd;
+    if (!amd) return s;
+    L->flops = cc->fl;
+    L->entries = cc->lnz;
+    if (L->flops > METIS_FROM && (metis = analyze(A, CHOLMOD_METIS, cc)) != NULL && cc->fl < L->flops) {
+        best = metis;
+        L->flops = cc->fl;
+        L->entries = cc->lnz;
+    }
+    s = copy_pattern(L, best);
+    cholmod_free_factor(&amd, cc);
+    cholmod_free_factor(&metis, cc);
+    return s;
+}
+
+rg_status rg_supernodal_init(rg_supernodal *L, const rg_memory *mem, int32_t n, const int32_t *start, const int32_t *row)
+{
+    memset(L, 0, sizeof *L);
+    L->mem = *mem;
+    L->n = n;
+    cholmod_common cc;
+    cholmod_start(&cc);
+    cc.print = 0;
+    rg_status s = RG_ENOMEM;
+    int32_t entries = 0;
+    cholmod_sparse *A = cholmod_allocate_sparse((size_t)n, (size_t)n, (size_t)start[n], 0, 1, 1, CHOLMOD_PATTERN, &cc);
+    if (A) {
+        int *p = A->p, *i = A->i;
+        for (int32_t j = 0; j < n; j++) {
+            p[j] = entries;
+            for (int32_t at = start[j]; at < start[j + 1]; at++)
+                if (row[at] <= j) i[entries++] = row[at];
+        }
+        p[n] = entries;
+        s = order(L, A, &cc);
+    }
+    cholmod_free_sparse(&A, &cc);
+    cholmod_finish(&cc);
+    if (s != RG_OK) rg_supernodal_free(L);
+    return s;
+}
+
+#else
+
+int rg_supernodal_built(void) { return 0; }
+rg_status rg_supernodal_init(rg_supernodal *L, const rg_memory *mem, int32_t n, const int32_t *start, const int32_t *row)
+{
+    (void)mem, (void)n, (void)start, (void)row;
+    memset(L, 0, sizeof *L);
+    return RG_EABSENT;
+}
+
+#endif
