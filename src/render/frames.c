@@ -48,7 +48,10 @@ static void *guarded_resize(void *ctx, void *block, size_t bytes)
     return p;
 }
 
-static int is_wanted(const rg_frames *w, int32_t frame) { return frame >= w->first && (frame - w->first) % w->step == 0; }
+static int is_wanted(const rg_frames *w, int32_t frame)
+{
+    return frame >= w->first && (frame - w->first) % w->step == 0;
+}
 
 /* The next frame that is wanted, in *frame; 0: there is none. Layers follow from frame to frame, so that all frames are
  * gone through, one thread at a time. */
@@ -145,7 +148,8 @@ static int32_t threads_for(const rg_motion *m, const rg_frames *f)
 {
     const int32_t frames = (m->report.frame_count - 1 - f->first) / f->step + 1;
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    int32_t n = f->threads > 0 ? f->threads : processors < 1 ? 1 : processors > MOST_THREADS ? MOST_THREADS : (int32_t)processors;
+    const int32_t here = processors < 1 ? 1 : processors > MOST_THREADS ? MOST_THREADS : (int32_t)processors;
+    const int32_t n = f->threads > 0 ? f->threads : here;
     return n < frames ? n : frames;
 }
 

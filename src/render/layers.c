@@ -66,7 +66,9 @@ static void look_back(rg_layers *l, const rg_vec2 *X)
     rg_pose_facets(m, X, &l->motion->tree, l->rho, l->was);
     for (int32_t f = 0; f < m->nf; f++) {
         const rg_mat3 R = l->place[f].R, B = l->was[f].R;
-        const rg_mat3 inverse = {{{R.c[0].x, R.c[1].x, R.c[2].x}, {R.c[0].y, R.c[1].y, R.c[2].y}, {R.c[0].z, R.c[1].z, R.c[2].z}}};
+        const rg_mat3 inverse = {{{R.c[0].x, R.c[1].x, R.c[2].x},
+                                  {R.c[0].y, R.c[1].y, R.c[2].y},
+                                  {R.c[0].z, R.c[1].z, R.c[2].z}}};
         const rg_mat3 turn = rg_mat3_mul(B, inverse);
         const rg_vec3 was = rg_vec3_axpy(l->lift[f], B.c[2], l->was[f].t);
         l->back[f] = (rg_place){turn, rg_vec3_sub(was, rg_mat3_mul_vec(turn, l->place[f].t))};

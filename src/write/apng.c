@@ -36,8 +36,8 @@ static rg_status put_chunk(rg_apng *a, const char *kind, const unsigned char *da
     memcpy(big_endian(head, (uint32_t)n, 4), kind, 4);
     big_endian(tail, (uint32_t)crc, 4);
     errno = 0;
-    if (fwrite(head, 1, 8, a->file) == 8 && fwrite(data, 1, n, a->file) == n && fwrite(tail, 1, 4, a->file) == 4) return RG_OK;
-    return rg_fail(RG_EWRITE, why, 0, "%s", strerror(errno));
+    const int done = fwrite(head, 1, 8, a->file) == 8 && fwrite(data, 1, n, a->file) == n && fwrite(tail, 1, 4, a->file) == 4;
+    return done ? RG_OK : rg_fail(RG_EWRITE, why, 0, "%s", strerror(errno));
 }
 
 static rg_status put_head(rg_apng *a, int32_t frames, rg_diag *why)

@@ -45,7 +45,8 @@ rg_status rg_film_check(const char *path, rg_diag *why)
     if (is == NUMBERED && rg_numbered_find(path, &n) > 1)
         return rg_fail(RG_EARG, why, 0, "%.150s: one number in a name is enough", path);
     if (is >= GIF && rg_numbered_find(path, &n) > 0)
-        return rg_fail(RG_EARG, why, 0, "%.150s: one %s holds all frames: no number in its name", path, strrchr(path, '.'));
+        return rg_fail(RG_EARG, why, 0, "%.150s: one %s holds all frames: no number in its name", path,
+                       strrchr(path, '.'));
     const rg_status s = rg_gl_check(why);
     return s == RG_OK && (is == MP4 || is == WEBM) ? rg_video_check(why) : s;
 }
@@ -61,7 +62,8 @@ static rg_status name_it(rg_status s, const char *path, rg_diag *why)
 
 /* ---- pictures, each in its file */
 
-static rg_status write_png(const rg_memory *mem, const char *path, const rg_picture *p, const unsigned char *rgb, rg_diag *why)
+static rg_status write_png(const rg_memory *mem, const char *path, const rg_picture *p, const unsigned char *rgb,
+                           rg_diag *why)
 {
     rg_file file;
     rg_status s = rg_file_begin(&file, mem, path, why);
@@ -153,7 +155,8 @@ static rg_status write_folder(const rg_motion *m, const char *path, rg_frames *f
     rg_status s = RG_OK;
     const int made = mkdir(path, 0777) == 0;
     if (!made && (stat(path, &is) != 0 || !S_ISDIR(is.st_mode)))
-        s = rg_fail(RG_EWRITE, why, 0, "%.150s: cannot make this folder: %s", path, strerror(errno == EEXIST ? ENOTDIR : errno));
+        s = rg_fail(RG_EWRITE, why, 0, "%.150s: cannot make this folder: %s", path,
+                    strerror(errno == EEXIST ? ENOTDIR : errno));
     if (s == RG_OK) s = write_numbered(m, pattern, f, why);
     if (s != RG_OK && made) rmdir(path); /* stays if there is something in it */
     rg_mem_free(&m->mem, pattern);
