@@ -1,5 +1,6 @@
 /* pattern/convert.c, save: what is kept from format to format, what is told to be lost, and that files appear whole. */
 #include "corpus.h"
+#include "counted.h"
 #include "reading.h"
 
 #include <dirent.h>
@@ -442,10 +443,39 @@ static void files_are_whole_or_not_there(void **state)
     rg_lines_free(&l);
 }
 
+/* Memory that runs short at any request: RG_ENOMEM, no leak, and what was there before is there still. */
+static void memory_runs_short(void **state)
+{
+    (void)state;
+    const char *const names[] = {"m.fold", "m.svg", "m.cp"};
+    write_text("plane.fold", PLANE);
+    for (int i = 0; i < 3; i++) {
+        rg_status status = RG_ENOMEM;
+        long k = 0;
+        for (; status == RG_ENOMEM; k++) {
+            counted c = {.left = k};
+            const rg_memory mem = {counted_resize, &c};
+            rg_settings s = rg_settings_default();
+            rg_diag why = {0, ""};
+            s.memory = &mem;
+            write_text(names[i], "old");
+            status = rg_convert(at("plane.fold"), at(names[i]), RG_FORMAT_AUTO, &s, NULL, NULL, &why);
+            assert_int_equal(c.out, 0);
+            char *text = load(at(names[i]));
+            assert_int_equal(strcmp(text, "old") == 0, status != RG_OK);
+            free(text);
+            if (status != RG_OK) assert_string_equal(why.text, "out of memory");
+        }
+        assert_int_equal(status, RG_OK);
+        assert_true(k > 10);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(formats_keep_what_they_can), cmocka_unit_test(losses_are_told), cmocka_unit_test(a_chain_of_all_formats),
-        cmocka_unit_test(faces), cmocka_unit_test(extras), cmocka_unit_test(gaps), cmocka_unit_test(files_are_whole_or_not_there)};
+        cmocka_unit_test(faces), cmocka_unit_test(extras), cmocka_unit_test(gaps), cmocka_unit_test(files_are_whole_or_not_there),
+        cmocka_unit_test(memory_runs_short)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

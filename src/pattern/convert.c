@@ -305,7 +305,8 @@ rg_status rg_convert(const char *in, const char *out, rg_format to, const rg_set
 {
     if (to == RG_FORMAT_AUTO) to = rg_read_extension(out);
     if (to != RG_FORMAT_OPX && to != RG_FORMAT_CP && to != RG_FORMAT_FOLD && to != RG_FORMAT_SVG)
-        return rg_fail(RG_EARG, why, 0, "%s: crease patterns are written as .opx, .cp, .fold or .svg", out);
+        return rg_fail(RG_EARG, why, 0, strcmp(out, "-") == 0 ? "%s: standard output has no name to tell the format by"
+                                                              : "%s: crease patterns are written as .opx, .cp, .fold or .svg", out);
     if (!(s->merge >= 0 && s->merge < 0.1))
         return rg_fail(RG_EARG, why, 0, "the merge tolerance is not between 0 and 0.1 of the sheet");
     rg_lines l;

@@ -317,7 +317,7 @@ static rg_status edges_of_faces(reader *r)
     return RG_OK;
 }
 
-/* How many faces an edge belongs to. */
+/* How many faces an edge belongs to: 0, 1, or 2 for all that is more. */
 static int faces_at(const reader *r, int32_t e)
 {
     const int32_t a = r->E[2 * e], b = r->E[2 * e + 1];
@@ -328,7 +328,7 @@ static int faces_at(const reader *r, int32_t e)
         if (by_ends(&r->side[middle], &key) < 0) low = middle + 1;
         else high = middle;
     }
-    while (low < r->sides && r->side[low].low == key.low && r->side[low].high == key.high) low++, n++;
+    while (n < 2 && low < r->sides && r->side[low].low == key.low && r->side[low].high == key.high) low++, n++;
     return n;
 }
 
