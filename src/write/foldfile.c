@@ -66,7 +66,10 @@ static void key_frame(rg_json *j, const rg_mesh *m)
     edges(j, m);
     lists(j, "faces_vertices", m, m->facet_vertex);
     lists(j, "faces_edges", m, m->facet_edge);
-    if (m->added > 0) rg_json_integers(j, "rigami:added_edges", m->crease_edge + m->N - m->added, m->added);
+    if (m->added == 0) return;
+    rg_json_open_line(j, "rigami:edges_added", '[');
+    for (int32_t e = 0; e < m->ne; e++) rg_json_bool(j, NULL, m->edge_crease[e] >= m->N - m->added);
+    rg_json_close(j);
 }
 
 static void one_frame(rg_json *j, const rg_motion *m, int32_t k, const rg_vec3 *x)

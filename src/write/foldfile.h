@@ -2,7 +2,7 @@
  * Uses  motion.h base/json.h        Used by  output.c
  *
  * The key frame is the crease pattern in 2D with edges_foldAngle as aimed at; creases added by triangulation are 'F' there
- * and listed in rigami:added_edges. Each frame of file_frames inherits it and has vertices_coords in 3D, edges_foldAngle,
+ * and true in rigami:edges_added. Each frame of file_frames inherits it and has vertices_coords in 3D, edges_foldAngle,
  * rigami:percent and rigami:closure_residual; where creases were adjusted, also rigami:vertices_flatCoords, the pattern
  * that this frame is folded from. Angles in degrees, valley positive; all numbers read back as the same doubles. */
 #ifndef RG_FOLDFILE_H
