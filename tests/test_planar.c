@@ -12,6 +12,7 @@
 #include "draw.h"
 #include "pattern/faces.h"
 #include "pattern/planar.h"
+#include "pattern/points.h"
 
 static rg_graph graph_of(rg_lines *l, double merge)
 {
@@ -398,6 +399,42 @@ static void merged_and_kept(void **state)
     }
 }
 
+/* Points so dense that vertices, moved to the mean of theirs, come within the tolerance of each other: left so, an
+ * edge beside them was cut at one and then at the other, without end. */
+static void crowds_settle(void **state)
+{
+    (void)state;
+    enum { N = 600 };
+    const rg_memory mem = rg_mem_default(NULL);
+    unsigned seed = 55;
+    for (int round = 0; round < 40; round++) {
+        const double tol = 0.01 * (1 + round % 10);
+        rg_points p;
+        int32_t at[N], now[N];
+        rg_vec2 x[N];
+        assert_int_equal(rg_points_init(&p, &mem, (rg_vec2){-1, -1}, 2, tol), RG_OK);
+        for (int i = 0; i < N; i++) {
+            x[i] = (rg_vec2){noise(&seed), noise(&seed)};
+            assert_int_equal(rg_points_add(&p, x[i], &at[i]), RG_OK);
+            below(rg_vec2_length(rg_vec2_sub(p.X[at[i]], x[i])), tol);
+        }
+        assert_int_equal(rg_points_settle(&p, now), RG_OK);
+        double nearest = INFINITY, found;
+        for (int32_t i = 0; i < p.count; i++)
+            for (int32_t j = 0; j < i; j++) nearest = fmin(nearest, rg_vec2_length(rg_vec2_sub(p.X[i], p.X[j])));
+        assert_true(nearest > tol);
+        assert_int_equal(rg_points_nearest(&mem, p.X, p.count, &found, NULL), RG_OK);
+        near(found, nearest, 1e-15);
+        int seen[N] = {0};
+        for (int i = 0; i < N; i++) {
+            assert_in_range(now[at[i]], 0, p.count - 1);
+            seen[now[at[i]]] = 1;
+        }
+        for (int32_t v = 0; v < p.count; v++) assert_true(seen[v]);
+        rg_points_free(&p);
+    }
+}
+
 /* The graph that comes of any drawing is plane: by brute force, no edge crosses another, none passes a vertex nearer than
  * the tolerance, none is there twice, none ends loose. */
 static void is_plane(const rg_graph *g, double tol)
@@ -623,6 +660,7 @@ int main(void)
         cmocka_unit_test(nearly_parallel_lines),
         cmocka_unit_test(gaps),
         cmocka_unit_test(merged_and_kept),
+        cmocka_unit_test(crowds_settle),
         cmocka_unit_test(shaky_drawings_become_plane),
         cmocka_unit_test(counts_do_not_depend_on_place_turn_and_size),
         cmocka_unit_test(doubles_by_rank),

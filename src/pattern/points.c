@@ -99,42 +99,19 @@ void rg_points_forget(rg_points *p)
     p->head[slot(p, column(p, p->X[v].x), row(p, p->X[v].y))] = p->next[v]; /* the newest stands first in its chain */
 }
 
-static void centre(rg_points *p)
-{
-    for (int32_t v = 0; v < p->count; v++) {
-        rg_spread *d = &p->spread[v];
-        p->X[v] = (rg_vec2){p->X[v].x + d->sum.x / d->count, p->X[v].y + d->sum.y / d->count};
-        *d = (rg_spread){{0, 0}, 1};
-    }
-}
-
-/* Vertices anew, from those that there are: X of a vertex is read before anything is written at or after it. */
-static rg_status merge_vertices(rg_points *p, int32_t *now)
-{
-    const int32_t n = p->count;
-    p->count = 0;
-    memset(p->head, -1, p->heads * sizeof *p->head);
-    for (int32_t v = 0; v < n; v++) {
-        rg_status s = rg_points_add(p, p->X[v], &now[v]);
-        if (s != RG_OK) return s;
-    }
-    return RG_OK;
-}
-
+/* What was merged is behind: the vertices are taken as new points, in their order. Those that the mean brought within the
+ * tolerance of each other are one then, where the first of them is. */
 rg_status rg_points_settle(rg_points *p, int32_t *now)
 {
     const int32_t n = p->count;
-    int32_t *next = rg_mem_array(&p->mem, (size_t)n, sizeof *next);
-    if (!next) return RG_ENOMEM;
-    rg_status s = RG_OK;
-    for (int32_t v = 0; v < n; v++) now[v] = v;
-    for (int32_t before = -1; s == RG_OK && p->count != before;) {
-        before = p->count;
-        centre(p);
-        s = merge_vertices(p, next);
-        for (int32_t v = 0; s == RG_OK && v < n; v++) now[v] = next[now[v]];
+    for (int32_t v = 0; v < n; v++) {
+        const rg_spread *d = &p->spread[v];
+        p->X[v] = (rg_vec2){p->X[v].x + d->sum.x / d->count, p->X[v].y + d->sum.y / d->count};
     }
-    rg_mem_free(&p->mem, next);
+    p->count = 0;
+    memset(p->head, -1, p->heads * sizeof *p->head);
+    rg_status s = RG_OK;
+    for (int32_t v = 0; s == RG_OK && v < n; v++) s = rg_points_add(p, p->X[v], &now[v]); /* written at or before v */
     return s;
 }
 
