@@ -283,7 +283,8 @@ typedef struct rg_picture {
 RG_API rg_picture rg_picture_default(void);
 
 /* RG_OK if a motion can be written to this path (by its shape and extension) in this build, else why->text says why
- * not: RG_EARG for an unknown form, RG_EABSENT for pictures in a build without them. */
+ * not: RG_EARG for an unknown form, RG_EABSENT for pictures in a build without them. The forms are those of
+ * docs/outputs.md; "-" is none of them, as nothing says what to write there. */
 RG_API rg_status rg_output_check(const char *path, rg_diag *why);
 /* Writes the motion in the form that the path's shape and extension ask for; each file is written to a temporary name
  * and renamed. `picture` NULL: the default. RG_EWRITE: why->text says what and why. */

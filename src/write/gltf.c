@@ -29,7 +29,7 @@ typedef struct model {
     rg_vec3 *x, *last;       /* [nv] of the frame at work, and of the last one */
     rg_turn *last_turn;      /* [nf] */
     rg_vec3 *last_shift;     /* [nf] */
-    int32_t *normals_of;     /* [most corners + 1] accessor of that many normals to the front; to the back: the next; 0: none */
+    int32_t *normals_of;     /* [most + 1] accessor of that many normals to the front, to the back: the next; 0: none */
     int32_t most;            /* corners of a facet */
     int32_t accessors;
 } model;
@@ -45,7 +45,7 @@ static unsigned char *vector(unsigned char *to, double x, double y, double z)
 
 static void lay_out(model *g)
 {
-    const size_t nf = (size_t)g->mesh->nf, nv = (size_t)g->mesh->nv, frames = (size_t)g->frames, nt = (size_t)g->t.start[nf];
+    const size_t nf = (size_t)g->mesh->nf, nv = (size_t)g->mesh->nv, nt = (size_t)g->t.start[nf], frames = (size_t)g->frames;
     const size_t size_of_facets[PARTS] = {12 * (size_t)g->mesh->facet_start[nf], 24 * (size_t)g->most, 24 * nt, 4 * frames,
                                           16 * nf * frames, 12 * nf * frames};
     const size_t size_of_morphs[PARTS] = {12 * nv, 0, 24 * nt, 4 * frames, 12 * nv * (frames - 1), 4 * (frames - 1) * frames};
@@ -136,7 +136,8 @@ static rg_status displacements(model *g)
     for (int32_t k = 0; s == RG_OK && k < g->frames - 1; k++) {
         s = rg_motion_place(g->m, k, g->x);
         for (int32_t v = 0; v < g->mesh->nv; v++)
-            to = vector(to, g->x[v].x - (float)g->last[v].x, g->x[v].y - (float)g->last[v].y, g->x[v].z - (float)g->last[v].z);
+            to = vector(to, g->x[v].x - (float)g->last[v].x, g->x[v].y - (float)g->last[v].y,
+                        g->x[v].z - (float)g->last[v].z);
     }
     for (int32_t k = 0; k < g->frames; k++)
         for (int32_t i = 0; i < g->frames - 1; i++) weight = rg_bytes_f32(weight, i == k);
@@ -473,7 +474,8 @@ static void chunk_head(uint32_t bytes, const char type[4], FILE *out)
 /* Chunks are multiples of four bytes; all parts of the buffer are. */
 static rg_status write_chunks(model *g, FILE *out)
 {
-    const size_t json = describe(g, NULL, NULL), padding = (4 - json % 4) % 4, total = 12 + 8 + json + padding + 8 + g->start[PARTS];
+    const size_t json = describe(g, NULL, NULL), padding = (4 - json % 4) % 4;
+    const size_t total = 12 + 8 + json + padding + 8 + g->start[PARTS];
     unsigned char head[12] = "glTF";
     if (total > UINT32_MAX) return RG_EARG;
     rg_bytes_u32(rg_bytes_u32(head + 4, 2), (uint32_t)total);

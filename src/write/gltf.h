@@ -2,9 +2,9 @@
  * Uses  motion.h pose/turn.h render/triangles.h        Used by  output.c
  *
  * A facet is a node that turns and moves, with a key for every frame; its mesh lies about the facet's centre, so that single
- * precision costs little: against x.obj of the same frame positions are within 1e-6 of the sheet. Where creases were
- * adjusted, facets change shape and no turn does that; measured on adjusted sheets the best turn misses by percents of
- * the sheet. Then the whole sheet is one mesh with a morph target for every frame but the last, as exact, and straight between frames.
+ * precision costs little: positions are those of x.obj of the same frame to 1e-6 of the sheet. Where creases were adjusted,
+ * facets change shape, by percents on real patterns, and no turn does that: then the whole sheet is one mesh with a morph
+ * target for every frame but the last, as exact, and straight between frames.
  *
  * Both sides of the paper are there, each its own material, seen from its side only. Coordinates are those of all the other
  * outputs: the flat sheet faces +z. A viewer that plays no animations sees the last frame. */

@@ -49,7 +49,10 @@ static rg_status flat(rg_json *j, book *b)
     for (int32_t f = 0; f < m->nf; f++) {
         const int32_t from = m->facet_start[f], end = m->facet_start[f + 1];
         rg_vec2 sum = {0, 0};
-        for (int32_t i = from; i < end; i++) sum = (rg_vec2){sum.x + m->X[m->facet_vertex[i]].x, sum.y + m->X[m->facet_vertex[i]].y};
+        for (int32_t i = from; i < end; i++) {
+            sum.x += m->X[m->facet_vertex[i]].x;
+            sum.y += m->X[m->facet_vertex[i]].y;
+        }
         b->centre[f] = (rg_vec2){sum.x / (end - from), sum.y / (end - from)};
         for (int32_t i = from; i < end; i++) {
             const rg_vec2 x = rg_vec2_sub(m->X[m->facet_vertex[i]], b->centre[f]);

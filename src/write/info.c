@@ -111,8 +111,8 @@ static void counts(const rg_pattern_info *i, FILE *out)
     if (i->unassigned) fprintf(out, ", %d unassigned", (int)i->unassigned);
     if (i->flat) fprintf(out, ", %d flat", (int)i->flat);
     fprintf(out, "\nmodel       M = %d interior %s, N = %d, N0 = %d border %s; degrees of freedom N - 3M = %d\n",
-            (int)i->interior_vertices, plural(i->interior_vertices, "vertex", "vertices"), (int)i->creases, (int)i->boundary_edges,
-            plural(i->boundary_edges, "edge", "edges"), (int)i->degrees_of_freedom);
+            (int)i->interior_vertices, plural(i->interior_vertices, "vertex", "vertices"), (int)i->creases,
+            (int)i->boundary_edges, plural(i->boundary_edges, "edge", "edges"), (int)i->degrees_of_freedom);
     if (i->is_disk)
         fprintf(out, "            cut into triangles: %d more %s, %d degrees of freedom\n", (int)triangulating_adds(i),
                 plural(triangulating_adds(i), "crease", "creases"), (int)i->boundary_edges - 3);
@@ -132,14 +132,36 @@ static void broken_theorem(const rg_unfoldable *u, FILE *out)
     }
 }
 
+static void vertices(const rg_pattern *p, int32_t bad, FILE *out)
+{
+    const int32_t M = p->info.interior_vertices;
+    if (M == 0) fprintf(out, "vertices    none inside the sheet\n");
+    else if (bad == 0) fprintf(out, "vertices    each of %d inside the sheet can fold flat by itself\n", (int)M);
+    else fprintf(out, "vertices    %d of %d inside the sheet cannot fold flat\n", (int)bad, (int)M);
+    for (int32_t k = 0; k < p->unfoldables; k++) broken_theorem(&p->unfoldable[k], out);
+}
+
 static void closed_vertices(const rg_pattern *p, FILE *out)
 {
-    fprintf(out, "closed      %d %s (a crease halves the angle of two that are folded opposite ways)\n",
-            (int)p->info.closed_vertices, plural(p->info.closed_vertices, "vertex", "vertices"));
+    const int32_t n = p->info.closed_vertices;
+    if (n == 0) fprintf(out, "closed      none\n");
+    else
+        fprintf(out, "closed      %d %s: a crease halves the angle of two that fold opposite ways\n", (int)n,
+                plural(n, "vertex", "vertices"));
     for (int32_t k = 0; k < p->closed_triples; k++) {
         const rg_closed *c = &p->closed[k];
-        fprintf(out, "            (%.6g, %.6g): creases to (%.6g, %.6g), (%.6g, %.6g), (%.6g, %.6g), inside angle %.4g degrees\n", c->x,
-                c->y, c->a[0], c->a[1], c->c[0], c->c[1], c->b[0], c->b[1], c->inside_angle / RG_DEG);
+        fprintf(out, "            (%.6g, %.6g): creases to (%.6g, %.6g), (%.6g, %.6g), (%.6g, %.6g), inside angle %.4g degrees\n",
+                c->x, c->y, c->a[0], c->a[1], c->c[0], c->c[1], c->b[0], c->b[1], c->inside_angle / RG_DEG);
+    }
+}
+
+static void warnings(const rg_pattern *p, FILE *out)
+{
+    if (p->lines.warnings) fprintf(out, "warnings    %d\n", (int)p->lines.warnings);
+    for (int32_t k = 0; k < p->lines.warnings; k++) {
+        fprintf(out, "            ");
+        if (p->lines.warning[k].line) fprintf(out, "line %d: ", p->lines.warning[k].line);
+        fprintf(out, "%s\n", p->lines.warning[k].text);
     }
 }
 
@@ -147,12 +169,12 @@ static const char *verdict(const rg_pattern_info *i, int32_t bad)
 {
     if (!i->is_disk) return "It cannot be folded here: it is not one sheet without holes.";
     if (i->creases == 0) return "There is no crease to fold.";
-    if (bad) return "It does not fold flat: at the vertices named it cannot; it may still fold part of the way.";
+    if (bad) return "It does not fold flat, for the vertices named cannot; it may fold part of the way.";
     if (i->mountains + i->valleys == 0) return "No crease says which way it folds: nothing will move.";
     if (i->closed_vertices)
         return "Each vertex folds flat by itself, but the closed ones lock rigid facets: it needs creases added or adjusted.";
     if (i->degrees_of_freedom <= 0)
-        return "Nothing here speaks against it, but there are as many conditions as creases or more: it folds if they agree.";
+        return "Nothing here speaks against it, but there are as many conditions as creases or more: they have to agree.";
     return "It is likely to fold: nothing here speaks against it.";
 }
 
@@ -166,17 +188,11 @@ rg_status rg_info_text(const rg_pattern *p, const char *file, rg_diag *why)
     FILE *out = f.stream;
     title(i, out);
     counts(i, out);
-    fprintf(out, "sheet       %s%s\n", i->is_disk ? "one, without holes" : "not one without holes: ", i->is_disk ? "" : i->not_disk);
-    fprintf(out, "flat        %d of %d interior %s cannot fold flat\n", (int)bad, (int)i->interior_vertices,
-            plural(i->interior_vertices, "vertex", "vertices"));
-    for (int32_t k = 0; k < p->unfoldables; k++) broken_theorem(&p->unfoldable[k], out);
+    if (i->is_disk) fprintf(out, "sheet       one, without holes\n");
+    else fprintf(out, "sheet       not one without holes: %s\n", i->not_disk);
+    vertices(p, bad, out);
     closed_vertices(p, out);
-    if (p->lines.warnings) fprintf(out, "warnings    %d\n", (int)p->lines.warnings);
-    for (int32_t k = 0; k < p->lines.warnings; k++) {
-        fprintf(out, "            ");
-        if (p->lines.warning[k].line) fprintf(out, "line %d: ", p->lines.warning[k].line);
-        fprintf(out, "%s\n", p->lines.warning[k].text);
-    }
+    warnings(p, out);
     fprintf(out, "\n%s\n", verdict(i, bad));
     return rg_file_commit(&f, why);
 }

@@ -37,13 +37,14 @@ static rg_status find_form(const char *path, const form **found, rg_diag *why)
     rg_numbered n;
     const int numbers = rg_numbered_find(path, &n);
     if (*found && numbers > (*found)->per_frame)
-        return rg_fail(RG_EARG, why, 0, "%.100s: %s", path, numbers > 1 ? "more than one place for a number in its name"
-                                                                       : "one such file holds all frames: no number in its name");
+        return rg_fail(RG_EARG, why, 0, "%.100s: %s", path,
+                       numbers > 1 ? "more than one place for a number in its name"
+                                   : "one such file holds all frames: no number in its name");
     if (*found) return RG_OK;
     if (strcmp(path, "-") == 0)
         return rg_fail(RG_EARG, why, 0, "standard output has no extension that says what to write: name a file");
-    return rg_fail(RG_EARG, why, 0, "%.80s: no such form of output; there are DIR/ NAME-%%04d.png .png .gif .apng .mp4 .webm "
-                   ".obj .stl .glb .gltf .fold .csv .svg .html", path);
+    return rg_fail(RG_EARG, why, 0, "%.80s: no such form of output; there are DIR/ NAME-%%04d.png .png .gif .apng .mp4 "
+                   ".webm .obj .stl .glb .gltf .fold .csv .svg .html", path);
 }
 
 rg_status rg_output_check(const char *path, rg_diag *why)
@@ -52,7 +53,8 @@ rg_status rg_output_check(const char *path, rg_diag *why)
     return rg_film_is_form(path) ? rg_film_check(path, why) : find_form(path, &f, why);
 }
 
-static rg_status write_one(const rg_motion *m, const form *f, int32_t frame, const rg_picture *p, const char *path, rg_diag *why)
+static rg_status write_one(const rg_motion *m, const form *f, int32_t frame, const rg_picture *p, const char *path,
+                           rg_diag *why)
 {
     rg_file file;
     rg_status s = rg_file_begin(&file, &m->mem, path, why);
