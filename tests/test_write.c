@@ -519,9 +519,15 @@ static size_t decode(const char *text, char *bytes)
 static void check_gltf(int adjusted)
 {
     rg_motion *m = sample(adjusted);
-    write_as(m, "x.glb");
-    write_as(m, "x.gltf");
+    rg_picture picture = rg_picture_default();
+    char path[300];
+    picture.fps = 12.5;
+    assert_int_equal(rg_motion_write(m, written_path("x.glb", path), &picture, NULL), RG_OK);
+    assert_int_equal(rg_motion_write(m, written_path("x.gltf", path), &picture, NULL), RG_OK);
     model g = read_glb("x.glb");
+    const json_t *fold = json_array_get(get(g.json, "animations"), 0);
+    const int32_t times = integer(json_array_get(get(fold, "samplers"), 0), "input");
+    for (size_t k = 0; k < FRAMES; k++) near(f32(element(&g, times, k)), (double)k / 12.5, 1e-7);
     if (adjusted) check_morphs(&g, m);
     else check_turning_facets(&g, m);
     check_sides(&g, m, adjusted);
@@ -709,6 +715,10 @@ static void paths_are_checked(void **state)
     assert_int_equal(rg_output_check("x.foo", &why), RG_EARG);
     for (int i = 0; i < FORM_COUNT; i++) assert_non_null(strstr(why.text, FORMS[i] + 1));
     assert_non_null(strstr(why.text, "x.foo"));
+    rg_picture picture = rg_picture_default();
+    picture.fps = NAN;
+    assert_int_equal(rg_motion_write(m, written_path("x.glb", path), &picture, NULL), RG_EARG);
+    assert_int_equal(written_files(0), 0);
     assert_int_equal(rg_motion_write(m, written_path("none/x.fold", path), NULL, &why), RG_EWRITE);
     assert_non_null(strstr(why.text, "none/x.fold"));
     rg_motion_destroy(m);

@@ -9,7 +9,6 @@
 
 enum { FLOAT = 5126, UINT = 5125, VERTICES = 34962, INDICES = 34963 };
 enum { FRONT, BACK };
-static const double FRAMES_A_SECOND = 30;
 static const double ROUGHNESS = 0.9;
 
 /* Parts of the buffer. What moves is turns and shifts of facets, or displacements of vertices and their weights. */
@@ -147,7 +146,7 @@ static rg_status displacements(model *g)
 static rg_status fill(model *g)
 {
     unsigned char *time = g->bytes + g->start[TIMES];
-    for (int32_t k = 0; k < g->frames; k++) time = rg_bytes_f32(time, k / FRAMES_A_SECOND);
+    for (int32_t k = 0; k < g->frames; k++) time = rg_bytes_f32(time, k / g->p->fps);
     triangles(g);
     if (g->morphs) return displacements(g);
     centres(g);

@@ -14,7 +14,7 @@
 #include "motion/motion.h"
 #include <stdio.h>
 
-/* All frames, 30 a second, in the paper colours of *p; `frame` is not looked at. RG_ENOMEM; RG_EARG: too large for the
+/* All frames, p->fps a second, in the paper colours of *p; `frame` is not looked at. RG_ENOMEM; RG_EARG: too large for the
  * format (4 GiB). */
 rg_status rg_gltf_write(const rg_motion *m, int32_t frame, const rg_picture *p, FILE *out);
 rg_status rg_gltf_write_binary(const rg_motion *m, int32_t frame, const rg_picture *p, FILE *out);

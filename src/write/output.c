@@ -1,6 +1,7 @@
 /* The forms of output: which writer a path's shape and extension ask for, and that each file appears whole or not. */
 #include "base/file.h"
 #include "base/status.h"
+#include "render/camera.h"
 #include "write/csv.h"
 #include "write/film.h"
 #include "write/foldfile.h"
@@ -85,6 +86,7 @@ rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_picture
     rg_numbered n;
     if (rg_film_is_form(path)) return rg_film_write(m, path, p, why);
     rg_status s = find_form(path, &f, why);
+    if (s == RG_OK) s = rg_camera_check(p, why); /* models and pages have its colours, view and pace */
     if (s != RG_OK) return s;
     return rg_numbered_find(path, &n) ? write_each(m, f, &n, p, why)
                                       : write_one(m, f, m->report.frame_count - 1, p, path, why);
