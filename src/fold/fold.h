@@ -32,6 +32,7 @@ struct rg_fold {
     int32_t frame;                /* the next frame to reach */
     int32_t steps;
     int64_t assemblies;
+    double moved;                 /* the farthest that a crease may have gone since the last factorisation */
     double closure;
     rg_outcome outcome;
     char reason[240];

@@ -3,21 +3,22 @@
 
 #include <string.h>
 
-static const double SOLVE_TOLERANCE = 1e-14;
+static const double SOLVE_TOLERANCE = 1e-10;
 static const int32_t CORRECTIONS = 8;
-/* The polynomial between nodes is off in the angles by more than it is off in closure, so it must close this much better
- * than asked for. */
-static const double READ_OFF_MARGIN = 0.5;
+/* The polynomial between nodes must close this much better than asked for. Where the sheet can go one way only its angles
+ * are off by closure over the slowest mode, and could be exact: so much better there. */
+static const double READ_OFF_MARGIN = 0.5, READ_OFF_MARGIN_ONE_WAY = 1e-3;
+static const double ROUNDING = 1e-13;
 /* And steps are planned for this part of that. */
 static const double STEP_MARGIN = 0.3;
 /* A prediction that closes to this is near enough for one factorisation there to serve the node. */
-static const double GOOD_PREDICTION = 1e-4, POOR_PREDICTION = 1e-2;
+static const double GOOD_PREDICTION = 1e-5, POOR_PREDICTION = 1e-2;
 /* The next step against this one. */
-static const double LARGEST_GROWTH = 3, LARGEST_CUT = 0.2;
+static const double LARGEST_GROWTH = 2.5, LARGEST_CUT = 0.2;
 static const double SMALLEST_STEP = 1e-5;
 /* Every so many nodes it is asked again whether the sheet can go one way only: whether closing undoes all but this
  * part of what Adams's formula moves. */
-static const int32_t ASK_AGAIN = 4;
+static const int32_t ASK_AGAIN = 8;
 static const double ONE_WAY = 1e-2;
 /* Adams's formula moves less than this: rounding, which is not worth a correction. */
 static const double SET_RIGHT_FROM = 1e-13;
@@ -174,6 +175,11 @@ static double reach(const rg_fold *f, double s)
     return (s - p->node[p->count - 1].s) * rg_path_reach(p, first, n, s, 1);
 }
 
+static double close_enough(const rg_fold *f)
+{
+    return fmax(f->settings.tol * (f->one_way ? READ_OFF_MARGIN_ONE_WAY : READ_OFF_MARGIN), ROUNDING);
+}
+
 /* How much longer a step may be if it makes an error of e, may make one of `most`, and is of that order. */
 static double scale(double e, double most, int order)
 {
@@ -184,11 +190,13 @@ static double scale(double e, double most, int order)
 static double next_step(rg_fold *f, double h, double rate, double far)
 {
     const rg_path *p = &f->path;
-    const double last = p->node[p->count - 1].s, goal = STEP_MARGIN * READ_OFF_MARGIN * f->settings.tol;
+    const double last = p->node[p->count - 1].s, goal = STEP_MARGIN * close_enough(f);
     double longest = LARGEST_GROWTH * h, spacing = rg_fold_frame_progress(f, 1);
     if (f->one_way && p->count > RG_PATH_WINDOW) {
         /* Of twelve conditions at even distance, half way between the middle two: (1/2 3/2 5/2)^4 = 12.36. */
         longest = fmin(longest, pow(goal / (12.36 * fmax(rate, 1e-300)), 1.0 / 12));
+    } else if (!f->one_way && p->count <= RG_PATH_WINDOW) {
+        longest = fmin(longest, spacing);
     } else if (p->count > RG_PATH_WINDOW) {
         double between = p->node[p->count - 3].s - p->node[p->count - 4].s;
         rg_path_evaluate(p, p->count - RG_PATH_WINDOW, RG_PATH_WINDOW, p->node[p->count - 4].s + between / 2, f->k[0], NULL);
@@ -218,6 +226,7 @@ static int make_node(rg_fold *f, double s, double *far)
     *far = 0;
     if (!f->one_way || f->path.count < RG_PATH_WINDOW || f->nodes % ASK_AGAIN == 0) {
         *far = set_right(f, s);
+        f->moved += *far;
         if (!(*far <= FARTHEST_SET_RIGHT)) return 0;
         if (*far > SET_RIGHT_FROM) {
             if (!rg_newton_close(f, s, CORRECTIONS, 1)) return 0;
@@ -270,7 +279,7 @@ int rg_integrate_read_off(rg_fold *f, double s)
     rg_path_window(p, s, &first, &n);
     rg_path_evaluate(p, first, n, s, f->trial, f->t);
     f->closure = rg_constraint_closure(&f->K, f->trial, NULL);
-    if (f->closure <= READ_OFF_MARGIN * f->settings.tol) return 1;
+    if (f->closure <= close_enough(f)) return 1;
     if (!rg_newton_close(f, s, CORRECTIONS, 0)) return 0;
     if (rg_integrate_tangent(f, f->trial, s, 1, f->t) > 0) rg_path_insert(p, s, f->trial, f->t);
     f->nodes++;

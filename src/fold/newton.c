@@ -9,28 +9,33 @@ static const double SOLVE_TOLERANCE = 1e-5;
 static const double PROGRESS_TOLERANCE = 1e-10;
 /* A correction that leaves more than this part of the residual is not converging; three in a row end the attempt. */
 static const double POOR_GAIN = 0.7;
-/* One that leaves less has a factor, made at the point before, that is good for the next as well. */
+/* One that leaves no less than this is rounding, if it closes to tolerance. */
 static const double GOOD_GAIN = 0.1;
+/* A factor is kept while no crease has moved farther than this since it was made. It is off by as much, against slow
+ * modes of 1e-4 or so; and with more equations than creases those that say the same thing twice no longer agree, which
+ * the factor takes for a mode of that size, to be seen beside the square root of its beta. */
+static const double NEAR = 1e-4, NEAR_OVERCONSTRAINED = 1e-6;
 /* Rounding leaves some 1e-15 at a vertex. What closes to the tolerance asked for is corrected down to this as long as
  * that is quick, since angles are off by more than closure is: by its ratio to the slowest mode. */
-static const double ROUNDING = 1e-14;
+static const double ROUNDING = 1e-13;
 
-int rg_newton_close(rg_fold *f, double s, int32_t most, int near)
+int rg_newton_close(rg_fold *f, double s, int32_t most_corrections, int near)
 {
     const int32_t N = f->mesh.N;
     const double tol = f->settings.tol;
+    const double far = f->mesh.N <= 3 * f->mesh.M ? NEAR_OVERCONSTRAINED : NEAR;
     double before = INFINITY;
     int poor = 0;
+    if (!near) f->moved = INFINITY;
     for (int32_t n = 0;; n++) {
         f->closure = rg_constraint_assemble(&f->K, f->trial);
         f->assemblies++;
-        if (near || (n > 0 && f->closure <= GOOD_GAIN * before)) rg_project_renew_near(&f->P);
+        if (f->moved <= far) rg_project_renew_near(&f->P);
         else rg_project_renew(&f->P);
-        near = 0;
         double off = s - rg_drive_progress(&f->drive, f->trial);
         int closed = f->closure <= tol && fabs(off) <= PROGRESS_TOLERANCE;
-        if (closed && (f->closure <= ROUNDING || f->closure > GOOD_GAIN * before || n >= most)) return 1;
-        if (n >= most || !(f->closure <= 3)) return 0;
+        if (closed && (f->closure <= ROUNDING || f->closure > GOOD_GAIN * before || n >= most_corrections)) return 1;
+        if (n >= most_corrections || !(f->closure <= 3)) return 0;
         poor = f->closure > POOR_GAIN * before && f->closure > 10 * tol ? poor + 1 : 0;
         if (poor >= 3) return 0;
         before = f->closure;
@@ -41,7 +46,12 @@ int rg_newton_close(rg_fold *f, double s, int32_t most, int near)
         rg_cg_report rep;
         memset(f->P.y, 0, 3 * (size_t)f->mesh.M * sizeof *f->P.y); /* the last answer has nothing to do with this one */
         if (rg_project_step(&f->P, &f->K, f->wish, 1, f->drive.along, f->wish, SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (14) */
-        for (int32_t i = 0; i < N; i++) f->trial[i] += f->wish[i];
+        double most = 0;
+        for (int32_t i = 0; i < N; i++) {
+            f->trial[i] += f->wish[i];
+            if (!(fabs(f->wish[i]) <= most)) most = fabs(f->wish[i]);
+        }
+        f->moved = f->moved <= far ? f->moved + most : most;
     }
 }
 

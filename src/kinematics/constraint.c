@@ -1,6 +1,51 @@
 #include "kinematics/constraint.h"
+#include "base/lanes.h"
+#include "kinematics/turn.h"
 
 #include <string.h>
+
+/* Vertices sorted by degree, four together. */
+static rg_status make_fours(rg_constraint *K)
+{
+    const rg_sparse *C = &K->C;
+    int32_t most = 0, at = 0;
+    for (int32_t k = 0; k < C->M; k++)
+        if (C->start[k + 1] - C->start[k] > most) most = C->start[k + 1] - C->start[k];
+    int32_t *count = rg_mem_array(&K->mem, (size_t)most + 2, sizeof *count);
+    int32_t *sorted = rg_mem_array(&K->mem, (size_t)C->M, sizeof *sorted);
+    size_t blocks = 0;
+    if (count && sorted) {
+        for (int32_t k = 0; k < C->M; k++) count[C->start[k + 1] - C->start[k] + 1]++;
+        for (int32_t d = 0; d <= most; d++) {
+            size_t fours = ((size_t)count[d + 1] + 3) / 4;
+            K->fours += (int32_t)fours;
+            blocks += 4 * fours * (size_t)d;
+            count[d + 1] += count[d];
+        }
+        for (int32_t k = 0; k < C->M; k++) sorted[count[C->start[k + 1] - C->start[k]]++] = k;
+        K->four = rg_mem_array(&K->mem, (size_t)K->fours, sizeof *K->four);
+        K->crease = rg_mem_array(&K->mem, blocks, sizeof *K->crease);
+        K->theta_cos = rg_mem_array(&K->mem, blocks, sizeof *K->theta_cos);
+        K->theta_sin = rg_mem_array(&K->mem, blocks, sizeof *K->theta_sin);
+    }
+    int ok = K->four && K->crease && K->theta_cos && K->theta_sin;
+    for (int32_t k = 0, g = 0; ok && k < C->M; g++) {
+        rg_four *four = &K->four[g];
+        four->degree = C->start[sorted[k] + 1] - C->start[sorted[k]];
+        four->at = at;
+        for (int lane = 0; lane < 4; lane++) {
+            int32_t last = lane ? four->vertex[lane - 1] : sorted[k];
+            int more = k < C->M && C->start[sorted[k] + 1] - C->start[sorted[k]] == four->degree;
+            four->vertex[lane] = more ? sorted[k++] : last;
+            for (int32_t i = 0; i < four->degree; i++)
+                K->crease[4 * (at + i) + lane] = C->col[C->start[four->vertex[lane]] + i];
+        }
+        at += four->degree;
+    }
+    rg_mem_free(&K->mem, count);
+    rg_mem_free(&K->mem, sorted);
+    return ok ? RG_OK : RG_ENOMEM;
+}
 
 rg_status rg_constraint_init(rg_constraint *K, const rg_memory *mem, const rg_mesh *m)
 {
@@ -9,14 +54,17 @@ rg_status rg_constraint_init(rg_constraint *K, const rg_memory *mem, const rg_me
     if (s != RG_OK) return s;
     K->mem = *mem;
     int32_t blocks = m->loop_start[m->M];
+    const size_t whole = ((size_t)m->N + 3) & ~(size_t)3;
     K->r = rg_mem_array(mem, 3 * (size_t)m->M, sizeof *K->r);
     K->theta = rg_mem_array(mem, (size_t)blocks, sizeof *K->theta);
-    K->rho = rg_mem_array(mem, (size_t)m->N, sizeof *K->rho);
-    if (!K->r || !K->theta || !K->rho) {
+    K->cos = rg_mem_array(mem, whole, sizeof *K->cos);
+    K->sin = rg_mem_array(mem, whole, sizeof *K->sin);
+    if (!K->r || !K->theta || !K->cos || !K->sin || make_fours(K) != RG_OK) {
         rg_constraint_free(K);
         return RG_ENOMEM;
     }
-    for (int32_t j = 0; j < blocks; j++) K->theta[j] = (rg_turn){cos(m->loop_theta[j]), sin(m->loop_theta[j])};
+    for (int32_t k = 0; k < m->M; k++) K->C.x[m->loop_start[k]] = (rg_vec3){1, 0, 0};
+    rg_constraint_set_theta(K, m->loop_theta);
     return RG_OK;
 }
 
@@ -25,53 +73,108 @@ void rg_constraint_free(rg_constraint *K)
     if (!K->mem.resize) return;
     rg_memory mem = K->mem;
     rg_sparse_free(&K->C);
-    rg_mem_free(&mem, K->r);
-    rg_mem_free(&mem, K->theta);
-    rg_mem_free(&mem, K->rho);
+    void *all[] = {K->r, K->theta, K->cos, K->sin, K->four, K->crease, K->theta_cos, K->theta_sin};
+    for (int i = 0; i < 8; i++) rg_mem_free(&mem, all[i]);
     memset(K, 0, sizeof *K);
+}
+
+void rg_constraint_set_theta(rg_constraint *K, const double *theta)
+{
+    for (int32_t j = 0; j < K->C.start[K->C.M]; j++) K->theta[j] = (rg_turn){cos(theta[j]), sin(theta[j])};
+    for (int32_t g = 0; g < K->fours; g++)
+        for (int lane = 0; lane < 4; lane++)
+            for (int32_t i = 0; i < K->four[g].degree; i++) {
+                rg_turn t = K->theta[K->C.start[K->four[g].vertex[lane]] + i];
+                int32_t at = 4 * (K->four[g].at + i) + lane;
+                K->theta_cos[at] = t.cos;
+                K->theta_sin[at] = t.sin;
+            }
 }
 
 static void turn_creases(rg_constraint *K, const double *rho)
 {
-    for (int32_t i = 0; i < K->C.N; i++) K->rho[i] = (rg_turn){cos(rho[i]), sin(rho[i])};
+    int32_t whole = K->C.N & ~3;
+    rg_turn_creases(whole, rho, K->cos, K->sin);
+    if (whole == K->C.N) return;
+    double rest[4] = {0};
+    memcpy(rest, rho + whole, (size_t)(K->C.N - whole) * sizeof *rho);
+    rg_turn_creases(4, rest, K->cos + whole, K->sin + whole);
 }
 
-/* A maximum that a NaN wins. */
-static double larger(double a, double b)
+/* Round each vertex of the four, as rg_loop_walk does: C's numbers and r if they are wanted. bad[4]: out, a measure of
+ * the rotation angle of F that rises with it, sin^2 up to a right angle and 2 - sin^2 beyond; NaN for NaN. */
+RG_WITHIN void walk_four(rg_constraint *K, const rg_four *four, int wanted, double *bad)
 {
-    return b <= a || isnan(a) ? a : b;
+    const int32_t *crease = K->crease + 4 * four->at;
+    const double *tc = K->theta_cos + 4 * four->at, *ts = K->theta_sin + 4 * four->at;
+    const double *cosine = K->cos, *sine = K->sin;
+    rg_quad x[3], y[3], z[3]; /* columns of A */
+    rg_vec3 *c[4];
+    for (int lane = 0; lane < 4; lane++) c[lane] = K->C.x + K->C.start[four->vertex[lane]];
+    for (int32_t i = 0; i < four->degree; i++, crease += 4, tc += 4, ts += 4) {
+        const rg_quad rho_cos = {cosine[crease[0]], cosine[crease[1]], cosine[crease[2]], cosine[crease[3]]};
+        const rg_quad rho_sin = {sine[crease[0]], sine[crease[1]], sine[crease[2]], sine[crease[3]]};
+        const rg_quad theta_cos = *(const rg_quad_anywhere *)tc, theta_sin = *(const rg_quad_anywhere *)ts;
+        if (i == 0) { /* from I, whose e_x is there since init */
+            x[0] = theta_cos, x[1] = theta_sin * rho_cos, x[2] = theta_sin * rho_sin;
+            y[0] = -theta_sin, y[1] = theta_cos * rho_cos, y[2] = theta_cos * rho_sin;
+            z[0] = (rg_quad){0}, z[1] = -rho_sin, z[2] = rho_cos;
+            continue;
+        }
+        if (wanted)
+            for (int lane = 0; lane < 4; lane++) c[lane][i] = (rg_vec3){x[0][lane], x[1][lane], x[2][lane]}; /* A_i e_x  eqs. (2)-(7) */
+        for (int a = 0; a < 3; a++) { /* F = chi_1 ... chi_n     eq. (1) */
+            const rg_quad turned = rho_cos * y[a] + rho_sin * z[a];
+            z[a] = rho_cos * z[a] - rho_sin * y[a];
+            y[a] = theta_cos * turned - theta_sin * x[a];
+            x[a] = theta_cos * x[a] + theta_sin * turned;
+        }
+    }
+    const rg_quad r0 = (y[2] - z[1]) * 0.5, r1 = (z[0] - x[2]) * 0.5, r2 = (x[1] - y[0]) * 0.5; /* eq. (13) */
+    if (wanted)
+        for (int lane = 0; lane < 4; lane++) { /* eq. (12) */
+            double *r = K->r + 3 * four->vertex[lane];
+            r[0] = r0[lane], r[1] = r1[lane], r[2] = r2[lane];
+        }
+    const rg_quad sine2 = r0 * r0 + r1 * r1 + r2 * r2, twice = x[0] + y[1] + z[2] - 1;
+    for (int lane = 0; lane < 4; lane++) bad[lane] = twice[lane] > 0 ? sine2[lane] : 2 - sine2[lane];
+}
+
+/* All vertices; returns the one at which F turns most. */
+RG_WIDE static int32_t walk_all(rg_constraint *K, int wanted)
+{
+    int32_t worst = -1;
+    double most = -1;
+    for (int32_t g = 0; g < K->fours; g++) {
+        double bad[4];
+        if (wanted) walk_four(K, &K->four[g], 1, bad);
+        else walk_four(K, &K->four[g], 0, bad);
+        for (int lane = 0; lane < 4; lane++)
+            if (!(bad[lane] <= most) && most == most) most = bad[lane], worst = K->four[g].vertex[lane];
+    }
+    return worst;
+}
+
+static double angle_at(const rg_constraint *K, int32_t k)
+{
+    if (k < 0) return 0;
+    rg_mat3 A = rg_mat3_identity();
+    for (int32_t j = K->C.start[k]; j < K->C.start[k + 1]; j++)
+        A = rg_loop_advance(A, (rg_turn){K->cos[K->C.col[j]], K->sin[K->C.col[j]]}, K->theta[j]);
+    return rg_loop_angle(A);
 }
 
 double rg_constraint_assemble(rg_constraint *K, const double *rho)
 {
-    rg_sparse *C = &K->C;
-    double worst = 0;
     turn_creases(K, rho);
-    for (int32_t k = 0; k < C->M; k++) { /* rows of C_k: eqs. (6), (7); one below the other: eq. (8) */
-        int32_t j = C->start[k];
-        rg_mat3 F = rg_loop_walk(C->start[k + 1] - j, C->col + j, K->rho, K->theta + j, C->x + j);
-        rg_vec3 r = rg_loop_residual(F);
-        K->r[3 * k] = r.x; /* eq. (12) */
-        K->r[3 * k + 1] = r.y;
-        K->r[3 * k + 2] = r.z;
-        worst = larger(worst, rg_loop_angle(F));
-    }
-    return worst;
+    return angle_at(K, walk_all(K, 1));
 }
 
-double rg_constraint_closure(rg_constraint *K, const double *rho, int32_t *at)
+double rg_constraint_closure(rg_constraint *K, const double *rho, int32_t *worst)
 {
-    const rg_sparse *C = &K->C;
-    double worst = 0;
-    if (at) *at = -1;
     turn_creases(K, rho);
-    for (int32_t k = 0; k < C->M; k++) {
-        int32_t j = C->start[k];
-        double angle = rg_loop_angle(rg_loop_walk(C->start[k + 1] - j, C->col + j, K->rho, K->theta + j, NULL));
-        if (angle <= worst) continue;
-        worst = angle;
-        if (at) *at = k;
-        if (isnan(angle)) break;
-    }
-    return worst;
+    int32_t k = walk_all(K, 0);
+    double angle = angle_at(K, k);
+    if (worst) *worst = angle != 0 ? k : -1; /* also where it is NaN */
+    return angle;
 }

@@ -1,5 +1,5 @@
 /* constraint.h -- all vertices: C (3M x N) and r at given fold angles.
- * Paper    eqs. (6)-(8), (11), (12)        Uses  loop.h sparse.h mesh.h        Used by  project.c fold.c motion.c */
+ * Paper    eqs. (6)-(8), (11), (12)        Uses  loop.h turn.h sparse.h mesh.h        Used by  project.c fold.c motion.c */
 #ifndef RG_CONSTRAINT_H
 #define RG_CONSTRAINT_H
 
@@ -7,16 +7,30 @@
 #include "linalg/sparse.h"
 #include "mesh/mesh.h"
 
+/* Four vertices of as many creases each, walked round together. */
+typedef struct rg_four {
+    int32_t vertex[4]; /* the last ones of a degree may be the same vertex several times */
+    int32_t degree;
+    int32_t at;        /* into crease and theta, times four */
+} rg_four;
+
 typedef struct rg_constraint {
     rg_memory mem;
     rg_sparse C;    /* eq. (8) */
     double *r;      /* [3M] eq. (12), per vertex in the order b, c, a, which is x, y, z of the axial vector */
-    rg_turn *theta; /* per block of C: cosine and sine of the sector angle, fixed by the mesh */
-    rg_turn *rho;   /* [N] cosine and sine of the fold angles given last */
+    rg_turn *theta; /* per block of C: cosine and sine of the sector angle */
+    double *cos, *sin; /* [N] of the fold angles given last */
+    int32_t fours;
+    rg_four *four;
+    int32_t *crease;                /* by four: crease numbers, [at + i][4] */
+    double *theta_cos, *theta_sin;  /* by four: what theta says */
 } rg_constraint;
 
 rg_status rg_constraint_init(rg_constraint *K, const rg_memory *mem, const rg_mesh *m);
 void rg_constraint_free(rg_constraint *K);
+
+/* Other sector angles, theta[], radians, in the order of the mesh's loop_theta. */
+void rg_constraint_set_theta(rg_constraint *K, const double *theta);
 
 /* Refills C and r for rho[N], radians. Returns the largest rotation angle of F over the vertices, radians (NaN if one
  * is NaN). Allocates nothing. */

@@ -5,7 +5,7 @@
 /* The rows of B have length 1. Rounding is amplified by 1 / beta, so beta is far above it; modes that are slower than beta
  * cost the iteration a step each, so it is below all but a few: the slowest mode of a sheet of n x n vertices is about
  * n^-4. */
-static const double BETA = 1e-9;
+static const double BETA = 1e-10;
 /* Where a pivot fails all the same. */
 static const double BETA_GROWTH = 100, BETA_LARGEST = 1e-2;
 /* A vertex of that many creases makes so large a clique of columns that both shapes are tried. */

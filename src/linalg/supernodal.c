@@ -1,4 +1,5 @@
 #include "linalg/supernodal.h"
+#include "base/lanes.h"
 
 #include <math.h>
 #include <string.h>
@@ -6,42 +7,27 @@
 /* Numbers are read four at a time, also behind the last row of a panel, where they are of no consequence. */
 enum { PAD = 8 };
 
-typedef double quad __attribute__((vector_size(32)));
-typedef double quad_anywhere __attribute__((vector_size(32), aligned(8)));
-
-/* The same code once more for wider registers: the same operations in the same order, so the same bits. */
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(RG_NO_CLONES)
-#if defined(__has_attribute)
-#if __has_attribute(target_clones)
-#define WIDE __attribute__((target_clones("avx2", "default")))
-#endif
-#endif
-#endif
-#ifndef WIDE
-#define WIDE
-#endif
-
 /* c (m x n, columns of `room`) = a b^T over k columns; a and b are rows of one panel with columns of `tall`. m and n are
  * rounded up to four. */
-WIDE static void multiply(int32_t m, int32_t n, int32_t k, const double *a, const double *b, int32_t tall, double *c,
+RG_WIDE static void multiply(int32_t m, int32_t n, int32_t k, const double *a, const double *b, int32_t tall, double *c,
                           int32_t room)
 {
     for (int32_t j = 0; j < n; j += 4)
         for (int32_t i = j & ~3; i < m; i += 4) {
             const double *p = a + i, *q = b + j;
-            quad c0 = {0}, c1 = {0}, c2 = {0}, c3 = {0};
+            rg_quad c0 = {0}, c1 = {0}, c2 = {0}, c3 = {0};
             for (int32_t l = 0; l < k; l++, p += tall, q += tall) {
-                quad v = *(const quad_anywhere *)p;
+                rg_quad v = *(const rg_quad_anywhere *)p;
                 c0 += v * q[0];
                 c1 += v * q[1];
                 c2 += v * q[2];
                 c3 += v * q[3];
             }
             double *to = c + (size_t)j * (size_t)room + i;
-            *(quad_anywhere *)to = c0;
-            *(quad_anywhere *)(to + room) = c1;
-            *(quad_anywhere *)(to + 2 * (size_t)room) = c2;
-            *(quad_anywhere *)(to + 3 * (size_t)room) = c3;
+            *(rg_quad_anywhere *)to = c0;
+            *(rg_quad_anywhere *)(to + room) = c1;
+            *(rg_quad_anywhere *)(to + 2 * (size_t)room) = c2;
+            *(rg_quad_anywhere *)(to + 3 * (size_t)room) = c3;
         }
 }
 
@@ -129,7 +115,7 @@ int rg_supernodal_factor(rg_supernodal *L, double beta)
 }
 
 /* u[m] = sum of n columns of x, `tall` apart, times b */
-WIDE static void columns_times(const double *x, int32_t tall, int32_t m, int32_t n, const double *b, double *u)
+RG_WIDE static void columns_times(const double *x, int32_t tall, int32_t m, int32_t n, const double *b, double *u)
 {
     for (int32_t i = 0; i < m; i++) u[i] = 0;
     int32_t j = 0;
@@ -142,7 +128,7 @@ WIDE static void columns_times(const double *x, int32_t tall, int32_t m, int32_t
 }
 
 /* b[n] -= the n columns of x, `tall` apart, each times u[m] */
-WIDE static void columns_dot(const double *x, int32_t tall, int32_t m, int32_t n, const double *u, double *b)
+RG_WIDE static void columns_dot(const double *x, int32_t tall, int32_t m, int32_t n, const double *u, double *b)
 {
     int32_t j = 0;
     for (; j + 4 <= n; j += 4, x += 4 * (size_t)tall) {
