@@ -32,17 +32,22 @@ RG_WIDE static void multiply(int32_t m, int32_t n, int32_t k, const double *a, c
 }
 
 /* Columns of a panel from `first` on, four or fewer, `tall` rows, their updates from before done: factored. */
-static int factor_columns(double *x, int32_t tall, int32_t first, int32_t last)
+RG_WIDE static int factor_columns(double *x, int32_t tall, int32_t first, int32_t last)
 {
     for (int32_t j = first; j < last; j++) {
-        double *col = x + (size_t)j * (size_t)tall, pivot = col[j];
+        double *col = x + (size_t)j * (size_t)tall;
+        const double pivot = col[j];
         if (!(pivot > 0)) return 0;
-        double root = sqrt(pivot), inverse = 1 / root;
+        const double root = sqrt(pivot), inverse = 1 / root;
         col[j] = root;
-        for (int32_t i = j + 1; i < tall; i++) col[i] *= inverse;
+        int32_t i = j + 1;
+        for (; i + 4 <= tall; i += 4) *(rg_quad_anywhere *)(col + i) *= inverse;
+        for (; i < tall; i++) col[i] *= inverse;
         for (int32_t l = j + 1; l < last; l++) {
-            double *next = x + (size_t)l * (size_t)tall, f = col[l];
-            for (int32_t i = l; i < tall; i++) next[i] -= f * col[i];
+            double *next = x + (size_t)l * (size_t)tall;
+            const double f = col[l];
+            for (i = l; i + 4 <= tall; i += 4) *(rg_quad_anywhere *)(next + i) -= *(const rg_quad_anywhere *)(col + i) * f;
+            for (; i < tall; i++) next[i] -= col[i] * f;
         }
     }
     return 1;
@@ -114,33 +119,80 @@ int rg_supernodal_factor(rg_supernodal *L, double beta)
     return 1;
 }
 
-/* u[m] = sum of n columns of x, `tall` apart, times b */
-RG_WIDE static void columns_times(const double *x, int32_t tall, int32_t m, int32_t n, const double *b, double *u)
+/* u[m] -= n columns of x, `tall` apart, each times its b; n <= 4 */
+RG_WITHIN void subtract_columns(const double *x, int32_t tall, int32_t m, int32_t n, const double *b, double *u)
 {
-    for (int32_t i = 0; i < m; i++) u[i] = 0;
-    int32_t j = 0;
-    for (; j + 4 <= n; j += 4, x += 4 * (size_t)tall) {
-        const double *x1 = x + tall, *x2 = x1 + tall, *x3 = x2 + tall;
-        for (int32_t i = 0; i < m; i++) u[i] += x[i] * b[j] + x1[i] * b[j + 1] + (x2[i] * b[j + 2] + x3[i] * b[j + 3]);
+    int32_t i = 0;
+    if (n == 4) {
+        const double *x1 = x + tall, *x2 = x1 + tall, *x3 = x2 + tall, b0 = b[0], b1 = b[1], b2 = b[2], b3 = b[3];
+        for (; i + 4 <= m; i += 4)
+            *(rg_quad_anywhere *)(u + i) -= (*(const rg_quad_anywhere *)(x + i) * b0 + *(const rg_quad_anywhere *)(x1 + i) * b1) +
+                                            (*(const rg_quad_anywhere *)(x2 + i) * b2 + *(const rg_quad_anywhere *)(x3 + i) * b3);
+        for (; i < m; i++) u[i] -= (x[i] * b0 + x1[i] * b1) + (x2[i] * b2 + x3[i] * b3);
+        return;
     }
-    for (; j < n; j++, x += tall)
-        for (int32_t i = 0; i < m; i++) u[i] += x[i] * b[j];
+    for (int32_t j = 0; j < n; j++, x += tall)
+        for (i = 0; i < m; i++) u[i] -= x[i] * b[j];
 }
 
-/* b[n] -= the n columns of x, `tall` apart, each times u[m] */
-RG_WIDE static void columns_dot(const double *x, int32_t tall, int32_t m, int32_t n, const double *u, double *b)
+/* b[n] -= the n columns of x, `tall` apart, each times u[m]; n <= 4 */
+RG_WITHIN void subtract_products(const double *x, int32_t tall, int32_t m, int32_t n, const double *u, double *b)
 {
-    int32_t j = 0;
-    for (; j + 4 <= n; j += 4, x += 4 * (size_t)tall) {
+    if (n == 4) {
         const double *x1 = x + tall, *x2 = x1 + tall, *x3 = x2 + tall;
-        double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
-        for (int32_t i = 0; i < m; i++) s0 += x[i] * u[i], s1 += x1[i] * u[i], s2 += x2[i] * u[i], s3 += x3[i] * u[i];
-        b[j] -= s0, b[j + 1] -= s1, b[j + 2] -= s2, b[j + 3] -= s3;
+        rg_quad s0 = {0}, s1 = {0}, s2 = {0}, s3 = {0};
+        int32_t i = 0;
+        for (; i + 4 <= m; i += 4) {
+            const rg_quad v = *(const rg_quad_anywhere *)(u + i);
+            s0 += *(const rg_quad_anywhere *)(x + i) * v;
+            s1 += *(const rg_quad_anywhere *)(x1 + i) * v;
+            s2 += *(const rg_quad_anywhere *)(x2 + i) * v;
+            s3 += *(const rg_quad_anywhere *)(x3 + i) * v;
+        }
+        double t0 = 0, t1 = 0, t2 = 0, t3 = 0;
+        for (; i < m; i++) t0 += x[i] * u[i], t1 += x1[i] * u[i], t2 += x2[i] * u[i], t3 += x3[i] * u[i];
+        b[0] -= ((s0[0] + s0[1]) + (s0[2] + s0[3])) + t0;
+        b[1] -= ((s1[0] + s1[1]) + (s1[2] + s1[3])) + t1;
+        b[2] -= ((s2[0] + s2[1]) + (s2[2] + s2[3])) + t2;
+        b[3] -= ((s3[0] + s3[1]) + (s3[2] + s3[3])) + t3;
+        return;
     }
-    for (; j < n; j++, x += tall) {
-        double s = 0;
-        for (int32_t i = 0; i < m; i++) s += x[i] * u[i];
-        b[j] -= s;
+    for (int32_t j = 0; j < n; j++, x += tall) {
+        double t = 0;
+        for (int32_t i = 0; i < m; i++) t += x[i] * u[i];
+        b[j] -= t;
+    }
+}
+
+/* L y = b within a panel: u[tall] is b at the panel's own rows, 0 below; out, y and what goes off the rows below. */
+RG_WIDE static void solve_panel(const double *x, int32_t tall, int32_t wide, double *u)
+{
+    for (int32_t first = 0; first < wide; first += 4) {
+        const int32_t n = wide - first < 4 ? wide - first : 4;
+        const double *block = x + (size_t)first * (size_t)tall + first;
+        double *own = u + first;
+        for (int32_t j = 0; j < n; j++) {
+            const double *col = block + (size_t)j * (size_t)tall;
+            own[j] /= col[j];
+            for (int32_t i = j + 1; i < n; i++) own[i] -= col[i] * own[j];
+        }
+        subtract_columns(block + n, tall, tall - first - n, n, own, own + n);
+    }
+}
+
+/* L^T y = b within a panel: u[tall] is b at its own rows and y below; out, y. */
+RG_WIDE static void solve_panel_t(const double *x, int32_t tall, int32_t wide, double *u)
+{
+    for (int32_t first = (wide - 1) & ~3; first >= 0; first -= 4) {
+        const int32_t n = wide - first < 4 ? wide - first : 4;
+        const double *block = x + (size_t)first * (size_t)tall + first;
+        double *own = u + first;
+        subtract_products(block + n, tall, tall - first - n, n, own + n, own);
+        for (int32_t j = n - 1; j >= 0; j--) {
+            const double *col = block + (size_t)j * (size_t)tall;
+            for (int32_t i = j + 1; i < n; i++) own[j] -= col[i] * own[i];
+            own[j] /= col[j];
+        }
     }
 }
 
@@ -148,31 +200,24 @@ void rg_supernodal_solve(rg_supernodal *L, double *b)
 {
     double *y = L->b, *u = L->update;
     for (int32_t i = 0; i < L->n; i++) y[L->place[i]] = b[i];
-    for (int32_t s = 0; s < L->count; s++) { /* L y = b */
-        const int32_t tall = L->start[s + 1] - L->start[s], wide = L->column[s + 1] - L->column[s], below = tall - wide;
-        const int32_t *row = L->row + L->start[s] + wide;
-        const double *x = L->x + L->panel[s];
+    for (int32_t s = 0; s < L->count; s++) {
+        const int32_t tall = L->start[s + 1] - L->start[s], wide = L->column[s + 1] - L->column[s];
+        const int32_t *row = L->row + L->start[s];
         double *own = y + L->column[s];
-        for (int32_t j = 0; j < wide; j++) {
-            const double *col = x + (size_t)j * (size_t)tall;
-            own[j] /= col[j];
-            for (int32_t i = j + 1; i < wide; i++) own[i] -= col[i] * own[j];
-        }
-        columns_times(x + wide, tall, below, wide, own, u);
-        for (int32_t i = 0; i < below; i++) y[row[i]] -= u[i];
+        memcpy(u, own, (size_t)wide * sizeof *u);
+        memset(u + wide, 0, (size_t)(tall - wide) * sizeof *u);
+        solve_panel(L->x + L->panel[s], tall, wide, u);
+        memcpy(own, u, (size_t)wide * sizeof *u);
+        for (int32_t i = wide; i < tall; i++) y[row[i]] += u[i];
     }
-    for (int32_t s = L->count - 1; s >= 0; s--) { /* L^T y = y */
-        const int32_t tall = L->start[s + 1] - L->start[s], wide = L->column[s + 1] - L->column[s], below = tall - wide;
-        const int32_t *row = L->row + L->start[s] + wide;
-        const double *x = L->x + L->panel[s];
+    for (int32_t s = L->count - 1; s >= 0; s--) {
+        const int32_t tall = L->start[s + 1] - L->start[s], wide = L->column[s + 1] - L->column[s];
+        const int32_t *row = L->row + L->start[s];
         double *own = y + L->column[s];
-        for (int32_t i = 0; i < below; i++) u[i] = y[row[i]];
-        columns_dot(x + wide, tall, below, wide, u, own);
-        for (int32_t j = wide - 1; j >= 0; j--) {
-            const double *col = x + (size_t)j * (size_t)tall;
-            for (int32_t i = j + 1; i < wide; i++) own[j] -= col[i] * own[i];
-            own[j] /= col[j];
-        }
+        memcpy(u, own, (size_t)wide * sizeof *u);
+        for (int32_t i = wide; i < tall; i++) u[i] = y[row[i]];
+        solve_panel_t(L->x + L->panel[s], tall, wide, u);
+        memcpy(own, u, (size_t)wide * sizeof *u);
     }
     for (int32_t i = 0; i < L->n; i++) b[i] = y[L->place[i]];
 }
