@@ -12,6 +12,10 @@ static const double FIRST_ANGLE = 0.01;
 /* Steps smaller than this part of the whole way are no progress. */
 static const double SMALLEST_STEP = 1e-6;
 static const int32_t MOST_STEPS = 20000;
+/* So many steps must gain this much of the way, or, with steps that are small by order, this part of what they could:
+ * a motion that only creeps is over. */
+static const int32_t CREEP_STEPS = 200;
+static const double CREEP_GAIN = 1e-3, CREEP_PART = 0.01;
 static const double SOLVE_TOLERANCE = 1e-8;
 static const int32_t CORRECTIONS = 8;
 /* A correction this much longer than the step it corrects has left the branch. */
@@ -277,6 +281,16 @@ static void step_adaptive(rg_fold *f)
     if (!reached) accept(f, p->node[p->count - 1].rho, last);
 }
 
+static int creeps(rg_fold *f)
+{
+    if (f->steps - f->creep_steps < CREEP_STEPS) return 0;
+    const double s = f->smooth && f->path.count > 0 ? f->path.node[f->path.count - 1].s : f->s;
+    const double gain = s - f->creep_s, could = CREEP_STEPS * f->settings.step / RG_PI;
+    f->creep_steps = f->steps;
+    f->creep_s = s;
+    return !(gain >= fmin(CREEP_GAIN, CREEP_PART * could));
+}
+
 rg_status rg_fold_step(rg_fold *f, rg_step_info *info)
 {
     int64_t solves = f->P.solves, iterations = f->P.iterations;
@@ -292,6 +306,8 @@ rg_status rg_fold_step(rg_fold *f, rg_step_info *info)
             f->outcome = RG_FOLDED;
         } else if (f->steps > MOST_STEPS) {
             stop(f, "the number of steps ran out");
+        } else if (creeps(f)) {
+            stop(f, "it goes on in steps too small to get anywhere");
         } else {
             if (f->settings.method == RG_METHOD_EULER) step_euler(f);
             else if (f->steps == 1 && f->s == 0) leave_flat(f);

@@ -31,6 +31,8 @@ struct rg_fold {
     int end_is_closed;            /* the folded state closes to tolerance: land on it exactly */
     int32_t frame;                /* the next frame to reach */
     int32_t steps;
+    int32_t creep_steps;          /* and s, when it was last looked whether it creeps */
+    double creep_s;
     int64_t assemblies;
     double moved;                 /* the farthest that a crease may have gone since the last factorisation */
     double closure;

@@ -6,8 +6,8 @@
  * never end. */
 static const int32_t ITERATIONS_PER_CREASE = 4;
 static const int32_t ITERATIONS_AT_LEAST = 2000;
-/* Above this many creases a sparse factorisation beats the iteration (it is even between 176 and 736). */
-static const int32_t CHOLESKY_FROM = 400;
+/* From this many creases on a sparse factorisation beats the iteration. */
+static const int32_t CHOLESKY_FROM = 24;
 /* A factor of the same numbers takes a few iterations, one of others soon more than a new one would cost. */
 /* The part of what is held that the sheet can do; below this it is rounding. */
 static const double LEAST_LEFT = 1e-9;
