@@ -223,7 +223,8 @@ typedef struct rg_report {
     const char *triangulation;                                /* "none" or "all", and why, below */
     const char *why_triangulated;
     char strategy[120];                                       /* what got it there: triangulation, adjustment, drive */
-    double adjust_gain;                                       /* 0: the pattern was not moved */
+    double adjust_gain, pattern_gives;                        /* both 0: the pattern was not moved */
+    int32_t tries;                                            /* of which this motion is the first that folds, or the best */
     const char *method, *solver;
     int64_t steps, solves, cg_iterations, factorizations, assemblies;
     double seconds_total, seconds_solving;

@@ -13,6 +13,34 @@ void rg_mesh_free(rg_mesh *m)
     memset(m, 0, sizeof *m);
 }
 
+rg_status rg_mesh_copy(const rg_mesh *m, rg_mesh *out)
+{
+    rg_mesh copy = *m;
+    const size_t nv = (size_t)m->nv, ne = (size_t)m->ne, nf = (size_t)m->nf, N = (size_t)m->N, M = (size_t)m->M;
+    const size_t corners = (size_t)m->facet_start[m->nf], spokes = (size_t)m->loop_start[m->M];
+    struct { void **to; size_t n, size; } block[] = {
+        {(void **)&copy.X, nv, sizeof *m->X}, {(void **)&copy.edge, ne, sizeof *m->edge},
+        {(void **)&copy.assignment, ne, 1}, {(void **)&copy.target, ne, sizeof *m->target},
+        {(void **)&copy.edge_facet, ne, sizeof *m->edge_facet}, {(void **)&copy.facet_start, nf + 1, sizeof *m->facet_start},
+        {(void **)&copy.facet_vertex, corners, sizeof *m->facet_vertex},
+        {(void **)&copy.facet_edge, corners, sizeof *m->facet_edge},
+        {(void **)&copy.crease_edge, N, sizeof *m->crease_edge}, {(void **)&copy.edge_crease, ne, sizeof *m->edge_crease},
+        {(void **)&copy.inner_vertex, M, sizeof *m->inner_vertex},
+        {(void **)&copy.loop_start, M + 1, sizeof *m->loop_start},
+        {(void **)&copy.loop_crease, spokes, sizeof *m->loop_crease},
+        {(void **)&copy.loop_theta, spokes, sizeof *m->loop_theta}};
+    int ok = 1;
+    for (size_t i = 0; i < sizeof block / sizeof *block; i++) {
+        void *from = *block[i].to;
+        *block[i].to = rg_mem_array(&m->mem, block[i].n, block[i].size);
+        if (*block[i].to) memcpy(*block[i].to, from, block[i].n * block[i].size);
+        else ok = 0;
+    }
+    if (!ok) rg_mesh_free(&copy);
+    *out = copy;
+    return ok ? RG_OK : RG_ENOMEM;
+}
+
 static rg_status join_facets(rg_mesh *m)
 {
     m->edge_facet = rg_mem_array(&m->mem, (size_t)m->ne, sizeof *m->edge_facet);

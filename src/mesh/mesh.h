@@ -33,6 +33,8 @@ rg_status rg_mesh_from_pattern(const rg_pattern *p, const rg_memory *mem, rg_mes
 /* The same sheet with every facet cut into triangles by added creases ('F', target NAN, crease numbers after all others;
  * old crease and edge numbers are kept). Never a flipped or a zero-area triangle. DOF = N - 3M = N0 - 3 afterwards. */
 rg_status rg_triangulate_all(const rg_mesh *m, rg_mesh *out);
+/* A copy, with an allocator of its own. RG_ENOMEM, *out is then zeroed. */
+rg_status rg_mesh_copy(const rg_mesh *m, rg_mesh *out);
 void rg_mesh_free(rg_mesh *m);
 
 #endif

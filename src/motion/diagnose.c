@@ -19,6 +19,32 @@ static int stronger(const void *a, const void *b)
     return p->k < q->k ? -1 : p->k > q->k;
 }
 
+/* The strongest of by[M], as vertex numbers; by is sorted. */
+static int32_t strongest(const rg_mesh *m, force *by, int32_t *vertex)
+{
+    int32_t n = 0;
+    qsort(by, (size_t)m->M, sizeof *by, stronger);
+    for (int32_t k = 0; k < m->M && k < MOST_VERTICES; k++)
+        if (by[k].size > 0 && by[k].size >= STRONG * by[0].size) vertex[n++] = m->inner_vertex[by[k].k];
+    return n;
+}
+
+/* How hard a vertex with reaction y turns its creases. */
+static double turn(int32_t n, const rg_vec3 *column, const double *y)
+{
+    double sum = 0;
+    for (int32_t j = 0; j < n; j++) sum += fabs(column[j].x * y[0] + column[j].y * y[1] + column[j].z * y[2]);
+    return sum;
+}
+
+/* Is crease i short of its target and not let any nearer? */
+static int is_blocked(double rho, double from, double target, double wish, double step)
+{
+    const double way = target - from;
+    if (isnan(way) || way == 0) return 0;
+    return 1 - (rho - from) / way > ARRIVED && step / wish <= HELD;
+}
+
 rg_status rg_diagnose_blocking(rg_fold *f, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases)
 {
     const rg_sparse *C = &f->K.C;
@@ -33,24 +59,33 @@ rg_status rg_diagnose_blocking(rg_fold *f, int32_t *vertex, int32_t *vertices, i
     memset(f->P.y, 0, 3 * (size_t)C->M * sizeof *f->P.y);
     rg_status s = rg_project_step(&f->P, &f->K, f->wish, 0, NULL, f->t, SOLVE_TOLERANCE, &rep); /* eq. (9) */
     if (s == RG_OK) {
-        for (int32_t k = 0; k < C->M; k++) {
-            double sum = 0;
-            const double *y = f->P.y + 3 * k;
-            for (int32_t j = C->start[k]; j < C->start[k + 1]; j++)
-                sum += fabs(C->x[j].x * y[0] + C->x[j].y * y[1] + C->x[j].z * y[2]);
-            by[k] = (force){sum, k};
-        }
-        qsort(by, (size_t)C->M, sizeof *by, stronger);
-        for (int32_t k = 0; k < C->M && k < MOST_VERTICES; k++)
-            if (by[k].size > 0 && by[k].size >= STRONG * by[0].size) vertex[(*vertices)++] = f->mesh.inner_vertex[by[k].k];
-        for (int32_t i = 0; i < f->mesh.N; i++) {
-            if (!rg_drive_is_driven(&f->drive, i)) continue;
-            double target = f->drive.target[i], short_of = 1 - f->rho[i] / target;
-            if (short_of > ARRIVED && f->t[i] / f->wish[i] <= HELD) crease[(*creases)++] = i;
-        }
+        for (int32_t k = 0; k < C->M; k++)
+            by[k] = (force){turn(C->start[k + 1] - C->start[k], C->x + C->start[k], f->P.y + 3 * k), k};
+        *vertices = strongest(&f->mesh, by, vertex);
+        for (int32_t i = 0; i < f->mesh.N; i++)
+            if (rg_drive_is_driven(&f->drive, i) && is_blocked(f->rho[i], 0, f->drive.target[i], f->wish[i], f->t[i]))
+                crease[(*creases)++] = i;
     }
     rg_mem_free(&f->mem, by);
     return s;
+}
+
+rg_status rg_diagnose_flow(rg_flow *F, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases)
+{
+    const rg_mesh *m = F->mesh;
+    *vertices = *creases = 0;
+    force *by = rg_mem_array(&F->mem, (size_t)m->M, sizeof *by);
+    if (!by) return RG_ENOMEM;
+    rg_flow_wish_and_step(F);
+    for (int32_t k = 0; k < m->M; k++) {
+        const int32_t first = m->loop_start[k];
+        by[k] = (force){turn(m->loop_start[k + 1] - first, F->J.direction + first, F->J.A.y + 3 * k), k};
+    }
+    *vertices = strongest(m, by, vertex);
+    for (int32_t i = 0; i < F->limit.first_added; i++)
+        if (is_blocked(F->rho[i], F->from[i], F->target[i], F->wish[i], F->dz[i])) crease[(*creases)++] = i;
+    rg_mem_free(&F->mem, by);
+    return RG_OK;
 }
 
 static int32_t root(int32_t *up, int32_t i)

@@ -1,8 +1,9 @@
 /* diagnose.h -- where a run that stopped is held.
- * Paper    sections 3.1, 4 (which models "get stuck")        Uses  fold.h        Used by  motion.c */
+ * Paper    sections 3.1, 4 (which models "get stuck")        Uses  fold.h flow.h        Used by  take.c motion.c */
 #ifndef RG_DIAGNOSE_H
 #define RG_DIAGNOSE_H
 
+#include "fold/flow.h"
 #include "fold/fold.h"
 
 /* At the state f->rho:
@@ -11,6 +12,9 @@
  *   crease[N]  out  crease numbers that are short of their target and not let any nearer
  * Returns RG_ENOMEM, or RG_OK with the counts. */
 rg_status rg_diagnose_blocking(rg_fold *f, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases);
+
+/* The same at F->rho, F->u. */
+rg_status rg_diagnose_flow(rg_flow *F, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases);
 
 /* Groups of creases that are joined through interior vertices: each moves without the others. */
 rg_status rg_diagnose_components(const rg_mesh *m, const rg_memory *mem, int32_t *components);

@@ -1,6 +1,8 @@
 #include "motion/motion.h"
 #include "base/status.h"
 #include "motion/diagnose.h"
+#include "motion/measure.h"
+#include "motion/strategy.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -13,26 +15,14 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* A new maximum, or NaN as soon as there is one. */
-static double larger(double most, double value)
-{
-    return value <= most || isnan(most) ? most : value;
-}
-
-static void free_run(rg_motion *m)
-{
-    rg_mesh_free(&m->mesh);
-    rg_tree_free(&m->tree);
-    void *block[] = {m->rho, m->flat, m->frame, m->blocking_vertex, m->blocking_crease, m->blocking_at};
-    for (int i = 0; i < 6; i++) rg_mem_free(&m->mem, block[i]);
-    m->rho = NULL, m->flat = NULL, m->frame = NULL, m->blocking_vertex = NULL, m->blocking_crease = NULL, m->blocking_at = NULL;
-}
-
 void rg_motion_destroy(rg_motion *m)
 {
     if (!m) return;
-    rg_memory mem = m->mem;
-    free_run(m);
+    const rg_memory mem = m->mem;
+    rg_mesh_free(&m->mesh);
+    rg_tree_free(&m->tree);
+    void *block[] = {m->target, m->from, m->rho, m->flat, m->frame, m->blocking_vertex, m->blocking_crease, m->blocking_at};
+    for (int i = 0; i < 8; i++) rg_mem_free(&m->mem, block[i]);
     rg_mem_free(&mem, m->title);
     rg_mem_free(&mem, m->author);
     rg_mem_free(&mem, m);
@@ -78,183 +68,110 @@ rg_status rg_motion_pose(const rg_motion *m, int32_t frame, double (*xyz)[3])
     return rg_motion_place(m, frame, (rg_vec3 *)xyz);
 }
 
-/* Everything the report says of the frames, from their fold angles alone. */
-static rg_status measure(rg_motion *m, rg_fold *f)
+/* Where and why the kept try is held, in words: the strongest vertex and what it is. */
+static void explain(rg_motion *m, const rg_pattern *p)
 {
     rg_report *r = &m->report;
-    const int32_t N = m->mesh.N;
-    rg_place *place = rg_mem_array(&m->mem, (size_t)m->mesh.nf, sizeof *place);
-    rg_vec3 *x = rg_mem_array(&m->mem, (size_t)m->mesh.nv, sizeof *x);
-    rg_status s = place && x ? RG_OK : RG_ENOMEM;
-    for (int32_t k = 0; s == RG_OK && k < r->frame_count; k++) {
-        const double *rho = rg_motion_angles(m, k);
-        double sum = 0, least = INFINITY;
-        int32_t wrong = 0;
-        for (int32_t i = 0; i < N; i++) {
-            if (f->drive.target[i] == 0 || isnan(f->drive.target[i])) continue;
-            double part = 100 * fabs(rho[i]) / fabs(f->drive.target[i]);
-            sum += part;
-            least = fmin(least, part);
-            wrong += rho[i] * f->drive.target[i] < 0 && part > 1e-4;
-            r->max_overfold_deg = larger(r->max_overfold_deg, (fabs(rho[i]) - RG_PI) / RG_DEG);
-        }
-        m->frame[k].percent = f->drive.count ? sum / f->drive.count : k ? 100 : 0;
-        m->frame[k].closure_residual = rg_constraint_closure(&f->K, rho, NULL);
-        r->max_closure_residual = larger(r->max_closure_residual, m->frame[k].closure_residual);
-        const rg_vec2 *X = rg_motion_pattern(m, k);
-        rg_pose_facets(&m->mesh, X, &m->tree, rho, place);
-        rg_pose_vertices(&m->mesh, X, &m->tree, place, x);
-        r->max_edge_strain = larger(r->max_edge_strain, rg_pose_strain(&m->mesh, X, x));
-        r->max_strain_from_original = larger(r->max_strain_from_original, rg_pose_strain(&m->mesh, m->mesh.X, x));
-        r->max_facet_gap = larger(r->max_facet_gap, rg_pose_gap(&m->mesh, X, place) / m->mesh.size);
-        r->folded_percent = m->frame[k].percent;
-        r->least_folded_percent = f->drive.count ? least : r->folded_percent;
-        r->wrong_side_creases = wrong;
-    }
-    r->frames = m->frame;
-    rg_mem_free(&m->mem, place);
-    rg_mem_free(&m->mem, x);
-    return s;
+    if (r->outcome != RG_STOPPED || !r->blocking_vertex_count) return;
+    const double x = r->blocking_at[0][0], y = r->blocking_at[0][1];
+    int32_t creases = 0, closed = 0;
+    for (int32_t e = 0; e < m->mesh.ne; e++)
+        if (m->mesh.edge_crease[e] < m->mesh.N - m->mesh.added)
+            creases += m->mesh.edge[e][0] == r->blocking_vertices[0] || m->mesh.edge[e][1] == r->blocking_vertices[0];
+    for (int32_t i = 0; i < p->closed_triples; i++)
+        closed |= hypot(p->closed[i].x - x, p->closed[i].y - y) <= 1e-9 * m->mesh.size;
+    const char *help = m->settings.adjust == 0 ? "; adjusting creases may help" : "";
+    if (m->settings.triangulate == RG_TRIANGULATE_NONE) help = "; added creases may help";
+    const size_t used = strlen(r->reason);
+    snprintf(r->reason + used, sizeof r->reason - used, "; held most at (%.6g, %.6g), %s vertex of %d creases%s", x, y,
+             closed ? "a closed" : "a", (int)creases, help);
 }
 
-static rg_status blocking(rg_motion *m, rg_fold *f)
+/* What the kept try has, becomes the motion's. */
+static rg_status adopt(rg_motion *m, rg_choice *c)
 {
     rg_report *r = &m->report;
-    m->blocking_vertex = rg_mem_array(&m->mem, (size_t)f->mesh.M, sizeof *m->blocking_vertex);
-    m->blocking_crease = rg_mem_array(&m->mem, (size_t)f->mesh.N, sizeof *m->blocking_crease);
-    m->blocking_at = rg_mem_array(&m->mem, (size_t)f->mesh.M, sizeof *m->blocking_at);
-    if (!m->blocking_vertex || !m->blocking_crease || !m->blocking_at) return RG_ENOMEM;
-    rg_status s = rg_diagnose_blocking(f, m->blocking_vertex, &r->blocking_vertex_count, m->blocking_crease,
-                                       &r->blocking_crease_count);
+    rg_take *t = &c->take;
+    m->mesh = t->mesh;
+    m->target = t->target, m->from = t->from, m->rho = t->rho, m->flat = t->flat;
+    m->blocking_vertex = t->vertex, m->blocking_crease = t->crease;
+    r->blocking_vertex_count = t->vertices, r->blocking_crease_count = t->creases;
+    r->frame_count = t->count;
+    r->outcome = t->outcome;
+    snprintf(r->reason, sizeof r->reason, "%s", t->reason);
+    r->method = t->method, r->solver = t->solver;
+    r->adjust_gain = t->law.gain;
+    r->pattern_gives = t->law.give;
+    memset(t, 0, sizeof *t);
+
+    r->triangulation = c->triangulation;
+    r->why_triangulated = c->why_triangulated;
+    snprintf(r->strategy, sizeof r->strategy, "%s", c->strategy);
+    r->tries = c->tries;
+    r->steps = c->cost.steps, r->solves = c->cost.solves, r->cg_iterations = c->cost.iterations;
+    r->factorizations = c->cost.factorizations, r->assemblies = c->cost.assemblies;
+    r->seconds_solving = c->cost.seconds;
+    r->added_creases = m->mesh.added;
+    r->unknowns = m->mesh.N;
+    r->constraints = 3 * m->mesh.M;
+
+    m->frame = rg_mem_array(&m->mem, (size_t)r->frame_count, sizeof *m->frame);
+    m->blocking_at = rg_mem_array(&m->mem, (size_t)r->blocking_vertex_count, sizeof *m->blocking_at);
+    if (!m->frame || !m->blocking_at) return RG_ENOMEM;
     for (int32_t k = 0; k < r->blocking_vertex_count; k++) {
-        rg_vec2 at = f->mesh.X[m->blocking_vertex[k]];
+        const rg_vec2 at = m->mesh.X[m->blocking_vertex[k]];
         m->blocking_at[k][0] = at.x;
         m->blocking_at[k][1] = at.y;
     }
     r->blocking_vertices = m->blocking_vertex;
     r->blocking_creases = m->blocking_crease;
     r->blocking_at = (const double(*)[2])m->blocking_at;
-    return s;
+    r->frames = m->frame;
+    return RG_OK;
 }
 
-static void keep(rg_motion *m, const rg_fold *f, int32_t *count)
+static rg_status check_settings(const rg_settings *s, rg_diag *why)
 {
-    memcpy(m->rho + (size_t)*count * (size_t)f->mesh.N, f->rho, (size_t)f->mesh.N * sizeof *f->rho);
-    ++*count;
-}
-
-/* One run with the triangulation that the settings name; adds its costs to the report. */
-static rg_status run(rg_motion *m, const rg_pattern *p, const rg_settings *settings, rg_progress progress, void *ctx,
-                     int *cancelled, rg_diag *why)
-{
-    rg_report *r = &m->report;
-    rg_fold *f = NULL;
-    rg_step_info info = {0};
-    int32_t count = 0;
-    rg_status s = rg_fold_create(p, settings, &f, why);
-    if (s != RG_OK) return s;
-    const int32_t N = f->mesh.N;
-    m->rho = rg_mem_array(&m->mem, (size_t)(settings->frames + 1) * (size_t)N, sizeof *m->rho);
-    m->frame = rg_mem_array(&m->mem, (size_t)(settings->frames + 1), sizeof *m->frame);
-    s = m->rho && m->frame ? rg_tree_init(&f->mesh, settings->fixed_facet, &m->tree) : RG_ENOMEM;
-    if (s == RG_EARG)
-        rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)settings->fixed_facet, (int)f->mesh.nf - 1);
-    if (s != RG_OK) goto out;
-
-    double kept = -1;
-    while (info.outcome == RG_RUNNING && !*cancelled) {
-        s = rg_fold_step(f, &info);
-        if (s != RG_OK) goto out;
-        if (info.frame >= 0) {
-            keep(m, f, &count);
-            kept = f->s;
-        }
-        if (progress && f->s_end > 0) *cancelled = progress(ctx, info.progress / f->s_end) != 0;
-    }
-    if (f->s != kept) keep(m, f, &count); /* where a run ends short is its last frame */
-    r->frame_count = count;
-    r->outcome = *cancelled ? RG_STOPPED : info.outcome;
-    snprintf(r->reason, sizeof r->reason, "%s", *cancelled ? "interrupted" : f->reason);
-    if (r->outcome == RG_STOPPED && (s = blocking(m, f)) != RG_OK) goto out;
-
-    s = rg_diagnose_components(&f->mesh, &m->mem, &r->components);
-    r->added_creases = f->mesh.added;
-    r->unknowns = N;
-    r->constraints = 3 * f->mesh.M;
-    r->triangulation = settings->triangulate == RG_TRIANGULATE_ALL ? "all" : "none";
-    r->method = f->settings.method == RG_METHOD_EULER ? "euler" : "newton";
-    r->solver = f->P.solver == RG_SOLVER_CHOLESKY ? "cholesky" : f->P.solver == RG_SOLVER_SVD ? "svd" : "cg";
-    r->steps += f->steps;
-    r->solves += f->P.solves;
-    r->cg_iterations += f->P.iterations;
-    r->factorizations += f->P.factorizations;
-    r->assemblies += f->assemblies;
-    r->seconds_solving += f->seconds_solving;
-    m->mesh = f->mesh;
-    memset(&f->mesh, 0, sizeof f->mesh);
-    if (s == RG_OK) s = measure(m, f);
-out:
-    rg_fold_destroy(f);
-    return s;
-}
-
-/* Forgets what a run found, but not what it cost. */
-static void begin_again(rg_motion *m)
-{
-    rg_report was = m->report;
-    free_run(m);
-    memset(&m->report, 0, sizeof m->report);
-    m->report.pattern = was.pattern;
-    m->report.steps = was.steps, m->report.solves = was.solves, m->report.cg_iterations = was.cg_iterations;
-    m->report.factorizations = was.factorizations, m->report.assemblies = was.assemblies;
-    m->report.seconds_solving = was.seconds_solving;
+    if (s->frames < 2) return rg_fail(RG_EARG, why, 0, "there must be at least 2 frames");
+    if (!(s->adjust == RG_ADJUST_AUTO || (s->adjust >= 0 && s->adjust <= 1)))
+        return rg_fail(RG_EARG, why, 0, "the gain of crease adjustment must be within 0 and 1");
+    return RG_OK;
 }
 
 rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_progress progress, void *ctx,
                            rg_motion **motion, rg_diag *why)
 {
-    double from = seconds();
-    rg_memory mem = rg_mem_default(settings->memory);
-    if (settings->frames < 2) return rg_fail(RG_EARG, why, 0, "there must be at least 2 frames");
+    const double begun = seconds();
+    const rg_memory mem = rg_mem_default(settings->memory);
+    rg_status s = check_settings(settings, why);
+    if (s != RG_OK) return s;
     rg_motion *m = rg_mem_array(&mem, 1, sizeof *m);
-    if (!m) return RG_ENOMEM;
+    if (!m) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
     m->mem = mem;
     m->settings = *settings;
     rg_report *r = &m->report;
+    rg_watch watch = {progress, ctx, 0};
+    rg_choice choice = {0};
+    rg_mesh none = {0};
     rg_pattern_get_info(p, &r->pattern);
-    m->title = rg_mem_string(&mem, r->pattern.title);
-    m->author = rg_mem_string(&mem, r->pattern.author);
-    if (!m->title || !m->author) {
-        rg_motion_destroy(m);
-        return RG_ENOMEM;
-    }
-    r->pattern.title = m->title;
-    r->pattern.author = m->author;
-
-    rg_settings tried = *settings;
-    int cancelled = 0, automatic = settings->triangulate == RG_TRIANGULATE_AUTO;
-    if (automatic) tried.triangulate = RG_TRIANGULATE_NONE;
-    rg_status s = run(m, p, &tried, progress, ctx, &cancelled, why);
-    const char *reason = automatic ? "folds without added creases" : "asked for";
-    if (s == RG_OK && automatic && r->outcome != RG_FOLDED && !cancelled) {
-        double plain = r->folded_percent;
-        tried.triangulate = RG_TRIANGULATE_ALL;
-        begin_again(m);
-        s = run(m, p, &tried, progress, ctx, &cancelled, why);
-        reason = "stops short without added creases";
-        if (s == RG_OK && r->outcome != RG_FOLDED && !cancelled && r->added_creases > 0 && !(r->folded_percent > plain)) {
-            tried.triangulate = RG_TRIANGULATE_NONE;
-            begin_again(m);
-            s = run(m, p, &tried, progress, ctx, &cancelled, why);
-            reason = "added creases get it no further";
-        }
-    }
+    r->pattern.title = m->title = rg_mem_string(&mem, r->pattern.title);
+    r->pattern.author = m->author = rg_mem_string(&mem, r->pattern.author);
+    if (!m->title || !m->author) s = RG_ENOMEM;
+    if (s == RG_OK) s = rg_mesh_from_pattern(p, &mem, &none, why);
+    if (s == RG_OK) s = rg_strategy_run(&choice, &none, settings, &watch, why);
+    if (s == RG_OK) s = adopt(m, &choice);
+    if (s == RG_OK) s = rg_tree_init(&m->mesh, settings->fixed_facet, &m->tree);
+    if (s == RG_EARG && m->mesh.nf > 0)
+        rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)settings->fixed_facet, (int)m->mesh.nf - 1);
+    if (s == RG_OK) s = rg_diagnose_components(&m->mesh, &mem, &r->components);
+    if (s == RG_OK) s = rg_measure_frames(m);
+    rg_mesh_free(&none);
     if (s != RG_OK) {
         rg_motion_destroy(m);
-        return s;
+        return s == RG_ENOMEM ? rg_fail(s, why, 0, "out of memory") : s;
     }
-    r->why_triangulated = reason;
-    r->seconds_total = seconds() - from;
+    explain(m, p);
+    r->seconds_total = seconds() - begun;
     *motion = m;
     return RG_OK;
 }

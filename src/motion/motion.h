@@ -6,12 +6,20 @@
 #include "mesh/mesh.h"
 #include "pose/pose.h"
 
+/* What was spent, over all tries. */
+typedef struct rg_cost {
+    int64_t steps, solves, iterations, factorizations, assemblies;
+    double seconds;
+} rg_cost;
+
 struct rg_motion {
     rg_memory mem;
     rg_settings settings;
     rg_mesh mesh;
     rg_tree tree;
     char *title, *author;  /* of the pattern; NULL: none */
+    double *target;        /* [mesh.N] what was aimed at, radians; NAN: nothing */
+    double *from;          /* [mesh.N] fold angles of the state that the motion starts from */
     double *rho;           /* [report.frame_count][mesh.N] radians */
     rg_vec2 *flat;         /* [report.frame_count][mesh.nv] the pattern of each frame; NULL: mesh.X in all of them */
     rg_frame *frame;       /* [report.frame_count] */

@@ -1,0 +1,29 @@
+/* freedom.h -- how the vertices of a pattern may move while it is folded.
+ * Paper    section 3.3, the vector [dX dY]        Uses  mesh.h        Used by  joint.c adjust.c flow.c
+ *
+ * A vertex inside the sheet moves two ways, one on a straight edge of the sheet along that edge, a corner not at all:
+ * the outline stays what it is. */
+#ifndef RG_FREEDOM_H
+#define RG_FREEDOM_H
+
+#include "mesh/mesh.h"
+
+typedef struct rg_freedom {
+    rg_memory mem;
+    const rg_mesh *mesh;   /* borrowed; mesh->X is the pattern given */
+    int32_t U;             /* ways to move, 0: a pattern that stays as it is */
+    int32_t (*way)[2];     /* [nv] their numbers, -1: none */
+    int32_t *vertex;       /* [U] */
+    rg_vec2 *direction;    /* [U] unit vectors */
+    double *reach;         /* [U] length of the shortest line of the pattern that ends there */
+} rg_freedom;
+
+/* movable zero: U = 0. RG_ENOMEM. Owner: the caller, rg_freedom_free. */
+rg_status rg_freedom_init(rg_freedom *f, const rg_memory *mem, const rg_mesh *m, int movable);
+void rg_freedom_free(rg_freedom *f);
+/* X[nv]: out, the pattern moved by u[U], lengths. */
+void rg_freedom_move(const rg_freedom *f, const double *u, rg_vec2 *X);
+/* Zero: a facet has turned over, or shrunk to less than `least` of its area. */
+int rg_freedom_is_proper(const rg_freedom *f, const rg_vec2 *X, double least);
+
+#endif

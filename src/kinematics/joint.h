@@ -1,0 +1,44 @@
+/* joint.h -- closure of every vertex by fold angles and pattern together, and Kawasaki's theorem by the pattern.
+ * Paper    eqs. (7), (8), (11) with the columns of (17) beside them; (16)-(18)        Uses  loop.h freedom.h step.h
+ * Used by  adjust.c flow.c
+ *
+ * F depends on the sector angles theta as it does on rho: dF/dtheta_i = [A_(i+1) e_z]x F, the normal of that facet, seen from
+ * the first. So what rho cannot close, X can:
+ *
+ *     [ C  D ] [drho]      [r ]        D = dr/dX          eqs. (11), (17)
+ *     [ 0  G ] [ dX ] = -  [r']        G = dG/dX          eqs. (17), (18) */
+#ifndef RG_JOINT_H
+#define RG_JOINT_H
+
+#include "kinematics/freedom.h"
+#include "linalg/step.h"
+
+typedef struct rg_joint {
+    rg_memory mem;
+    const rg_mesh *mesh;       /* borrowed */
+    const rg_freedom *freedom; /* borrowed */
+    int32_t N, U, M, K;        /* creases, ways to move, interior vertices, vertices kept flat-foldable */
+    rg_step A;                 /* (3M + K) x (N + U), its columns scaled */
+    rg_vec2 *X;                /* [nv] */
+    double *theta;             /* sector angles, along mesh->loop_crease */
+    double *r;                 /* [3M + K] r and r', eqs. (12), (19) */
+    int32_t *far;              /* along mesh->loop_crease: the vertex at the other end of that crease */
+    int32_t *kawasaki;         /* [M] row of A, -1: not kept */
+    rg_vec3 *direction, *normal; /* along mesh->loop_crease: columns by rho, by theta */
+    double *sign;              /* scratch */
+    int32_t *at;               /* along mesh->loop_crease: entry of A->x */
+    int32_t (*at_own)[2];      /* [M], and along mesh->loop_crease: entries of the ways of a vertex */
+    int32_t (*at_far)[2];
+} rg_joint;
+
+/* kawasaki non-zero: keeps eq. (16) at every vertex where the pattern given obeys it. RG_ENOMEM.
+ * Owner: the caller, rg_joint_free. */
+rg_status rg_joint_init(rg_joint *J, const rg_memory *mem, const rg_mesh *m, const rg_freedom *f, int kawasaki);
+void rg_joint_free(rg_joint *J);
+
+/* r at rho[N], u[U]. Returns the largest rotation angle of F; *off: out, the largest |r'| (may be NULL). */
+double rg_joint_assemble(rg_joint *J, const double *rho, const double *u, double *off);
+/* A with column i times scale[i], at what was assembled last; and what belongs to it. */
+void rg_joint_renew(rg_joint *J, const double *scale);
+
+#endif

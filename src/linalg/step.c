@@ -1,0 +1,190 @@
+#include "linalg/step.h"
+
+#include <string.h>
+
+/* Rounding in a factor of norm 2 or so is some 1e-15 and must not make a pivot negative; slow modes are far above. */
+static const double BETA = 1e-11;
+/* Where a pivot fails all the same, beta grows by the first and the factorisation is repeated, up to the second. */
+static const double BETA_GROWTH = 100, BETA_LARGEST = 1;
+/* A factor is right but for its beta: it needs two or three iterations; a diagonal needs many. */
+static const int32_t ITERATIONS_WITH_FACTOR = 6, ITERATIONS_PER_ROW = 4;
+/* Curvature over what the preconditioner makes of the residual is lambda / (lambda + beta) along a mode of A A^T: what is
+ * below is rounding in modes that no column can turn, and a step along it would be nothing but noise. */
+static const double OUT_OF_REACH = 0.1, OUT_OF_REACH_OF_DIAGONAL = 1e-14;
+/* Part of b, in the metric of the preconditioner, that is not chased further. */
+static const double TOLERANCE = 1e-12;
+
+/* The pattern of A A^T by columns, from that of A by rows. */
+static rg_status square(const rg_step *A, int32_t *start, int32_t **rows)
+{
+    const size_t m = (size_t)A->rows, entries = (size_t)A->start[A->columns];
+    int32_t *first = rg_mem_array(&A->mem, m + 2, sizeof *first), *column = rg_mem_array(&A->mem, entries, sizeof *column);
+    int32_t *seen = rg_mem_array(&A->mem, m, sizeof *seen), *row = NULL;
+    size_t room = 0, at = 0;
+    rg_status s = first && column && seen ? RG_OK : RG_ENOMEM;
+    if (s == RG_OK) {
+        for (size_t j = 0; j < entries; j++) first[A->row[j] + 2]++;
+        for (size_t i = 2; i <= m; i++) first[i] += first[i - 1];
+        for (int32_t c = 0; c < A->columns; c++)
+            for (int32_t j = A->start[c]; j < A->start[c + 1]; j++) column[first[A->row[j] + 1]++] = c;
+    }
+    for (int32_t i = 0; s == RG_OK && i < A->rows; i++) {
+        start[i] = (int32_t)at;
+        for (int32_t k = first[i]; s == RG_OK && k < first[i + 1]; k++)
+            for (int32_t j = A->start[column[k]]; s == RG_OK && j < A->start[column[k] + 1]; j++) {
+                if (seen[A->row[j]] == i + 1) continue;
+                seen[A->row[j]] = i + 1;
+                s = at < INT32_MAX ? rg_mem_grow(&A->mem, (void **)&row, &room, at + 2, sizeof *row) : RG_ENOMEM;
+                if (s == RG_OK) row[at++] = A->row[j];
+            }
+        if (s == RG_OK && seen[i] != i + 1) { /* a row without entries still has its place on the diagonal */
+            s = rg_mem_grow(&A->mem, (void **)&row, &room, at + 2, sizeof *row);
+            if (s == RG_OK) row[at++] = i;
+        }
+    }
+    start[A->rows] = (int32_t)at;
+    rg_mem_free(&A->mem, first);
+    rg_mem_free(&A->mem, column);
+    rg_mem_free(&A->mem, seen);
+    *rows = row;
+    return s;
+}
+
+static rg_status plan(rg_step *A)
+{
+    int32_t *start = rg_mem_array(&A->mem, (size_t)A->rows + 1, sizeof *start), *row = NULL;
+    size_t products = 0, at = 0;
+    for (int32_t c = 0; c < A->columns; c++) {
+        const size_t n = (size_t)(A->start[c + 1] - A->start[c]);
+        products += n * (n + 1) / 2;
+    }
+    A->to = rg_mem_array(&A->mem, products, sizeof *A->to);
+    rg_status s = start && A->to ? square(A, start, &row) : RG_ENOMEM;
+    if (s == RG_OK && A->rows > 0) s = rg_supernodal_init(&A->L, &A->mem, A->rows, start, row);
+    for (int32_t c = 0; s == RG_OK && c < A->columns; c++)
+        for (int32_t i = A->start[c]; i < A->start[c + 1]; i++)
+            for (int32_t j = A->start[c]; j <= i; j++) A->to[at++] = rg_supernodal_slot(&A->L, A->row[i], A->row[j]);
+    rg_mem_free(&A->mem, start);
+    rg_mem_free(&A->mem, row);
+    return s;
+}
+
+rg_status rg_step_init(rg_step *A, const rg_memory *mem, int32_t rows, int32_t columns, const int32_t *start,
+                       const int32_t *row)
+{
+    memset(A, 0, sizeof *A);
+    A->mem = *mem;
+    A->rows = rows;
+    A->columns = columns;
+    const size_t m = (size_t)rows, n = (size_t)columns, entries = (size_t)start[columns];
+    A->start = rg_mem_array(mem, n + 1, sizeof *A->start);
+    A->row = rg_mem_array(mem, entries, sizeof *A->row);
+    A->x = rg_mem_array(mem, entries, sizeof *A->x);
+    A->t = rg_mem_array(mem, n, sizeof *A->t);
+    double **of_rows[] = {&A->diagonal, &A->y, &A->r, &A->z, &A->p, &A->q};
+    rg_status s = A->start && A->row && A->x && A->t ? RG_OK : RG_ENOMEM;
+    for (int i = 0; i < 6; i++)
+        if (!(*of_rows[i] = rg_mem_array(mem, m, sizeof(double)))) s = RG_ENOMEM;
+    if (s == RG_OK) {
+        memcpy(A->start, start, (n + 1) * sizeof *start);
+        memcpy(A->row, row, entries * sizeof *row);
+        if (rg_supernodal_built()) s = plan(A);
+    }
+    if (s != RG_OK) rg_step_free(A);
+    return s;
+}
+
+void rg_step_free(rg_step *A)
+{
+    if (!A->mem.resize) return;
+    const rg_memory mem = A->mem;
+    rg_supernodal_free(&A->L);
+    void *block[] = {A->to, A->start, A->row, A->x, A->diagonal, A->y, A->r, A->z, A->p, A->q, A->t};
+    for (int i = 0; i < 11; i++) rg_mem_free(&mem, block[i]);
+    memset(A, 0, sizeof *A);
+}
+
+static void factor(rg_step *A)
+{
+    for (A->beta = BETA; A->beta <= BETA_LARGEST; A->beta *= BETA_GROWTH) {
+        const int32_t *to = A->to;
+        rg_supernodal_clear(&A->L);
+        for (int32_t c = 0; c < A->columns; c++)
+            for (int32_t i = A->start[c]; i < A->start[c + 1]; i++)
+                for (int32_t j = A->start[c]; j <= i; j++) A->L.x[*to++] += A->x[i] * A->x[j];
+        A->factorizations++;
+        if (rg_supernodal_factor(&A->L, A->beta)) return;
+    }
+}
+
+void rg_step_renew(rg_step *A)
+{
+    if (rg_supernodal_built()) {
+        if (A->rows > 0) factor(A);
+        return;
+    }
+    memset(A->diagonal, 0, (size_t)A->rows * sizeof *A->diagonal);
+    for (int32_t j = 0; j < A->start[A->columns]; j++) A->diagonal[A->row[j]] += A->x[j] * A->x[j];
+    for (int32_t i = 0; i < A->rows; i++) A->diagonal[i] = A->diagonal[i] > 0 ? 1 / A->diagonal[i] : 0; /* flat: a zero row */
+}
+
+void rg_step_mul(const rg_step *A, const double *x, double *y)
+{
+    memset(y, 0, (size_t)A->rows * sizeof *y);
+    for (int32_t i = 0; i < A->columns; i++)
+        for (int32_t j = A->start[i]; j < A->start[i + 1]; j++) y[A->row[j]] += A->x[j] * x[i];
+}
+
+void rg_step_mul_t(const rg_step *A, const double *y, double *x)
+{
+    for (int32_t i = 0; i < A->columns; i++) {
+        double sum = 0;
+        for (int32_t j = A->start[i]; j < A->start[i + 1]; j++) sum += A->x[j] * y[A->row[j]];
+        x[i] = sum;
+    }
+}
+
+static double dot(int32_t n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < n; i++) sum += a[i] * b[i];
+    return sum;
+}
+
+static void precondition(rg_step *A, const double *r, double *z)
+{
+    if (rg_supernodal_built()) {
+        memcpy(z, r, (size_t)A->rows * sizeof *z);
+        if (A->rows > 0) rg_supernodal_solve(&A->L, z);
+    } else
+        for (int32_t i = 0; i < A->rows; i++) z[i] = A->diagonal[i] * r[i];
+}
+
+void rg_step_solve(rg_step *A, const double *b, double *x)
+{
+    const int32_t m = A->rows;
+    const int32_t most = rg_supernodal_built() ? ITERATIONS_WITH_FACTOR : ITERATIONS_PER_ROW * m;
+    const double least = rg_supernodal_built() ? OUT_OF_REACH : OUT_OF_REACH_OF_DIAGONAL;
+    memset(A->y, 0, (size_t)m * sizeof *A->y);
+    memcpy(A->r, b, (size_t)m * sizeof *A->r);
+    precondition(A, A->r, A->z);
+    memcpy(A->p, A->z, (size_t)m * sizeof *A->p);
+    double gamma = dot(m, A->r, A->z);
+    const double target = TOLERANCE * TOLERANCE * gamma;
+    for (int32_t n = 0; n < most && gamma > target; n++) {
+        rg_step_mul_t(A, A->p, A->t);
+        rg_step_mul(A, A->t, A->q);
+        const double curvature = dot(m, A->p, A->q);
+        if (!(curvature > least * gamma)) break; /* nothing left to move, or NaN */
+        const double alpha = gamma / curvature;
+        for (int32_t i = 0; i < m; i++) A->y[i] += alpha * A->p[i];
+        for (int32_t i = 0; i < m; i++) A->r[i] -= alpha * A->q[i];
+        precondition(A, A->r, A->z);
+        const double old = gamma;
+        gamma = dot(m, A->r, A->z);
+        for (int32_t i = 0; i < m; i++) A->p[i] = A->z[i] + gamma / old * A->p[i];
+        A->iterations++;
+    }
+    A->solves++;
+    rg_step_mul_t(A, A->y, x);
+}

@@ -1,0 +1,38 @@
+/* step.h -- the least step that does what it must: min ||x|| with A x = b, for a sparse A of any pattern.
+ * Paper    the backslash of eqs. (15), (19): x = A^T {(A A^T) \ b}        Uses  supernodal.h        Used by  joint.c flow.c
+ *
+ * Conjugate gradients on A A^T, preconditioned by a factor of A A^T + beta I (a few iterations undo the beta) or, in a
+ * build without one, by its diagonal. A A^T is singular flat and folded flat; started from zero the iteration stays in
+ * its range, and stops where nothing is left to gain. */
+#ifndef RG_STEP_H
+#define RG_STEP_H
+
+#include "linalg/supernodal.h"
+
+typedef struct rg_step {
+    rg_memory mem;
+    int32_t rows, columns;
+    int32_t *start, *row;  /* compressed columns: [columns + 1], [start[columns]] */
+    double *x;             /* [start[columns]] the numbers; all that ever changes */
+    rg_supernodal L;       /* of A A^T + beta I */
+    double beta;           /* at the last renewal */
+    int32_t *to;           /* where each product of two entries of a column goes among the numbers of L */
+    double *diagonal;      /* [rows] where there is no factor: the inverse of the diagonal of A A^T */
+    double *y, *r, *z, *p, *q; /* [rows] */
+    double *t;             /* [columns] */
+    int64_t solves, iterations, factorizations;
+} rg_step;
+
+/* Copies the pattern, x is zero. RG_ENOMEM. Owner: the caller, rg_step_free. */
+rg_status rg_step_init(rg_step *A, const rg_memory *mem, int32_t rows, int32_t columns, const int32_t *start,
+                       const int32_t *row);
+void rg_step_free(rg_step *A);
+/* Tells that x has new numbers. */
+void rg_step_renew(rg_step *A);
+/* y[rows] = A x[columns]; x = A^T y */
+void rg_step_mul(const rg_step *A, const double *x, double *y);
+void rg_step_mul_t(const rg_step *A, const double *y, double *x);
+/* x[columns]: out. A->y: how hard each row resists. Allocates nothing. */
+void rg_step_solve(rg_step *A, const double *b, double *x);
+
+#endif

@@ -1,0 +1,135 @@
+#include "motion/strategy.h"
+#include "base/status.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Laws of the flow, those that leave the pattern most as it is first. Found by what folds and what does not among real
+ * patterns: no one law folds them all. */
+static const rg_flow_law LAWS[] = {
+    /* gain give kawasaki together stubborn attempts */
+    {0, 0, 0, 0, 0.2, 0},
+    {0.1, 0, 1, 0, 0.2, 0},  /* section 3.3 as it stands */
+    {0.1, 0.5, 0, 0, 0.3, 0},
+    {0.1, 1, 0, 0, 0.2, 0},
+    {0.1, 2, 0, 0, 0.3, 0},
+    {0.03, 1, 0, 0, 0.3, 0},
+    {0.3, 1, 0, 0, 0.2, 0},
+    {0.1, 1, 0, 0, 0.3, 10},
+    {0.1, 1, 1, 0, 0.3, 0},
+    {0.1, 3, 0, 1, 0.3, 0},
+};
+enum { LAW_COUNT = sizeof LAWS / sizeof *LAWS };
+/* Laws that are tried, and work that is spent in all and on one, by effort. */
+static const int32_t MOST_LAWS[] = {4, LAW_COUNT, LAW_COUNT};
+static const double MOST_WORK[] = {8, 60, 600}, MOST_WORK_OF_ONE[] = {4, 25, 200};
+
+static rg_status copy_mesh(const rg_mesh *m, int all, rg_mesh *out)
+{
+    return all ? rg_triangulate_all(m, out) : rg_mesh_copy(m, out);
+}
+
+static void add_cost(rg_cost *sum, const rg_cost *c)
+{
+    sum->steps += c->steps;
+    sum->solves += c->solves;
+    sum->iterations += c->iterations;
+    sum->factorizations += c->factorizations;
+    sum->assemblies += c->assemblies;
+    sum->seconds += c->seconds;
+}
+
+/* Beyond half a turn, facets at a crease pass through each other: a try that does so by more is second best. */
+static const double OVERFOLD = 0.1 * RG_DEG;
+
+static int rank(const rg_take *t) { return t->outcome != RG_FOLDED ? 0 : t->overfold > OVERFOLD ? 1 : 2; }
+
+/* Keeps the better of what is kept and *t; takes *t over. Non-zero: it folds, nothing more is to be tried. */
+static int consider(rg_choice *c, rg_take *t, const char *triangulation, const char *why, const char *strategy)
+{
+    add_cost(&c->cost, &t->cost);
+    const int old = c->take.mem.resize ? rank(&c->take) : -1, new = rank(t);
+    const int better = new > old || (new == old && t->score > c->take.score);
+    c->tries++;
+    if (!better) {
+        rg_take_free(t);
+        return 0;
+    }
+    rg_take_free(&c->take);
+    c->take = *t;
+    memset(t, 0, sizeof *t);
+    c->triangulation = triangulation;
+    c->why_triangulated = why;
+    snprintf(c->strategy, sizeof c->strategy, "%s", strategy);
+    return new == 2;
+}
+
+static rg_status straight(rg_choice *c, const rg_mesh *none, const rg_settings *s, int all, const char *why_all,
+                          rg_watch *watch, rg_diag *why, int *done)
+{
+    rg_mesh m;
+    rg_take t;
+    rg_settings mine = *s;
+    mine.triangulate = all ? RG_TRIANGULATE_ALL : RG_TRIANGULATE_NONE;
+    rg_status status = copy_mesh(none, all, &m);
+    if (status == RG_OK) status = rg_take_straight(&t, &m, &mine, watch, why);
+    if (status != RG_OK) return status;
+    *done = consider(c, &t, all ? "all" : "none", why_all, all ? "straight on, triangulated" : "straight on") || watch->cancelled;
+    return RG_OK;
+}
+
+static void describe(const rg_flow_law *law, int all, char *text, size_t room)
+{
+    const char *moves = law->give > 0 ? "joint flow, the pattern gives way" : law->gain > 0 ? "flow with adjusted creases" : "flow";
+    snprintf(text, room, "%s%s%s%s", moves, all ? ", triangulated" : "", law->kawasaki ? ", kept flat-foldable" : "",
+             law->attempts ? ", several starts" : "");
+}
+
+static rg_status flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, int all, rg_watch *watch, rg_diag *why, int *done)
+{
+    const rg_memory mem = rg_mem_default(s->memory);
+    const double sign = s->to < 0 ? -1 : 1;
+    double left = MOST_WORK[s->effort];
+    for (int32_t n = 0; n < MOST_LAWS[s->effort] && !*done && left > 0; n++) {
+        rg_flow_law law = LAWS[n];
+        if (law.gain > 0 && s->adjust == 0) continue;
+        if (law.gain > 0 && s->adjust > 0) law.gain = s->adjust;
+        rg_mesh m;
+        rg_take t;
+        rg_status status = copy_mesh(none, all, &m);
+        double *target = status == RG_OK ? rg_mem_array(&mem, (size_t)m.N, sizeof *target) : NULL;
+        if (status == RG_OK && !target) rg_mesh_free(&m), status = RG_ENOMEM;
+        if (status != RG_OK) return status;
+        for (int32_t i = 0; i < m.N; i++) target[i] = i < m.N - m.added ? sign * m.target[m.crease_edge[i]] : NAN;
+        const double budget = left < MOST_WORK_OF_ONE[s->effort] ? left : MOST_WORK_OF_ONE[s->effort];
+        status = rg_take_flow(&t, &m, s, &law, NULL, target, budget, watch, why);
+        rg_mem_free(&mem, target);
+        if (status != RG_OK) return status;
+        left -= t.work;
+        char text[120];
+        describe(&law, all, text, sizeof text);
+        *done = consider(c, &t, all ? "all" : "none", all ? "stops short without added creases" : "asked for", text) ||
+                watch->cancelled;
+    }
+    return RG_OK;
+}
+
+rg_status rg_strategy_run(rg_choice *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why)
+{
+    const int may_add = s->triangulate != RG_TRIANGULATE_NONE, may_leave = s->triangulate != RG_TRIANGULATE_ALL;
+    int triangles = 1, done = 0;
+    for (int32_t f = 0; f < none->nf; f++) triangles &= none->facet_start[f + 1] - none->facet_start[f] == 3;
+    memset(c, 0, sizeof *c);
+    rg_status status = RG_OK;
+    if (may_leave || triangles)
+        status = straight(c, none, s, 0, may_add && may_leave ? "folds without added creases" : "asked for", watch, why, &done);
+    if (status == RG_OK && !done && may_add && !triangles)
+        status = straight(c, none, s, 1, may_leave ? "stops short without added creases" : "asked for", watch, why, &done);
+    /* Who asks for a method and no adjustment asks for that and nothing else. */
+    if (status == RG_OK && !done && !(s->method != RG_METHOD_AUTO && s->adjust == 0))
+        status = flow(c, none, s, may_add && !triangles, watch, why, &done);
+    if (status == RG_OK && c->take.outcome != RG_FOLDED && strcmp(c->triangulation, "none") == 0 && may_add && may_leave && !triangles)
+        c->why_triangulated = "added creases get it no further";
+    if (status != RG_OK) rg_take_free(&c->take);
+    return status;
+}

@@ -1,0 +1,192 @@
+#include "motion/take.h"
+#include "base/status.h"
+#include "motion/diagnose.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+/* So many steps without a frame or so much progress are as good as standing still. */
+static const int32_t MOST_IDLE = 60;
+static const double FASTER_THAN_CRAWLING = 1e-3;
+static const char CRAWLING[] = "the facets leave hardly any way on";
+
+static double seconds(void)
+{
+    struct timespec t;
+    timespec_get(&t, TIME_UTC);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void rg_take_free(rg_take *t)
+{
+    if (!t->mem.resize) return;
+    rg_mesh_free(&t->mesh);
+    void *block[] = {t->target, t->from, t->rho, t->flat, t->vertex, t->crease};
+    for (int i = 0; i < 6; i++) rg_mem_free(&t->mem, block[i]);
+    memset(t, 0, sizeof *t);
+}
+
+static rg_status make_room(rg_take *t, const rg_mesh *m, int32_t frames, int moves)
+{
+    const size_t N = (size_t)m->N, nv = (size_t)m->nv, room = (size_t)frames + 1;
+    t->target = rg_mem_array(&t->mem, N, sizeof *t->target);
+    t->from = rg_mem_array(&t->mem, N, sizeof *t->from);
+    t->rho = rg_mem_array(&t->mem, room * N, sizeof *t->rho);
+    t->vertex = rg_mem_array(&t->mem, (size_t)m->M, sizeof *t->vertex);
+    t->crease = rg_mem_array(&t->mem, N, sizeof *t->crease);
+    if (moves) t->flat = rg_mem_array(&t->mem, room * nv, sizeof *t->flat);
+    return t->target && t->from && t->rho && t->vertex && t->crease && (t->flat || !moves) ? RG_OK : RG_ENOMEM;
+}
+
+/* Mean of what was done of each crease's way, none counted for more than all of it or less than nothing. */
+static double score(const rg_take *t, const double *rho)
+{
+    double sum = 0;
+    int32_t n = 0;
+    for (int32_t i = 0; i < t->mesh.N; i++) {
+        const double way = t->target[i] - t->from[i];
+        if (isnan(way) || way == 0) continue;
+        sum += fmin(1, fmax(0, (rho[i] - t->from[i]) / way));
+        n++;
+    }
+    return n ? sum / n : 1;
+}
+
+static double overfold(const rg_take *t)
+{
+    double most = 0;
+    for (int32_t k = 0; k < t->count; k++)
+        for (int32_t i = 0; i < t->mesh.N; i++)
+            if (!isnan(t->target[i])) most = fmax(most, fabs(t->rho[(size_t)k * (size_t)t->mesh.N + (size_t)i]) - RG_PI);
+    return most;
+}
+
+static void keep(rg_take *t, const double *rho, const rg_vec2 *X)
+{
+    memcpy(t->rho + (size_t)t->count * (size_t)t->mesh.N, rho, (size_t)t->mesh.N * sizeof *rho);
+    if (t->flat) memcpy(t->flat + (size_t)t->count * (size_t)t->mesh.nv, X, (size_t)t->mesh.nv * sizeof *X);
+    t->count++;
+}
+
+static int is_cancelled(rg_watch *w, double done)
+{
+    if (w->progress && !w->cancelled) w->cancelled = w->progress(w->ctx, fmin(1, fmax(0, done))) != 0;
+    return w->cancelled;
+}
+
+rg_status rg_take_straight(rg_take *t, rg_mesh *m, const rg_settings *settings, rg_watch *watch, rg_diag *why)
+{
+    const double begun = seconds();
+    rg_fold *f = NULL;
+    rg_step_info info = {0};
+    memset(t, 0, sizeof *t);
+    t->mem = rg_mem_default(settings->memory);
+    rg_status s = rg_fold_from_mesh(m, settings, &f, why);
+    if (s != RG_OK) return s;
+    s = make_room(t, &f->mesh, settings->frames, 0);
+    double kept = -1, best = 0;
+    int32_t idle = 0;
+    int crawls = 0;
+    while (s == RG_OK && info.outcome == RG_RUNNING && !crawls) {
+        s = rg_fold_step(f, &info);
+        idle++;
+        if (info.frame >= 0 || info.progress > best + FASTER_THAN_CRAWLING) best = info.progress, idle = 0;
+        crawls = info.outcome == RG_RUNNING && idle > MOST_IDLE;
+        if (s == RG_OK && info.frame >= 0) {
+            memcpy(t->rho + (size_t)t->count++ * (size_t)f->mesh.N, f->rho, (size_t)f->mesh.N * sizeof *f->rho);
+            kept = f->s;
+        }
+        if (is_cancelled(watch, f->s_end > 0 ? info.progress / f->s_end : 1)) break;
+    }
+    if (s == RG_OK) {
+        memcpy(t->target, f->drive.target, (size_t)f->mesh.N * sizeof *t->target);
+        for (int32_t i = f->limit.first_added; i < f->mesh.N; i++) t->target[i] = NAN;
+        t->outcome = watch->cancelled || crawls ? RG_STOPPED : info.outcome;
+        snprintf(t->reason, sizeof t->reason, "%.190s", watch->cancelled ? "interrupted" : crawls ? CRAWLING : f->reason);
+        if (t->outcome == RG_STOPPED && f->mesh.N > 0)
+            s = rg_diagnose_blocking(f, t->vertex, &t->vertices, t->crease, &t->creases);
+        if (f->s != kept) memcpy(t->rho + (size_t)t->count++ * (size_t)f->mesh.N, f->rho, (size_t)f->mesh.N * sizeof *f->rho);
+        static const char *const methods[] = {"auto", "euler", "newton", "heun", "rk4", "adaptive"};
+        t->method = methods[f->settings.method];
+        t->solver = f->P.solver == RG_SOLVER_CHOLESKY ? "cholesky" : f->P.solver == RG_SOLVER_SVD ? "svd" : "cg";
+        t->cost = (rg_cost){f->steps, f->P.solves, f->P.iterations, f->P.factorizations, f->assemblies, 0};
+        t->mesh = f->mesh;
+        memset(&f->mesh, 0, sizeof f->mesh);
+        t->score = score(t, f->rho);
+        t->overfold = overfold(t);
+    }
+    rg_fold_destroy(f);
+    if (s != RG_OK) {
+        rg_take_free(t);
+        return rg_fail(s, why, 0, "%s", rg_status_text(s));
+    }
+    t->cost.seconds = seconds() - begun;
+    return RG_OK;
+}
+
+/* The frames that the last step went past. frame: the next one due. */
+static void keep_passed(rg_take *t, rg_flow *F, int32_t frames, int32_t *frame)
+{
+    for (; *frame < frames; ++*frame) {
+        const double due = F->s_end * *frame / (frames - 1);
+        if (!(F->s >= due) && !(F->landed && *frame < frames)) break;
+        if (!rg_flow_at(F, fmin(due, F->s))) break;
+        keep(t, F->trial, F->J.X);
+    }
+}
+
+rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, const rg_flow_law *law, const double *from,
+                       const double *target, double budget, rg_watch *watch, rg_diag *why)
+{
+    const double begun = seconds();
+    rg_flow F;
+    int32_t frame = 1, attempt = 0;
+    memset(t, 0, sizeof *t);
+    t->mem = rg_mem_default(settings->memory);
+    t->mesh = *m;
+    memset(m, 0, sizeof *m);
+    t->law = *law;
+    rg_status s = make_room(t, &t->mesh, settings->frames, law->gain > 0 || law->give > 0);
+    if (s == RG_OK) s = rg_flow_init(&F, &t->mesh, settings, law, from, target);
+    if (s != RG_OK) {
+        rg_take_free(t);
+        return rg_fail(s, why, 0, "%s", rg_status_text(s));
+    }
+    F.budget = budget;
+    memcpy(t->target, target, (size_t)F.N * sizeof *target);
+    memcpy(t->from, F.from, (size_t)F.N * sizeof *target);
+    keep(t, F.rho, F.J.X);
+    while (F.outcome == RG_RUNNING) {
+        rg_flow_step(&F);
+        if (F.attempt != attempt) {
+            attempt = F.attempt;
+            frame = t->count = 1;
+        }
+        if (F.steps > 1) keep_passed(t, &F, settings->frames, &frame);
+        if (is_cancelled(watch, F.s_end > 0 ? F.s / F.s_end : 1)) break;
+    }
+    if (s == RG_OK) {
+        t->outcome = watch->cancelled ? RG_STOPPED : F.outcome;
+        snprintf(t->reason, sizeof t->reason, "%.190s", watch->cancelled ? "interrupted" : F.reason);
+        t->score = score(t, F.rho);
+        if (t->outcome == RG_STOPPED || t->count < settings->frames) {
+            rg_joint_assemble(&F.J, F.rho, F.u, NULL);
+            if (t->count > settings->frames) t->count = settings->frames;
+            keep(t, F.rho, F.J.X);
+        }
+        t->overfold = overfold(t);
+        if (t->outcome == RG_STOPPED) s = rg_diagnose_flow(&F, t->vertex, &t->vertices, t->crease, &t->creases);
+        t->work = F.work;
+        t->method = "joint";
+        t->solver = rg_supernodal_built() ? "cholesky" : "cg";
+        t->cost = (rg_cost){F.steps, F.J.A.solves, F.J.A.iterations, F.J.A.factorizations, F.assemblies, 0};
+    }
+    rg_flow_free(&F);
+    if (s != RG_OK) {
+        rg_take_free(t);
+        return rg_fail(s, why, 0, "%s", rg_status_text(s));
+    }
+    t->cost.seconds = seconds() - begun;
+    return RG_OK;
+}

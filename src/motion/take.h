@@ -1,0 +1,44 @@
+/* take.h -- one try at a motion: its frames, as far as it came.
+ * Uses  fold.h flow.h        Used by  strategy.c */
+#ifndef RG_TAKE_H
+#define RG_TAKE_H
+
+#include "fold/flow.h"
+#include "fold/fold.h"
+#include "motion/motion.h"
+
+typedef struct rg_take {
+    rg_memory mem;
+    rg_mesh mesh;             /* owned */
+    double *target;           /* [mesh.N] what was aimed at, radians; NAN: nothing */
+    double *from;             /* [mesh.N] where it began */
+    double *rho;              /* [room][mesh.N] frames */
+    rg_vec2 *flat;            /* [room][mesh.nv] the pattern of each; NULL: that of the mesh */
+    int32_t count;
+    rg_outcome outcome;
+    char reason[200];
+    double score;             /* to compare takes by: how far it came */
+    double overfold;          /* the most a driven crease was beyond half a turn in a frame, radians */
+    const char *method, *solver;
+    rg_flow_law law;          /* of a flow */
+    rg_cost cost;
+    double work;              /* of a flow, as rg_flow counts it */
+    int32_t *vertex, vertices; /* what resists most at the end: vertex numbers, strongest first */
+    int32_t *crease, creases;  /* short of their targets, and not let any nearer */
+} rg_take;
+
+/* Tells how far it is, 0 ... 1, and asks whether to go on. */
+typedef struct rg_watch {
+    rg_progress progress; /* NULL: nobody watches */
+    void *ctx;
+    int cancelled;
+} rg_watch;
+
+void rg_take_free(rg_take *t);
+/* Straight on along the motion that closes exactly: rg_fold. *m is taken over, also on failure. */
+rg_status rg_take_straight(rg_take *t, rg_mesh *m, const rg_settings *s, rg_watch *watch, rg_diag *why);
+/* Where that is blocked: rg_flow, from `from` (NULL: flat). budget: of its work. */
+rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *s, const rg_flow_law *law, const double *from,
+                       const double *target, double budget, rg_watch *watch, rg_diag *why);
+
+#endif
