@@ -9,7 +9,7 @@ static const double SOLVE_TOLERANCE = 1e-5;
 static const double PROGRESS_TOLERANCE = 1e-10;
 /* A correction that leaves more than this part of the residual is not converging; three in a row end the attempt. */
 static const double POOR_GAIN = 0.7;
-/* One that leaves no less than this is rounding, if it closes to tolerance. */
+/* One that leaves no less than this is rounding, if it closes to tolerance; if not, the factor is made anew. */
 static const double GOOD_GAIN = 0.1;
 /* A factor is kept while no crease has moved farther than this since it was made. It is off by as much, against slow
  * modes of 1e-4 or so; and with more equations than creases those that say the same thing twice no longer agree, which
@@ -30,7 +30,7 @@ int rg_newton_close(rg_fold *f, double s, int32_t most_corrections, int near)
     for (int32_t n = 0;; n++) {
         f->closure = rg_constraint_assemble(&f->K, f->trial);
         f->assemblies++;
-        if (f->moved <= far) rg_project_renew_near(&f->P);
+        if (f->moved <= far && (n == 0 || f->closure <= GOOD_GAIN * before)) rg_project_renew_near(&f->P);
         else rg_project_renew(&f->P);
         double off = s - rg_drive_progress(&f->drive, f->trial);
         int closed = f->closure <= tol && fabs(off) <= PROGRESS_TOLERANCE;

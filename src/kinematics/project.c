@@ -29,7 +29,8 @@ rg_status rg_project_init(rg_project *P, const rg_memory *mem, const rg_constrai
     P->y = rg_mem_array(mem, 3 * (size_t)M, sizeof *P->y);
     P->x = rg_mem_array(mem, (size_t)N, sizeof *P->x);
     P->u = rg_mem_array(mem, 3 * (size_t)M, sizeof *P->u);
-    if (s == RG_OK && (!P->b || !P->y || !P->x || !P->u)) s = RG_ENOMEM;
+    P->q = rg_mem_array(mem, (size_t)N, sizeof *P->q);
+    if (s == RG_OK && (!P->b || !P->y || !P->x || !P->u || !P->q)) s = RG_ENOMEM;
     if (s != RG_OK) rg_project_free(P);
     return s;
 }
@@ -47,6 +48,7 @@ void rg_project_free(rg_project *P)
     rg_mem_free(&mem, P->y);
     rg_mem_free(&mem, P->x);
     rg_mem_free(&mem, P->u);
+    rg_mem_free(&mem, P->q);
     memset(P, 0, sizeof *P);
 }
 
@@ -68,12 +70,27 @@ static double dot(int32_t n, const double *a, const double *b)
     return sum;
 }
 
-/* z = B^T P r. With n held, B (I - n n^T) takes the place of B, and P + u u^T / (1 - v.u) that of P, v = B n, u = P v. */
+/* With more equations than creases it is the exception that a step can be taken at all: n is in the row space of B but for
+ * beta, and 1 - v.u below is all rounding. By columns that case is like any other. */
+static int by_columns(const rg_project *P)
+{
+    return P->held && P->cholesky.shape == RG_SHAPE_COLUMNS && P->scale.B.N <= 3 * P->scale.B.M;
+}
+
+/* z = B^T P r. With n held, B (I - n n^T) takes the place of B, and P + u u^T / (1 - v.u) that of P, v = B n, u = P v; or
+ * by columns, A = B^T B + beta I, z = A \ B^T r less the multiple of q = A \ n that makes it orthogonal to n. */
 static void pinv_held(void *project, const double *r, double *z)
 {
     rg_project *P = project;
     const int32_t M = P->scale.B.M, N = P->scale.B.N;
     double *y = P->y;
+    if (by_columns(P)) {
+        rg_sparse_mul_t(&P->scale.B, r, z);
+        rg_cholesky_solve(&P->cholesky, z);
+        double c = dot(N, P->held, z) / P->left;
+        for (int32_t i = 0; i < N; i++) z[i] -= c * P->q[i];
+        return;
+    }
     rg_cholesky_apply(&P->cholesky, r, y);
     if (P->held) {
         double c = dot(3 * M, P->u, r) / P->left;
@@ -89,10 +106,16 @@ static void hold_on(rg_project *P, const double *hold)
 {
     P->held = hold;
     if (!hold || P->u_of == hold) return;
+    P->u_of = hold;
+    if (by_columns(P)) {
+        memcpy(P->q, hold, (size_t)P->scale.B.N * sizeof *hold);
+        rg_cholesky_solve(&P->cholesky, P->q);
+        P->left = dot(P->scale.B.N, hold, P->q);
+        return;
+    }
     rg_sparse_mul(&P->cholesky.B, hold, P->y);
     rg_cholesky_apply(&P->cholesky, P->y, P->u);
     P->left = fmax(1 - dot(3 * P->scale.B.M, P->y, P->u), LEAST_LEFT);
-    P->u_of = hold;
 }
 
 static rg_status factor(rg_project *P, const double *hold)

@@ -20,8 +20,9 @@ typedef struct rg_project {
     rg_cg_work cg;
     double *b, *y, *x; /* [3M] [3M] [N] */
     double *u;         /* [3M] P B n for the n that is held */
-    double left;       /* 1 - (B n) . u */
-    const double *u_of; /* that n, NULL: u is not made yet */
+    double *q;         /* [N] or, by columns, (B^T B + beta I) \ n */
+    double left;       /* 1 - (B n) . u, or n . q */
+    const double *u_of; /* that n, NULL: neither is made yet */
     int fresh;         /* B and the preconditioner belong to the present numbers of C */
     int factored;      /* the factor belongs to them, or to numbers near them */
     int stale;         /* to numbers near them */

@@ -227,3 +227,9 @@ void rg_cholesky_apply(rg_cholesky *P, const double *r, double *y)
         y[3 * k + 2] = (r[3 * k + 2] - sum.z) / P->beta;
     }
 }
+
+void rg_cholesky_solve(rg_cholesky *P, double *x)
+{
+    P->triangular++;
+    rg_supernodal_solve(&P->L, x);
+}

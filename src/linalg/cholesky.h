@@ -38,5 +38,7 @@ void rg_cholesky_free(rg_cholesky *P);
 void rg_cholesky_update(rg_cholesky *P, const rg_sparse *B);
 /* y = P r, both [3M], may be the same array. Not for two threads at once. Allocates nothing. */
 void rg_cholesky_apply(rg_cholesky *P, const double *r, double *y);
+/* x <- (B^T B + beta I) \ x, x[N]; for RG_SHAPE_COLUMNS. */
+void rg_cholesky_solve(rg_cholesky *P, double *x);
 
 #endif

@@ -1,11 +1,11 @@
 #include "linalg/scale.h"
 
-#include <float.h>
 #include <string.h>
 
-/* A pivot below this part of its row is rounding: a crease that has turned by 1e-6 rad lifts the third direction to
- * about 1e-12 of the others, and rounding to about 1e-16. */
-static const double RANK_TOLERANCE = 64 * DBL_EPSILON;
+/* The least pivot. At a vertex whose creases have turned by rho the third one is about rho^2, the residual along it as
+ * well, and its rounding of 1e-16 is worth a step of 1e-16 / rho: down to 3e-6 that is below any tolerance, and from there
+ * on so is the residual. */
+static const double LEAST_PIVOT = 1e-11;
 
 rg_status rg_scale_init(rg_scale *S, const rg_memory *mem, const rg_sparse *C)
 {
@@ -27,17 +27,17 @@ void rg_scale_free(rg_scale *S)
     memset(S, 0, sizeof *S);
 }
 
-static double inverse_root(double pivot, double entry)
+static double inverse_root(double pivot)
 {
-    return pivot > RANK_TOLERANCE * entry ? 1 / sqrt(pivot) : 0;
+    return pivot > LEAST_PIVOT ? 1 / sqrt(pivot) : 0;
 }
 
 /* The first crease of a loop is e_x, so xx >= 1, and two neighbours are never in line: only the third pivot can go. */
 static void invert(rg_vec3 diagonal, double xy, double xz, double yz, double *w)
 {
-    double a = inverse_root(diagonal.x, diagonal.x), l21 = xy * a, l31 = xz * a;
-    double b = inverse_root(diagonal.y - l21 * l21, diagonal.y), l32 = (yz - l31 * l21) * b;
-    double c = inverse_root(diagonal.z - l31 * l31 - l32 * l32, diagonal.z);
+    double a = inverse_root(diagonal.x), l21 = xy * a, l31 = xz * a;
+    double b = inverse_root(diagonal.y - l21 * l21), l32 = (yz - l31 * l21) * b;
+    double c = inverse_root(diagonal.z - l31 * l31 - l32 * l32);
     w[0] = a;
     w[1] = -l21 * a * b;
     w[2] = b;
