@@ -5,12 +5,22 @@
 
 #include "mesh/mesh.h"
 
+/* How a facet is reached from the one before it, for the pattern as given. */
+typedef struct rg_hinge {
+    int32_t facet, from, crease; /* from -1: the fixed facet */
+    rg_vec2 u;                   /* along the hinge */
+    double across;               /* of the hinge from the line through 0 along u */
+} rg_hinge;
+
 /* A spanning tree of the facets, breadth first from the fixed facet, so that paths are short and rounding is low. */
 typedef struct rg_tree {
     rg_memory mem;
     int32_t nf;
     int32_t *order;  /* [nf] facets, parents before children */
     int32_t *via;    /* [nf] edge over which facet f is reached, -1 for the fixed facet */
+    rg_hinge *hinge; /* [nf] in that order */
+    int32_t nv;
+    int32_t *owner;  /* [nv] of the facets at a vertex the one nearest the root, which places it; -1: none */
 } rg_tree;
 
 /* fixed_facet -1: the one nearest the centre of the sheet. RG_EARG: no such facet. */
