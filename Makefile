@@ -1,7 +1,7 @@
 # make            the library and the command line        make demo      set up, build, fold a pattern, say where it is
 # make test       set up, build, run every test           make check     everything a change must pass
 # make bench      times, as CSV                           make install   prefix=/usr/local DESTDIR=
-# make asan, coverage, werror, layers, equations, outputs, format, pictures, uninstall, clean
+# make asan, coverage, werror, layers, equations, outputs, format, pictures, figures, corpus [fresh=1], uninstall, clean
 # config=release|debug|asan|coverage   GL=osmesa|egl|none (the first that is there)   GPL=1|0   CC=gcc|clang   WERROR=0|1
 # V=1 shows whole commands
 config  ?= release
@@ -211,6 +211,13 @@ format:
 pictures: all
 	@sh tools/make_pictures $B/rigami
 
+figures: $B/rigami
+	@sh tools/make_figures $B/rigami
+
+# Which real crease patterns fold. Goes on where it was interrupted; fresh=1 begins anew.
+corpus: $B/rigami
+	@sh tools/corpus $B/rigami $(if $(filter 1,$(fresh)),--fresh)
+
 # --------------------------------------------------------------------------------------------------- install
 
 installed = $(bindir)/rigami $(includedir)/rigami.h $(libdir)/librigami.a $(libdir)/librigami.so.$(VERSION) \
@@ -245,6 +252,6 @@ clean:
 	rm -rf build rigami
 
 .PHONY: all build test demo run-tests run-demo asan coverage coverage-table bench run-bench check werror everything without-gpl \
-        without-gl layers equations outputs header format pictures install uninstall install-check clean
+        without-gl layers equations outputs header format pictures figures corpus install uninstall install-check clean
 .SECONDARY:
 -include $(shell find $B -name '*.d' 2>/dev/null)

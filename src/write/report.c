@@ -46,6 +46,7 @@ static void run(rg_json *j, const rg_report *r, double seconds_writing, double p
     rg_json_string(j, "method", r->method);
     rg_json_string(j, "solver", r->solver);
     rg_json_string(j, "strategy", r->strategy);
+    rg_json_integer(j, "tries", r->tries);
     rg_json_number(j, "adjust_gain", r->adjust_gain);
     rg_json_integer(j, "steps", r->steps);
     rg_json_integer(j, "solves", r->solves);

@@ -1,0 +1,84 @@
+# corpus.awk -- docs/corpus.md from docs/corpus.csv; called by tools/corpus.   -v version= -v limit= -v refused=FILE
+BEGIN { FS = ","; say["full"] = "as usual"; say["triangles"] = "triangles"; say["plain"] = "as drawn" }
+NR == 1 { next }
+{
+    way = $1; name = $2
+    if (!(name in seen)) { seen[name] = ++patterns; pattern[patterns] = name }
+    line[way, name] = $0
+    set = name
+    sub(/\/[^\/]*$/, "", set)
+    count("all", way)
+    count(set == "foldability" ? "foldability" : "others", way)
+}
+# What is asked of a fold, the same for each set; NaN fails.
+function count(set, way) {
+    total[set, way]++
+    folds = $21 == 0 && $11 >= 99 && $12 <= 1e-8 && $13 <= 1e-8
+    if (folds) folded[set, way]++
+    if ($12 != "" && $12 <= 1e-8) closed[set, way]++
+    if ($18 + 0 > slowest[set, way]) slowest[set, way] = $18 + 0
+    percent[set, way] += $10
+}
+function of(n, all) { return sprintf("%d of %d", n, all) }
+function short(x) { return x == "" ? "" : x == 0 ? "0" : sprintf("%.0e", x) }
+function part(x) { return x < 1e-9 ? "" : x < 0.0005 ? "< 0.001" : sprintf("%.3f", x) }
+# Percent are cut, not rounded: 99.97 is not 100.
+function cut(x) { return x == "" ? "" : sprintf("%.1f", int(x * 10) / 10) }
+function summary(set, words,   w, way, i) {
+    split("plain triangles full", w, " ")
+    for (i = 1; i <= 3; i++) {
+        way = w[i]
+        if (!total[set, way]) continue
+        printf "| %s | %s | %s | %d %% | %.1f %% | %s | %.1f |\n", words, say[way], of(folded[set, way], total[set, way]),
+            100 * folded[set, way] / total[set, way], percent[set, way] / total[set, way], of(closed[set, way], total[set, way]),
+            slowest[set, way]
+    }
+}
+function sort_names(   i, j, t) {
+    for (i = 2; i <= patterns; i++)
+        for (j = i; j > 1 && pattern[j] < pattern[j - 1]; j--) { t = pattern[j]; pattern[j] = pattern[j - 1]; pattern[j - 1] = t }
+}
+END {
+    sort_names()
+    print "# Which real crease patterns fold\n"
+    print "Written by `make corpus`, by " version "; all columns and reasons are in [corpus.csv](corpus.csv). The patterns are other"
+    print "people's and not part of this project. Each is flat-foldable at every vertex (angles to 0.6 degrees) and has one sheet without"
+    print "holes; that does not mean that rigid facets can fold it.\n"
+    print "**Folds** means: exit 0, every driven crease within 1 % of its target, and in every frame closure (radians) and edge strain"
+    print "within 1e-8. **Closes** means closure within 1e-8 in every frame that was written, also of runs that stopped short. Seconds"
+    print "are by the clock, with as many runs at once as there are cores; after " limit " of them a run is ended and told as timeout.\n"
+    print "| set | way | folds | | mean folded | closes | slowest, s |\n|---|---|--:|--:|--:|--:|--:|"
+    summary("foldability", "`foldability/`")
+    summary("others", "other folders")
+    summary("all", "all")
+    print "\nAs drawn: `--adjust off --triangulate none --method newton`, the kinematics of section 2 alone. Triangles: `--triangulate all`"
+    print "instead, section 3.2. As usual: no options; added creases, adjusted creases of section 3.3 and what goes beyond it, each only"
+    print "where the pattern needs it.\n"
+    print "## As usual\n"
+    print "N: creases. Closed: closed vertices (3.1). Moved: the largest displacement of a vertex, over the sheet's size. Stretched: the"
+    print "largest strain against the pattern given, over all frames. Tries: of which this one is the first that folds, or the best.\n"
+    print "| pattern | N | closed | outcome | folded, % | least, % | closure | strain | moved | stretched | tries | s | strategy |"
+    print "|---|--:|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|---|"
+    for (i = 1; i <= patterns; i++) {
+        split(line["full", pattern[i]], f, ",")
+        printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %.1f | %s |\n", pattern[i], f[3], f[5], f[19], cut(f[10]), cut(f[11]),
+            short(f[12]), short(f[13]), part(f[16]), part(f[17]), f[8], f[18], f[7]
+    }
+    print "\n## As drawn, and in triangles\n"
+    print "| pattern | as drawn: outcome | folded, % | least, % | closure | s | triangles: outcome | folded, % | least, % | closure | s |"
+    print "|---|---|--:|--:|--:|--:|---|--:|--:|--:|--:|"
+    for (i = 1; i <= patterns; i++) {
+        printf "| %s", pattern[i]
+        for (j = 1; j <= 2; j++) {
+            split(line[j == 1 ? "plain" : "triangles", pattern[i]], f, ",")
+            printf " | %s | %s | %s | %s | %.1f", f[19], cut(f[10]), cut(f[11]), short(f[12]), f[18]
+        }
+        print " |"
+    }
+    print "\n## Left out\n"
+    print "| pattern | why |\n|---|---|"
+    while ((getline row <refused) > 0) {
+        at = index(row, ",")
+        printf "| %s | %s |\n", substr(row, 1, at - 1), substr(row, at + 1)
+    }
+}
