@@ -19,10 +19,20 @@ static void draw_diagonals(rg_drawing *d, double from, double to, char assignmen
     for (int i = 0; i < 4; i++) rg_drawing_line(d, inner[i], outer[i], assignment);
 }
 
+/* A diagonal across each of the four trapezoids between squares k and k + 1. */
+static void draw_leaning(rg_drawing *d, double k, int left)
+{
+    rg_vec2 inner[5], outer[5];
+    corners(k, inner);
+    corners(k + 1, outer);
+    for (int i = 0; i < 4; i++) rg_drawing_line(d, inner[i + !left], outer[i + left], RG_UNASSIGNED);
+}
+
 /* Squares 1 ... n, the last of them the sheet's edge. The innermost one is crossed by one diagonal only: four alike that
- * meet at right angles break Maekawa's theorem and are rigid. So two corners of that square have degree 3, and the hypar
- * folds to a saddle, not flat: everywhere else both theorems hold. It does not fold without its facets being bent, that is
- * triangulated (E. D. Demaine et al., "(Non)existence of pleated folds: how paper folds between creases"). */
+ * meet at right angles break Maekawa's theorem and are rigid. So two corners of that square have degree 3; everywhere else
+ * both theorems hold for the pleats. Plates alone cannot move here: the trapezoids bend, along diagonals that lean one way
+ * in one ring and the other way in the next (E. D. Demaine et al., "(Non)existence of pleated folds: how paper folds between
+ * creases"). They are drawn as creases without an assignment: which way they lean decides whether it folds. */
 void rg_hypar_draw(rg_drawing *d)
 {
     rg_vec2 q[5];
@@ -33,6 +43,7 @@ void rg_hypar_draw(rg_drawing *d)
         corners(k, q);
         rg_drawing_path(d, q, 5, k == d->n ? RG_BORDER : square);
         if (k < d->n) draw_diagonals(d, k, k + 1, square);
+        if (k < d->n) draw_leaning(d, k, k % 2);
     }
 }
 
