@@ -145,6 +145,7 @@ static double run(const char *kind, int32_t n, rg_triangulation triangulate, dou
     s.to = to;
     s.frames = frames;
     s.adjust = 0;
+    s.effort = RG_EFFORT_FAST;
     rg_pattern *p = generated(kind, n);
     double best = INFINITY, solving = INFINITY;
     rg_report r = {0};
