@@ -243,6 +243,10 @@ typedef struct rg_report {
     const double (*blocking_at)[2];                      /* where those vertices are, file coordinates */
     int32_t frame_count;
     const rg_frame *frames; /* borrowed */
+    int32_t states, states_reached; /* of a sequence of states; 0: the motion is of one pattern */
+    const int32_t *state_frame;     /* [states_reached] the frame that is that state; borrowed */
+    int32_t by_flat_count;          /* ways from one state to the next that went through flat paper, */
+    const int32_t *by_flat;         /* and the states, from 1, that they begin at; borrowed */
 } rg_report;
 
 /* Called as the motion goes on with 0 ... 1; a non-zero return stops it there. */
@@ -251,6 +255,14 @@ typedef int (*rg_progress)(void *ctx, double progress);
 /* Folds the pattern through all frames. RG_OK also when it stopped short: read rg_motion_report. */
 RG_API rg_status rg_motion_create(const rg_pattern *p, const rg_settings *s, rg_progress progress, void *ctx,
                                   rg_motion **motion, rg_diag *why);
+/* Walks through states of one sheet, each folded as its pattern says: from the first, folded, to the last. Creases are matched
+ * by where they lie. Where the direct way to the next state is blocked, the sheet is unfolded to flat and folded anew. All
+ * states are frames of the motion, whose percent is of the whole way; settings->to is 1 or -1. One state: rg_motion_create.
+ * RG_ESHEET: not states of one sheet, why->text says what differs. RG_OK also when it stopped short. */
+RG_API rg_status rg_motion_create_states(const rg_pattern *const *states, int32_t count, const rg_settings *s,
+                                         rg_progress progress, void *ctx, rg_motion **motion, rg_diag *why);
+/* Are both of them one sheet each, and the same one? RG_ESHEET: why->text says what is wrong with `other`. */
+RG_API rg_status rg_pattern_same_sheet(const rg_pattern *first, const rg_pattern *other, const rg_settings *s, rg_diag *why);
 RG_API void rg_motion_destroy(rg_motion *m);
 RG_API const rg_report *rg_motion_report(const rg_motion *m); /* borrowed */
 

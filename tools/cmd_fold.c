@@ -8,6 +8,7 @@
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -59,10 +60,6 @@ static int check_place(const char *name)
 static int check(const options *o)
 {
     int status = ENDS_WELL;
-    if (o->operands > 1) {
-        say("fold: a sequence of several patterns is not supported yet; name one");
-        return ENDS_USAGE;
-    }
     for (int i = 0; i < o->outputs && status == ENDS_WELL; i++) {
         rg_diag why = {0, ""};
         rg_status s = rg_output_check(o->output[i], &why);
@@ -99,6 +96,8 @@ static void summarize(const char *name, const rg_report *r)
     printf("%s: %s, %.1f %% (least of any crease %.1f %%), %d frames in %.2f s\n", name,
            r->outcome == RG_FOLDED ? "folded" : "stopped short", r->folded_percent, r->least_folded_percent,
            (int)r->frame_count, r->seconds_total);
+    if (r->states > 0)
+        printf("  states    %d of %d, %d of the ways through flat\n", (int)r->states_reached, (int)r->states, (int)r->by_flat_count);
     printf("  closure   %.1e rad at the worst vertex, edge strain %.1e, facet gap %.1e\n", r->max_closure_residual,
            r->max_edge_strain, r->max_facet_gap);
     printf("  model     %d creases (%d added: %s), %d constraints\n", (int)r->unknowns, (int)r->added_creases,
@@ -146,35 +145,49 @@ static int write_all(const options *o, const rg_motion *m, progress *bar)
     return status;
 }
 
-/* Several patterns: a sequence of states. */
+/* Several patterns: a sequence of states of one sheet. */
 static int fold_states(const options *o, const rg_pattern *const *state, progress *bar, rg_motion **m)
 {
     rg_diag why = {0, ""};
+    for (int i = 0; i < o->operands && o->operands > 1; i++) {
+        const rg_status same = rg_pattern_same_sheet(state[0], state[i], &o->settings, &why);
+        if (same != RG_OK) return say_status(same, o->operand[i], &why);
+    }
     interrupt_hold();
-    rg_status s = rg_motion_create(state[0], &o->settings, progress_show, bar, m, &why);
+    rg_status s = rg_motion_create_states(state, o->operands, &o->settings, progress_show, bar, m, &why);
     progress_erase(bar);
     if (s == RG_OK) return ENDS_WELL;
     const int status = say_status(s, o->operand[0], &why);
     return s == RG_EABSENT ? ENDS_USAGE : status; /* a solver that this build lacks is an option that it lacks */
 }
 
+static int read_states(const options *o, rg_pattern **state)
+{
+    int status = ENDS_WELL;
+    for (int i = 0; i < o->operands && status == ENDS_WELL; i++) status = input_read(o, i, &state[i]);
+    return status;
+}
+
 int cmd_fold(const options *o)
 {
-    rg_pattern *state[1] = {NULL};
+    rg_pattern **state = calloc((size_t)o->operands, sizeof *state);
     rg_motion *m = NULL;
     progress bar;
     progress_init(&bar, o->quiet && o->progress < 0 ? 0 : o->progress);
-    int status = check(o);
-    if (status == ENDS_WELL) status = input_read(o, 0, &state[0]);
+    int status = state ? check(o) : say_status(RG_ENOMEM, NULL, NULL);
+    if (status == ENDS_WELL) status = read_states(o, state);
     if (status == ENDS_WELL) status = fold_states(o, (const rg_pattern *const *)state, &bar, &m);
     if (status == ENDS_WELL) {
         const rg_report *r = rg_motion_report(m);
+        /* The state that was not reached is the one to name, else the last. */
+        const char *name = o->operand[r->states && r->states_reached < r->states ? r->states_reached : o->operands - 1];
         status = write_all(o, m, &bar);
-        if (r->outcome != RG_FOLDED) say_short(o->operand[0], r);
-        if (!o->quiet && !(o->report && strcmp(o->report, "-") == 0)) summarize(o->operand[0], r);
+        if (r->outcome != RG_FOLDED) say_short(name, r);
+        if (!o->quiet && !(o->report && strcmp(o->report, "-") == 0)) summarize(name, r);
         if (status == ENDS_WELL && r->outcome != RG_FOLDED) status = ENDS_SHORT;
     }
     rg_motion_destroy(m);
-    rg_pattern_destroy(state[0]);
+    for (int i = 0; state && i < o->operands; i++) rg_pattern_destroy(state[i]);
+    free(state);
     return status;
 }

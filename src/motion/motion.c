@@ -21,8 +21,9 @@ void rg_motion_destroy(rg_motion *m)
     const rg_memory mem = m->mem;
     rg_mesh_free(&m->mesh);
     rg_tree_free(&m->tree);
-    void *block[] = {m->target, m->from, m->rho, m->flat, m->frame, m->blocking_vertex, m->blocking_crease, m->blocking_at};
-    for (int i = 0; i < 8; i++) rg_mem_free(&m->mem, block[i]);
+    void *block[] = {m->target, m->from, m->rho, m->flat, m->frame, m->blocking_vertex, m->blocking_crease, m->blocking_at,
+                     m->state_frame, m->by_flat};
+    for (int i = 0; i < 10; i++) rg_mem_free(&m->mem, block[i]);
     rg_mem_free(&mem, m->title);
     rg_mem_free(&mem, m->author);
     rg_mem_free(&mem, m);
@@ -130,7 +131,7 @@ static rg_status adopt(rg_motion *m, rg_choice *c)
     return RG_OK;
 }
 
-static rg_status check_settings(const rg_settings *s, rg_diag *why)
+rg_status rg_motion_check_settings(const rg_settings *s, rg_diag *why)
 {
     if (s->frames < 2) return rg_fail(RG_EARG, why, 0, "there must be at least 2 frames");
     if (!(s->adjust == RG_ADJUST_AUTO || (s->adjust >= 0 && s->adjust <= 1)))
@@ -143,7 +144,7 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_
 {
     const double begun = seconds();
     const rg_memory mem = rg_mem_default(settings->memory);
-    rg_status s = check_settings(settings, why);
+    rg_status s = rg_motion_check_settings(settings, why);
     if (s != RG_OK) return s;
     rg_motion *m = rg_mem_array(&mem, 1, sizeof *m);
     if (!m) return rg_fail(RG_ENOMEM, why, 0, "out of memory");

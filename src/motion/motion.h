@@ -25,6 +25,7 @@ struct rg_motion {
     rg_frame *frame;       /* [report.frame_count] */
     int32_t *blocking_vertex, *blocking_crease;
     double (*blocking_at)[2];
+    int32_t *state_frame, *by_flat; /* of a sequence of states, as in the report; NULL: of one pattern */
     rg_report report;
 };
 
@@ -32,5 +33,8 @@ struct rg_motion {
 const rg_vec2 *rg_motion_pattern(const rg_motion *m, int32_t f);
 /* x[mesh.nv]: out, positions in frame f, 0 <= f < report.frame_count. RG_ENOMEM. */
 rg_status rg_motion_place(const rg_motion *m, int32_t f, rg_vec3 *x);
+
+/* RG_EARG: a setting that no motion can have. */
+rg_status rg_motion_check_settings(const rg_settings *s, rg_diag *why);
 
 #endif

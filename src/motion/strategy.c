@@ -24,6 +24,15 @@ enum { LAW_COUNT = sizeof LAWS / sizeof *LAWS };
 static const int32_t MOST_LAWS[] = {4, LAW_COUNT, LAW_COUNT};
 static const double MOST_WORK[] = {8, 60, 600}, MOST_WORK_OF_ONE[] = {4, 25, 200};
 
+int rg_strategy_law(const rg_settings *s, int32_t n, rg_flow_law *law, double *work)
+{
+    if (n >= MOST_LAWS[s->effort]) return -1;
+    *law = LAWS[n];
+    *work = MOST_WORK_OF_ONE[s->effort];
+    if (law->gain > 0 && s->adjust > 0) law->gain = s->adjust;
+    return s->adjust != 0 || law->gain == 0;
+}
+
 static rg_status copy_mesh(const rg_mesh *m, int all, rg_mesh *out)
 {
     return all ? rg_triangulate_all(m, out) : rg_mesh_copy(m, out);

@@ -21,4 +21,8 @@ typedef struct rg_choice {
 /* none: the facets as drawn; it is left as it is. RG_OK also when no try folds. Owner: the caller, rg_take_free. */
 rg_status rg_strategy_run(rg_choice *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why);
 
+/* The flow's law number n, 0 for the plainest, and the work that it may cost. Zero: not with these settings; negative: there
+ * are no more. */
+int rg_strategy_law(const rg_settings *s, int32_t n, rg_flow_law *law, double *work);
+
 #endif

@@ -1,0 +1,266 @@
+#include "motion/assemble.h"
+#include "base/status.h"
+#include "motion/diagnose.h"
+#include "motion/measure.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+/* A vertex that is this part of the sheet off where a take has it has not moved. */
+static const double IN_PLACE = 1e-12;
+
+/* ------------------------------------------------------------------------------------------------ the mesh ---- */
+
+/* Creases of states first: those that takes added come last, and are the mesh's added ones. */
+static rg_status make_mesh(rg_motion *m, const rg_states *q, rg_diag *why)
+{
+    rg_lines l;
+    rg_status s = RG_OK;
+    rg_lines_init(&l, &m->mem);
+    l.merge = q->merge;
+    for (int32_t k = 0; s == RG_OK && k < q->count; k++) s = rg_overlay_draw(&l, &q->state[k], 0, NULL);
+    for (int32_t j = 0; s == RG_OK && j < q->stretches; j++) s = rg_overlay_draw(&l, &q->stretch[j].take.mesh, 1, NULL);
+    if (s == RG_OK) return rg_overlay_mesh(&l, &q->settings, &m->mesh, why);
+    rg_lines_free(&l);
+    return s;
+}
+
+/* The last state's assignments and targets; `made` says which creases are some state's. */
+static void assign(rg_motion *m, const rg_mesh *last, const rg_overlay *o, const unsigned char *made)
+{
+    rg_mesh *mesh = &m->mesh;
+    for (int32_t i = 0; i < mesh->N; i++) {
+        const int32_t e = mesh->crease_edge[i], of = o->crease[i] < 0 ? -1 : last->crease_edge[o->crease[i]];
+        mesh->assignment[e] = of < 0 ? RG_FLAT : last->assignment[of];
+        mesh->target[e] = of < 0 ? NAN : last->target[of];
+        m->target[i] = of >= 0 ? m->settings.to * last->target[of] : made[i] ? 0 : NAN;
+    }
+    while (mesh->added < mesh->N && !made[mesh->N - 1 - mesh->added]) mesh->added++;
+}
+
+static rg_status aim(rg_motion *m, const rg_states *q)
+{
+    const int32_t N = m->mesh.N;
+    unsigned char *made = rg_mem_array(&m->mem, (size_t)N, 1);
+    m->target = rg_mem_array(&m->mem, (size_t)N, sizeof *m->target);
+    m->from = rg_mem_array(&m->mem, (size_t)N, sizeof *m->from);
+    rg_status s = made && m->target && m->from ? RG_OK : RG_ENOMEM;
+    for (int32_t k = 0; s == RG_OK && k < q->count; k++) {
+        rg_overlay o;
+        s = rg_overlay_init(&o, &m->mesh, &q->state[k], q->tol);
+        for (int32_t i = 0; s == RG_OK && i < N; i++) made[i] |= o.crease[i] >= 0;
+        if (s == RG_OK && k == q->count - 1) assign(m, &q->state[k], &o, made);
+        rg_overlay_free(&o);
+    }
+    rg_mem_free(&m->mem, made);
+    return s;
+}
+
+/* -------------------------------------------------------------------------------------------------- frames ---- */
+
+/* Does the take have the mesh's vertices where the mesh has them? X[nv]: scratch. */
+static int in_place(const rg_motion *m, const rg_overlay *o, const rg_take *t, rg_vec2 *X)
+{
+    if (t->flat) return 0;
+    rg_overlay_points(o, t->mesh.X, X);
+    for (int32_t v = 0; v < m->mesh.nv; v++)
+        if (!(rg_vec2_length(rg_vec2_sub(X[v], m->mesh.X[v])) <= IN_PLACE * m->mesh.size)) return 0;
+    return 1;
+}
+
+/* Mean and least part of its creases' ways that a take has done at a frame. */
+static double part_done(const rg_take *t, int32_t frame, double *least)
+{
+    const double *rho = t->rho + (size_t)frame * (size_t)t->mesh.N;
+    double sum = 0;
+    int32_t n = 0;
+    *least = INFINITY;
+    for (int32_t i = 0; i < t->mesh.N; i++) {
+        const double way = t->target[i] - t->from[i];
+        if (isnan(way) || way == 0) continue;
+        sum += (rho[i] - t->from[i]) / way;
+        *least = fmin(*least, (rho[i] - t->from[i]) / way);
+        n++;
+    }
+    if (!n) *least = t->count > 1 ? (double)frame / (t->count - 1) : 1;
+    return n ? sum / n : *least;
+}
+
+/* Frame k of stretch j, as frame f of the motion. */
+static void put(rg_motion *m, const rg_states *q, const rg_stretch *s, const rg_overlay *o, int32_t k, int32_t f)
+{
+    const rg_take *t = &s->take;
+    const int32_t frame = rg_stretch_frame(s, k), ways = q->count - 1;
+    double least, done = part_done(t, frame, &least);
+    rg_overlay_angles(o, t->rho + (size_t)frame * (size_t)t->mesh.N, m->rho + (size_t)f * (size_t)m->mesh.N);
+    if (m->flat)
+        rg_overlay_points(o, t->flat ? t->flat + (size_t)frame * (size_t)t->mesh.nv : t->mesh.X, m->flat + (size_t)f * (size_t)m->mesh.nv);
+    if (s->backwards) done = 1 - done, least = done;
+    m->frame[f].percent = 100 * (s->begin + done * (s->end - s->begin)) / ways;
+    m->report.folded_percent = m->frame[f].percent;
+    m->report.least_folded_percent = 100 * (s->begin + least * (s->end - s->begin)) / ways;
+}
+
+/* What the take that stopped is held by, as vertices and creases of the motion. */
+static rg_status block(rg_motion *m, const rg_take *t, const rg_overlay *o)
+{
+    rg_report *r = &m->report;
+    m->blocking_vertex = rg_mem_array(&m->mem, (size_t)t->vertices, sizeof *m->blocking_vertex);
+    m->blocking_crease = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *m->blocking_crease);
+    m->blocking_at = rg_mem_array(&m->mem, (size_t)t->vertices, sizeof *m->blocking_at);
+    if (!m->blocking_vertex || !m->blocking_crease || !m->blocking_at) return RG_ENOMEM;
+    for (int32_t n = 0; n < t->vertices; n++)
+        for (int32_t v = 0; v < m->mesh.nv; v++) {
+            if (o->spot[v].n != 1 || o->spot[v].at[0] != t->vertex[n] || r->blocking_vertex_count == t->vertices) continue;
+            m->blocking_at[r->blocking_vertex_count][0] = m->mesh.X[v].x;
+            m->blocking_at[r->blocking_vertex_count][1] = m->mesh.X[v].y;
+            m->blocking_vertex[r->blocking_vertex_count++] = v;
+        }
+    for (int32_t i = 0; i < m->mesh.N; i++)
+        for (int32_t n = 0; n < t->creases; n++)
+            if (o->crease[i] == t->crease[n]) m->blocking_crease[r->blocking_crease_count++] = i;
+    r->blocking_vertices = m->blocking_vertex;
+    r->blocking_creases = m->blocking_crease;
+    r->blocking_at = (const double(*)[2])m->blocking_at;
+    return RG_OK;
+}
+
+static rg_status fill(rg_motion *m, const rg_states *q, const rg_overlay *o)
+{
+    const size_t N = (size_t)m->mesh.N, nv = (size_t)m->mesh.nv;
+    rg_report *r = &m->report;
+    int moves = 0;
+    size_t frames = 0;
+    rg_vec2 *X = rg_mem_array(&m->mem, nv, sizeof *X);
+    if (!X) return RG_ENOMEM;
+    for (int32_t j = 0; j < q->stretches; j++) {
+        frames += (size_t)rg_stretch_frames(&q->stretch[j]);
+        moves |= !in_place(m, &o[j], &q->stretch[j].take, X);
+    }
+    rg_mem_free(&m->mem, X);
+    m->rho = rg_mem_array(&m->mem, frames * N, sizeof *m->rho);
+    m->frame = rg_mem_array(&m->mem, frames, sizeof *m->frame);
+    m->state_frame = rg_mem_array(&m->mem, (size_t)q->count, sizeof *m->state_frame);
+    m->by_flat = rg_mem_array(&m->mem, (size_t)q->count, sizeof *m->by_flat);
+    if (moves) m->flat = rg_mem_array(&m->mem, frames * nv, sizeof *m->flat);
+    if (!m->rho || !m->frame || !m->state_frame || !m->by_flat || (moves && !m->flat)) return RG_ENOMEM;
+    for (int32_t j = 0; j < q->stretches; j++) {
+        const rg_stretch *s = &q->stretch[j];
+        for (int32_t k = 0; k < rg_stretch_frames(s); k++) put(m, q, s, &o[j], k, r->frame_count++);
+        if (s->reaches >= 0) m->state_frame[r->states_reached++] = r->frame_count - 1;
+    }
+    memcpy(m->from, m->rho, N * sizeof *m->from);
+    memcpy(m->by_flat, q->by_flat, (size_t)q->by_flat_count * sizeof *m->by_flat);
+    return block(m, &q->stretch[q->stretches - 1].take, &o[q->stretches - 1]);
+}
+
+static void tell(rg_motion *m, const rg_states *q)
+{
+    rg_report *r = &m->report;
+    const rg_take *last = &q->stretch[q->stretches - 1].take;
+    for (int32_t j = 0; j < q->stretches; j++) {
+        r->adjust_gain = fmax(r->adjust_gain, q->stretch[j].take.law.gain);
+        r->pattern_gives = fmax(r->pattern_gives, q->stretch[j].take.law.give);
+    }
+    r->frames = m->frame;
+    r->states = q->count;
+    r->state_frame = m->state_frame;
+    r->by_flat = m->by_flat;
+    r->by_flat_count = q->by_flat_count;
+    r->outcome = q->outcome;
+    snprintf(r->reason, sizeof r->reason, "%s", q->reason);
+    r->method = last->method, r->solver = last->solver;
+    r->triangulation = m->mesh.added ? "all" : "none";
+    r->why_triangulated = m->mesh.added ? "stops short without added creases" : "goes without added creases";
+    r->tries = q->tries;
+    r->steps = q->cost.steps, r->solves = q->cost.solves, r->cg_iterations = q->cost.iterations;
+    r->factorizations = q->cost.factorizations, r->assemblies = q->cost.assemblies;
+    r->seconds_solving = q->cost.seconds;
+    r->added_creases = m->mesh.added;
+    r->unknowns = m->mesh.N;
+    r->constraints = 3 * m->mesh.M;
+    snprintf(r->strategy, sizeof r->strategy, "%s%s", q->by_flat_count == 0 ? "directly from state to state" : "by unfolding to flat",
+             r->adjust_gain > 0 || r->pattern_gives > 0 ? ", the pattern gives way" : "");
+}
+
+rg_status rg_assemble_frames(rg_motion *m, const rg_states *q, rg_diag *why)
+{
+    rg_status s = make_mesh(m, q, why);
+    if (s == RG_OK) s = aim(m, q);
+    if (s != RG_OK) return s;
+    rg_overlay *o = rg_mem_array(&m->mem, (size_t)q->stretches, sizeof *o);
+    if (!o) return RG_ENOMEM;
+    for (int32_t j = 0; s == RG_OK && j < q->stretches; j++) s = rg_overlay_init(&o[j], &m->mesh, &q->stretch[j].take.mesh, q->tol);
+    if (s == RG_OK) s = fill(m, q, o);
+    if (s == RG_OK) tell(m, q);
+    for (int32_t j = 0; j < q->stretches; j++) rg_overlay_free(&o[j]);
+    rg_mem_free(&m->mem, o);
+    return s;
+}
+
+/* ---------------------------------------------------------------------------------------------- the motion ---- */
+
+static double seconds(void)
+{
+    struct timespec t;
+    timespec_get(&t, TIME_UTC);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Measuring goes by angles from one state to one other; of a sequence, it is the way that counts. */
+static rg_status measure(rg_motion *m)
+{
+    rg_report *r = &m->report;
+    const double folded = r->folded_percent, least = r->least_folded_percent;
+    double *percent = rg_mem_array(&m->mem, (size_t)r->frame_count, sizeof *percent);
+    if (!percent) return RG_ENOMEM;
+    for (int32_t k = 0; k < r->frame_count; k++) percent[k] = m->frame[k].percent;
+    const rg_status s = rg_measure_frames(m);
+    for (int32_t k = 0; k < r->frame_count; k++) m->frame[k].percent = percent[k];
+    r->folded_percent = folded;
+    r->least_folded_percent = least;
+    rg_mem_free(&m->mem, percent);
+    return s;
+}
+
+static rg_status make(rg_motion *m, const rg_states *q, const rg_pattern *last, rg_diag *why)
+{
+    rg_report *r = &m->report;
+    rg_pattern_get_info(last, &r->pattern);
+    r->pattern.title = m->title = rg_mem_string(&m->mem, r->pattern.title);
+    r->pattern.author = m->author = rg_mem_string(&m->mem, r->pattern.author);
+    rg_status s = m->title && m->author ? rg_assemble_frames(m, q, why) : RG_ENOMEM;
+    if (s != RG_OK) return s;
+    s = rg_tree_init(&m->mesh, m->settings.fixed_facet, &m->tree);
+    if (s == RG_EARG)
+        rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)m->settings.fixed_facet, (int)m->mesh.nf - 1);
+    if (s == RG_OK) s = rg_diagnose_components(&m->mesh, &m->mem, &r->components);
+    return s == RG_OK ? measure(m) : s;
+}
+
+rg_status rg_motion_create_states(const rg_pattern *const *states, int32_t count, const rg_settings *settings,
+                                  rg_progress progress, void *ctx, rg_motion **motion, rg_diag *why)
+{
+    const double begun = seconds();
+    const rg_memory mem = rg_mem_default(settings->memory);
+    if (count < 1) return rg_fail(RG_EARG, why, 0, "there must be at least one state");
+    if (count == 1) return rg_motion_create(states[0], settings, progress, ctx, motion, why);
+    rg_status s = rg_motion_check_settings(settings, why);
+    if (s != RG_OK) return s;
+    rg_motion *m = rg_mem_array(&mem, 1, sizeof *m);
+    if (!m) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
+    m->mem = mem;
+    m->settings = *settings;
+    rg_states q;
+    s = rg_states_run(&q, states, count, settings, progress, ctx, why);
+    if (s == RG_OK) s = make(m, &q, states[count - 1], why);
+    rg_states_free(&q);
+    if (s != RG_OK) {
+        rg_motion_destroy(m);
+        return s == RG_ENOMEM ? rg_fail(s, why, 0, "out of memory") : s;
+    }
+    m->report.seconds_total = seconds() - begun;
+    *motion = m;
+    return RG_OK;
+}

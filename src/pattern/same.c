@@ -1,0 +1,61 @@
+#include "base/status.h"
+#include "pattern/pattern.h"
+
+/* Two drawings of one point are each within the tolerance of where it ought to be. */
+static const double TWO_DRAWINGS = 2;
+
+typedef struct box { rg_vec2 low, high; } box;
+
+static box box_of(const rg_pattern *p)
+{
+    box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (int32_t v = 0; v < p->nv; v++) {
+        b.low = (rg_vec2){fmin(b.low.x, p->X[v].x), fmin(b.low.y, p->X[v].y)};
+        b.high = (rg_vec2){fmax(b.high.x, p->X[v].x), fmax(b.high.y, p->X[v].y)};
+    }
+    return b;
+}
+
+static double distance(rg_vec2 a, rg_vec2 b, rg_vec2 x)
+{
+    const rg_vec2 along = rg_vec2_sub(b, a), to = rg_vec2_sub(x, a);
+    const double part = fmin(1, fmax(0, rg_vec2_dot(along, to) / rg_vec2_dot(along, along)));
+    return rg_vec2_length((rg_vec2){to.x - part * along.x, to.y - part * along.y});
+}
+
+/* The vertex on p's border that is farthest off q's. */
+static int32_t farthest(const rg_pattern *p, const rg_pattern *q, double *off)
+{
+    int32_t worst = -1;
+    *off = 0;
+    for (int32_t v = 0; v < p->nv; v++) {
+        double nearest = INFINITY;
+        for (int32_t e = 0; p->rim[v] && e < q->ne; e++)
+            if (q->E[e].assignment == RG_BORDER) nearest = fmin(nearest, distance(q->X[q->E[e].v[0]], q->X[q->E[e].v[1]], p->X[v]));
+        if (!p->rim[v] || nearest <= *off) continue;
+        *off = nearest;
+        worst = v;
+    }
+    return worst;
+}
+
+rg_status rg_pattern_same_sheet(const rg_pattern *first, const rg_pattern *other, const rg_settings *s, rg_diag *why)
+{
+    if (!other->info.is_disk) return rg_fail(RG_ESHEET, why, 0, "not one sheet without holes: %s", other->info.not_disk);
+    if (!first->info.is_disk) return rg_fail(RG_ESHEET, why, 0, "the first state is not one sheet without holes");
+    const double drawn = s->merge == RG_MERGE_DEFAULT ? fmax(first->lines.merge, other->lines.merge) : s->merge;
+    const double tol = TWO_DRAWINGS * fmax(drawn, s->merge) * first->info.size;
+    double of_other, of_first;
+    const int32_t v = farthest(other, first, &of_other), w = farthest(first, other, &of_first);
+    if (of_other <= tol && of_first <= tol) return RG_OK;
+
+    const box a = box_of(first), b = box_of(other);
+    const rg_vec2 of_a = rg_vec2_sub(a.high, a.low), of_b = rg_vec2_sub(b.high, b.low), moved = rg_vec2_sub(b.low, a.low);
+    if (!(fabs(of_a.x - of_b.x) <= tol && fabs(of_a.y - of_b.y) <= tol))
+        return rg_fail(RG_ESHEET, why, 0, "not the sheet of the first state: %.6g x %.6g, and the first is %.6g x %.6g", of_b.x, of_b.y,
+                       of_a.x, of_a.y);
+    if (!(rg_vec2_length(moved) <= tol))
+        return rg_fail(RG_ESHEET, why, 0, "not the sheet of the first state: it lies (%.6g, %.6g) away", moved.x, moved.y);
+    const rg_vec2 at = of_other >= of_first ? other->X[v] : first->X[w];
+    return rg_fail(RG_ESHEET, why, 0, "not the sheet of the first state: their borders differ at (%.6g, %.6g)", at.x, at.y);
+}
