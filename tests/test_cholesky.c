@@ -253,11 +253,12 @@ static void no_vertex_at_all(void **state)
     rg_memory mem = rg_mem_default(NULL);
     rg_sparse C;
     rg_cholesky L;
-    int32_t start[] = {0};
-    assert_int_equal(rg_sparse_init(&C, &mem, 0, 2, start, NULL), RG_OK);
+    int32_t start[] = {0}, col[] = {0};
+    assert_int_equal(rg_sparse_init(&C, &mem, 0, 2, start, col), RG_OK);
     assert_int_equal(rg_cholesky_init(&L, &mem, &C, RG_SHAPE_AUTO), RG_OK);
     rg_cholesky_update(&L, &C);
-    rg_cholesky_apply(&L, NULL, NULL);
+    double none[3] = {0};
+    rg_cholesky_apply(&L, none, none);
     rg_cholesky_free(&L);
     rg_sparse_free(&C);
 }
