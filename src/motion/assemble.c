@@ -180,7 +180,7 @@ static void tell(rg_motion *m, const rg_states *q)
     r->added_creases = m->mesh.added;
     r->unknowns = m->mesh.N;
     r->constraints = 3 * m->mesh.M;
-    snprintf(r->strategy, sizeof r->strategy, "%s%s", q->by_flat_count == 0 ? "directly from state to state" : "by unfolding to flat",
+    snprintf(r->strategy, sizeof r->strategy, "%s%s", q->by_flat_count == 0 ? "directly from state to state" : q->by_flat_count == q->count - 1 ? "through flat" : "directly and through flat",
              r->adjust_gain > 0 || r->pattern_gives > 0 ? ", the pattern gives way" : "");
 }
 

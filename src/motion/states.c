@@ -64,14 +64,15 @@ static void add_cost(rg_states *q, const rg_cost *c)
     q->cost.seconds += c->seconds;
 }
 
-/* Does rho[N] close as it is? Else *closes is what works off the residual, if that is the same state: eq. (14). */
-static rg_status close_up(const rg_states *q, const rg_mesh *m, double *rho, int *as_it_is, int *closes)
+/* Makes up for the rounding of drawings: works off what rho[N] does not close by, eq. (14). *closes: zero if nothing, or only
+ * another state does; rho is then left as it is. */
+static rg_status close_up(const rg_states *q, const rg_mesh *m, double *rho, int *closes)
 {
     const rg_flow_law still = {.stubborn = 1};
     rg_flow F;
     rg_status s = rg_flow_init(&F, m, &q->settings, &still, rho, rho);
     if (s != RG_OK) return s;
-    *as_it_is = *closes = F.end_is_closed;
+    *closes = rg_joint_assemble(&F.J, rho, F.u, NULL) <= F.tol;
     if (!*closes && rg_flow_at(&F, 0) && F.closure <= F.tol) {
         *closes = 1;
         for (int32_t i = 0; i < m->N; i++) *closes &= fabs(F.trial[i] - rho[i]) <= SAME_STATE;
@@ -139,15 +140,15 @@ static rg_status begin(rg_states *q, rg_diag *why)
     share progress = {q, 0};
     rg_watch watch = {tell, &progress, 0};
     rg_take t;
-    int as_it_is = 0, closes, known = 1;
+    int closes = 0, known = 1;
     double *rho = rg_mem_array(&q->mem, (size_t)m->N, sizeof *rho);
     if (!rho) return RG_ENOMEM;
     for (int32_t i = 0; i < m->N; i++) {
         rho[i] = q->settings.to * m->target[m->crease_edge[i]];
         known &= !isnan(rho[i]);
     }
-    rg_status s = known ? close_up(q, m, rho, &as_it_is, &closes) : RG_OK;
-    if (s == RG_OK) s = as_it_is ? stand(q, m, rho, &t) : fold_alone(q, 0, 2, &watch, &t, why);
+    rg_status s = known ? close_up(q, m, rho, &closes) : RG_OK;
+    if (s == RG_OK) s = closes ? stand(q, m, rho, &t) : fold_alone(q, 0, 2, &watch, &t, why);
     rg_mem_free(&q->mem, rho);
     if (s != RG_OK) return s;
     walk(q, &t, 0, 0, 0, 0);
@@ -163,7 +164,7 @@ typedef struct leg {
     int32_t k, frames;
     rg_mesh mesh;       /* the creases of both */
     double *from, *to;  /* [mesh.N] */
-    int from_closes, to_closes, triangles;
+    int from_closes, to_closes, from_flat, to_flat, triangles;
 } leg;
 
 static void leg_free(const rg_states *q, leg *w)
@@ -221,18 +222,16 @@ static rg_status leg_init(const rg_states *q, leg *w, int32_t k, int32_t frames,
     if (s == RG_OK) s = angles_of(q, w, next, NULL, w->to);
     if (s != RG_OK) return s;
     assign(q, w);
-    int as_it_is, known = 1, other;
-    for (int32_t i = 0; i < w->mesh.N; i++) known &= !isnan(w->to[i]);
-    for (int32_t f = 0; f < w->mesh.nf; f++) w->triangles &= w->mesh.facet_start[f + 1] - w->mesh.facet_start[f] == 3;
-    s = close_up(q, &w->mesh, w->from, &as_it_is, &w->from_closes);
-    if (s == RG_OK && known) {
-        double *to = rg_mem_array(&q->mem, (size_t)w->mesh.N, sizeof *to); /* what it is without, must stay as it is */
-        if (!to) return RG_ENOMEM;
-        memcpy(to, w->to, (size_t)w->mesh.N * sizeof *to);
-        s = close_up(q, &w->mesh, to, &w->to_closes, &other);
-        rg_mem_free(&q->mem, to);
+    int known = 1;
+    w->from_flat = w->to_flat = 1;
+    for (int32_t i = 0; i < w->mesh.N; i++) {
+        known &= !isnan(w->to[i]);
+        w->from_flat &= w->from[i] == 0;
+        w->to_flat &= w->to[i] == 0;
     }
-    return s;
+    for (int32_t f = 0; f < w->mesh.nf; f++) w->triangles &= w->mesh.facet_start[f + 1] - w->mesh.facet_start[f] == 3;
+    s = close_up(q, &w->mesh, w->from, &w->from_closes);
+    return s == RG_OK && known ? close_up(q, &w->mesh, w->to, &w->to_closes) : s;
 }
 
 /* One law of the flow, from `from` to `to` or the other way around. */
@@ -302,26 +301,39 @@ static rg_status direct(rg_states *q, const leg *w, rg_watch *watch, rg_take *be
 
 /* ------------------------------------------------------------------------------------------------- legs ---- */
 
-/* State k as it folds, backwards, then the next one, if that comes farther than `farthest` of the way. */
+/* State k as it folds, backwards, then the next one, if that comes farther than `farthest` of the way. Either may be flat. */
 static rg_status through_flat(rg_states *q, const leg *w, double farthest, rg_watch *watch, int *done, rg_diag *why)
 {
-    const int32_t k = w->k, down = (w->frames - 1) / 2, up = w->frames - 1 - down;
+    const int32_t k = w->k, all = w->frames - 1, down = w->from_flat ? 0 : w->to_flat ? all : all / 2, up = all - down;
+    const double middle = k + (w->from_flat ? 0 : w->to_flat ? 1 : 0.5);
     rg_take unfold = {0}, fold = {0};
-    *done = 0;
-    rg_status s = fold_alone(q, k, down + 1, watch, &unfold, why);
-    if (s == RG_OK && !is_folded(&unfold)) goto out;
-    if (s == RG_OK) s = fold_alone(q, k + 1, up + 1, watch, &fold, why);
-    if (s != RG_OK || !(is_folded(&fold) || 0.5 + 0.5 * fold.score > farthest)) goto out;
-    const int arrives = is_folded(&fold);
+    rg_status s = w->from_flat ? RG_OK : fold_alone(q, k, down + 1, watch, &unfold, why);
+    if (s == RG_OK && !w->from_flat && !is_folded(&unfold)) goto out;
+    if (s == RG_OK && !w->to_flat) s = fold_alone(q, k + 1, up + 1, watch, &fold, why);
+    if (s != RG_OK) goto out;
+    const int arrives = w->to_flat || is_folded(&fold);
+    if (!arrives && !(middle - k + (k + 1 - middle) * fold.score > farthest)) goto out;
     *done = 1;
-    walk(q, &unfold, 1, k, k + 0.5, -1);
-    if (!down) q->stretch[q->stretches - 1].end_only = -1;
-    walk(q, &fold, 0, k + 0.5, k + 1, arrives ? k + 1 : -1);
-    q->by_flat[q->by_flat_count++] = k + 1;
+    if (!w->from_flat) {
+        walk(q, &unfold, 1, k, middle, w->to_flat ? k + 1 : -1);
+        if (!down) q->stretch[q->stretches - 1].end_only = -1;
+    }
+    if (!w->to_flat) walk(q, &fold, 0, middle, k + 1, arrives ? k + 1 : -1);
+    if (!w->from_flat && !w->to_flat) q->by_flat[q->by_flat_count++] = k + 1;
 out:
     rg_take_free(&unfold);
     rg_take_free(&fold);
     return s;
+}
+
+/* A way of nothing takes its time too. */
+static void fill_up(rg_take *t, int32_t frames)
+{
+    const size_t N = (size_t)t->mesh.N, nv = (size_t)t->mesh.nv;
+    for (; t->count < frames; t->count++) {
+        memcpy(t->rho + (size_t)t->count * N, t->rho + (size_t)(t->count - 1) * N, N * sizeof *t->rho);
+        if (t->flat) memcpy(t->flat + (size_t)t->count * nv, t->flat + (size_t)(t->count - 1) * nv, nv * sizeof *t->flat);
+    }
 }
 
 static rg_status go(rg_states *q, int32_t k, int32_t frames, rg_diag *why)
@@ -332,9 +344,12 @@ static rg_status go(rg_states *q, int32_t k, int32_t frames, rg_diag *why)
     leg w;
     int backwards = 0, done = 0;
     rg_status s = leg_init(q, &w, k, frames, why);
-    if (s == RG_OK && w.from_closes) s = direct(q, &w, &watch, &best, &backwards, why);
+    const int one_is_flat = w.from_flat != w.to_flat;
+    if (s == RG_OK && one_is_flat) s = through_flat(q, &w, 1, &watch, &done, why);
+    if (s == RG_OK && !done && w.from_closes) s = direct(q, &w, &watch, &best, &backwards, why);
     const int arrives = s == RG_OK && best.mem.resize && is_folded(&best);
-    if (s == RG_OK && !arrives && !watch.cancelled)
+    if (arrives) fill_up(&best, frames);
+    if (s == RG_OK && !done && !arrives && !one_is_flat && !watch.cancelled)
         s = through_flat(q, &w, best.mem.resize ? best.score : -1, &watch, &done, why);
     if (s == RG_OK && !done) {
         if (!best.mem.resize) stop(q, k, "neither state closes on the lines of both");

@@ -88,6 +88,17 @@ static void result(rg_json *j, const rg_report *r)
     rg_json_close(j);
 }
 
+static void states(rg_json *j, const rg_report *r)
+{
+    if (!r->states) return;
+    rg_json_open(j, "states", '{');
+    rg_json_integer(j, "count", r->states);
+    rg_json_integer(j, "reached", r->states_reached);
+    rg_json_integers(j, "frames", r->state_frame, r->states_reached);
+    rg_json_integers(j, "through_flat_from", r->by_flat, r->by_flat_count);
+    rg_json_close(j);
+}
+
 rg_status rg_report_write(const rg_motion *m, double seconds_writing, double peak_bytes, const char *file, rg_diag *why)
 {
     const rg_report *r = &m->report;
@@ -104,6 +115,7 @@ rg_status rg_report_write(const rg_motion *m, double seconds_writing, double pea
     model(&j, r);
     run(&j, r, seconds_writing, peak_bytes);
     result(&j, r);
+    states(&j, r);
     rg_json_open(&j, "frames", '[');
     for (int32_t k = 0; k < r->frame_count; k++) {
         rg_json_open_line(&j, NULL, '{');
