@@ -103,7 +103,7 @@ static void turn_creases(rg_constraint *K, const double *rho)
 
 /* Round each vertex of the four, as rg_loop_walk does: C's numbers and r if they are wanted. bad[4]: out, a measure of
  * the rotation angle of F that rises with it, sin^2 up to a right angle and 2 - sin^2 beyond; NaN for NaN. */
-RG_WITHIN void walk_four(rg_constraint *K, const rg_four *four, int wanted, double *bad)
+RG_WITHIN void walk_four(rg_constraint *K, const rg_four *four, int wanted, rg_quad *bad)
 {
     const int32_t *crease = K->crease + 4 * four->at;
     const double *tc = K->theta_cos + 4 * four->at, *ts = K->theta_sin + 4 * four->at;
@@ -137,22 +137,35 @@ RG_WITHIN void walk_four(rg_constraint *K, const rg_four *four, int wanted, doub
             r[0] = r0[lane], r[1] = r1[lane], r[2] = r2[lane];
         }
     const rg_quad sine2 = r0 * r0 + r1 * r1 + r2 * r2, twice = x[0] + y[1] + z[2] - 1;
-    for (int lane = 0; lane < 4; lane++) bad[lane] = twice[lane] > 0 ? sine2[lane] : 2 - sine2[lane];
+    const rg_quad_int acute = twice > 0;
+    *bad = (rg_quad)((acute & (rg_quad_int)sine2) | (~acute & (rg_quad_int)(2 - sine2)));
 }
 
-/* All vertices; returns the one at which F turns most. */
+/* All vertices; returns the one at which F turns most, one that is NaN if there is one. */
 RG_WIDE static int32_t walk_all(rg_constraint *K, int wanted)
 {
-    int32_t worst = -1;
-    double most = -1;
-    for (int32_t g = 0; g < K->fours; g++) {
-        double bad[4];
-        if (wanted) walk_four(K, &K->four[g], 1, bad);
-        else walk_four(K, &K->four[g], 0, bad);
-        for (int lane = 0; lane < 4; lane++)
-            if (!(bad[lane] <= most) && most == most) most = bad[lane], worst = K->four[g].vertex[lane];
+    rg_quad most = {-1, -1, -1, -1}, sum = {0};
+    rg_quad_int where = {0}, here = {0};
+    for (int32_t g = 0; g < K->fours; g++, here += 1) {
+        rg_quad bad;
+        if (wanted) walk_four(K, &K->four[g], 1, &bad);
+        else walk_four(K, &K->four[g], 0, &bad);
+        const rg_quad_int more = bad > most;
+        most = (rg_quad)((more & (rg_quad_int)bad) | (~more & (rg_quad_int)most));
+        where = (more & here) | (~more & where);
+        sum += bad;
     }
-    return worst;
+    int lane = 0;
+    for (int i = 1; i < 4; i++)
+        if (most[i] > most[lane]) lane = i;
+    const double all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    for (int32_t g = 0; all != all && g < K->fours; g++) {
+        rg_quad bad;
+        walk_four(K, &K->four[g], 0, &bad);
+        for (int i = 0; i < 4; i++)
+            if (bad[i] != bad[i]) return K->four[g].vertex[i];
+    }
+    return K->fours ? K->four[where[lane]].vertex[lane] : -1;
 }
 
 static double angle_at(const rg_constraint *K, int32_t k)
