@@ -9,7 +9,9 @@
 
 #include "near.h"
 
+#include "counted.h"
 #include "draw.h"
+#include "generate/generate.h"
 #include "mesh/mesh.h"
 
 static double turn(const rg_mesh *m, int32_t a, int32_t b, int32_t c) { return rg_vec2_turn(m->X[a], m->X[b], m->X[c]); }
@@ -47,12 +49,12 @@ static int32_t facet_with(const rg_mesh *m, int32_t a, int32_t b) /* that has bo
 
 /* Triangles of positive area that cover the sheet; the formula of section 3.2; old numbers kept; diagonals within the facet
  * they cut and across nothing. */
-static void triangulates(const rg_mesh *m, double sheet)
+static void triangulates_by(rg_status (*cut)(const rg_mesh *, rg_mesh *), const rg_mesh *m, double sheet)
 {
     rg_mesh t;
     double sum = 0;
     int32_t corners = 0;
-    assert_int_equal(rg_triangulate_all(m, &t), RG_OK);
+    assert_int_equal(cut(m, &t), RG_OK);
     for (int32_t f = 0; f < m->nf; f++) corners += m->facet_start[f + 1] - m->facet_start[f] - 3;
     assert_int_equal(t.added, corners);
     assert_int_equal(t.nf, m->nf + corners);
@@ -87,6 +89,12 @@ static void triangulates(const rg_mesh *m, double sheet)
         near(angle, 2 * RG_PI, 1e-11);
     }
     rg_mesh_free(&t);
+}
+
+static void triangulates(const rg_mesh *m, double sheet)
+{
+    triangulates_by(rg_triangulate_all, m, sheet);
+    triangulates_by(rg_triangulate_short, m, sheet);
 }
 
 /* Twice the area of a polygon, halved. */
@@ -255,6 +263,266 @@ static void what_is_triangles_stays(void **state)
     rg_pattern_destroy(p);
 }
 
+/* ------------------------------------------------------------------------------------- inside angles ---- */
+
+enum { SMALL = 8, DIAGONALS = SMALL * (SMALL - 3) / 2 };
+
+static int same_point(const double *x, rg_vec2 y) { return hypot(x[0] - y.x, x[1] - y.y) < 1e-9; }
+
+static char assignment_between(const rg_mesh *m, int32_t a, int32_t b)
+{
+    for (int32_t e = 0; e < m->ne; e++)
+        if ((m->edge[e][0] == a && m->edge[e][1] == b) || (m->edge[e][0] == b && m->edge[e][1] == a)) return m->assignment[e];
+    return 0;
+}
+
+static int32_t vertex_at(const rg_mesh *m, const double *x)
+{
+    for (int32_t v = 0; v < m->nv; v++)
+        if (same_point(x, m->X[v])) return v;
+    return -1;
+}
+
+/* Is the corner of facet f at place i the inside angle of a closed triple that the pattern lists? */
+static int is_inside(const rg_pattern *p, const rg_mesh *m, int32_t f, int32_t i)
+{
+    const int32_t n = m->facet_start[f + 1] - m->facet_start[f], *v = m->facet_vertex + m->facet_start[f];
+    const rg_vec2 next = m->X[v[(i + 1) % n]], before = m->X[v[(i + n - 1) % n]];
+    const rg_closed *list;
+    const int32_t count = rg_pattern_closed(p, &list);
+    for (int32_t k = 0; k < count; k++) {
+        const rg_closed *t = &list[k];
+        if (!same_point((double[]){t->x, t->y}, m->X[v[i]])) continue;
+        const int32_t a = vertex_at(m, t->a), c = vertex_at(m, t->c);
+        const int at_a = assignment_between(m, v[i], a) != assignment_between(m, v[i], c);
+        if (at_a && same_point(t->a, next) && same_point(t->c, before)) return 1;
+        if (!at_a && same_point(t->c, next) && same_point(t->b, before)) return 1;
+    }
+    return 0;
+}
+
+/* How good a way to cut a facet is: inside angles that stay whole, and the sine of the smallest angle. */
+typedef struct quality { int whole; double least; } quality;
+
+static double angle_sine(const rg_mesh *m, int32_t a, int32_t b, int32_t c)
+{
+    return turn(m, a, b, c) / (rg_vec2_length(rg_vec2_sub(m->X[b], m->X[a])) * rg_vec2_length(rg_vec2_sub(m->X[c], m->X[a])));
+}
+
+static int within(const rg_mesh *m, const int32_t *t, int32_t x)
+{
+    return turn(m, t[0], t[1], x) >= -1e-12 && turn(m, t[1], t[2], x) >= -1e-12 && turn(m, t[2], t[0], x) >= -1e-12;
+}
+
+/* joined[i][j]: a side or a diagonal. Three corners that are all joined are a triangle. Zero: not a way to cut it. */
+static int judge(const rg_mesh *m, const int32_t *v, int32_t n, int joined[SMALL][SMALL], const int *inside, quality *q)
+{
+    *q = (quality){0, 1};
+    for (int i = 0; i < n; i++) {
+        int ends = 0;
+        for (int j = 0; j < n; j++) ends += joined[i][j];
+        q->whole += inside[i] && ends == 2;
+        for (int j = i + 1; j < n; j++)
+            for (int k = j + 1; k < n; k++) {
+                if (!joined[i][j] || !joined[j][k] || !joined[i][k]) continue;
+                const int32_t t[3] = {v[i], v[j], v[k]};
+                for (int s = 0; s < 3; s++) q->least = fmin(q->least, angle_sine(m, t[s], t[(s + 1) % 3], t[(s + 2) % 3]));
+                if (!(q->least > 1e-10)) return 0;
+                for (int x = 0; x < n; x++)
+                    if (x != i && x != j && x != k && within(m, t, v[x])) return 0;
+            }
+    }
+    return 1;
+}
+
+static int better(quality a, quality b) { return a.whole < b.whole || (a.whole == b.whole && a.least > b.least); }
+
+/* All sets of n - 3 diagonals of which no two cross. */
+static void try_all(const rg_mesh *m, const int32_t *v, int32_t n, const int *inside, quality *best)
+{
+    int from[DIAGONALS], to[DIAGONALS], d = 0;
+    *best = (quality){INT32_MAX, 0};
+    for (int i = 0; i < n; i++)
+        for (int j = i + 2; j < n; j++)
+            if (i > 0 || j < n - 1) from[d] = i, to[d++] = j;
+    for (unsigned set = 0; set < 1u << d; set++) {
+        int joined[SMALL][SMALL] = {{0}}, count = 0, crossed = 0;
+        for (int i = 0; i < d; i++) count += set >> i & 1;
+        if (count != n - 3) continue;
+        for (int i = 0; i < n; i++) joined[i][(i + 1) % n] = joined[(i + 1) % n][i] = 1;
+        for (int i = 0; i < d; i++) {
+            if (!(set >> i & 1)) continue;
+            joined[from[i]][to[i]] = joined[to[i]][from[i]] = 1;
+            for (int j = 0; j < i; j++)
+                crossed |= (set >> j & 1) && from[j] < from[i] && from[i] < to[j] && to[j] < to[i];
+        }
+        for (int i = 0; i < d && !crossed; i++)
+            for (int j = 0; j < d; j++)
+                crossed |= (set >> i & 1) && (set >> j & 1) && from[j] < from[i] && from[i] < to[j] && to[j] < to[i];
+        quality q;
+        if (!crossed && judge(m, v, n, joined, inside, &q) && better(q, *best)) *best = q;
+    }
+}
+
+/* What became of a facet: its triangles are those of t, from number first on. */
+static quality what_was_done(const rg_mesh *m, int32_t f, const rg_mesh *t, int32_t first, const int *inside)
+{
+    const int32_t n = m->facet_start[f + 1] - m->facet_start[f], *v = m->facet_vertex + m->facet_start[f];
+    quality q = {0, 1};
+    for (int32_t i = 0; i < n; i++) {
+        int triangles = 0;
+        for (int32_t g = first; g < first + n - 2; g++)
+            for (int s = 0; s < 3; s++) triangles += t->facet_vertex[t->facet_start[g] + s] == v[i];
+        assert_true(triangles > 0);
+        q.whole += inside[i] && triangles == 1;
+    }
+    for (int32_t g = first; g < first + n - 2; g++)
+        for (int s = 0; s < 3; s++) {
+            const int32_t *w = t->facet_vertex + t->facet_start[g];
+            q.least = fmin(q.least, angle_sine(t, w[s], w[(s + 1) % 3], w[(s + 2) % 3]));
+        }
+    return q;
+}
+
+typedef struct tally { int facets, inside, split, large, whole_in_large, whole_in_large_short; } tally;
+
+static void splits_what_can_be(const rg_pattern *p, tally *sum)
+{
+    const rg_memory mem = rg_mem_default(NULL);
+    rg_mesh m, t, shorter;
+    if (rg_mesh_from_pattern(p, &mem, &m, NULL) != RG_OK) return;
+    assert_int_equal(rg_triangulate_all(&m, &t), RG_OK);
+    assert_int_equal(rg_triangulate_short(&m, &shorter), RG_OK);
+    for (int32_t f = 0, first = 0; f < m.nf; first += m.facet_start[f + 1] - m.facet_start[f] - 2, f++) {
+        const int32_t n = m.facet_start[f + 1] - m.facet_start[f];
+        int inside[400], any = 0;
+        assert_true(n <= 400);
+        for (int32_t i = 0; i < n; i++) any += inside[i] = is_inside(p, &m, f, i);
+        const quality is = what_was_done(&m, f, &t, first, inside);
+        if (n > 64) {
+            sum->large++;
+            sum->whole_in_large += is.whole;
+            sum->whole_in_large_short += what_was_done(&m, f, &shorter, first, inside).whole;
+        }
+        if (n < 4 || n > (sum->facets % 16 ? 6 : SMALL)) continue; /* eight corners take a while */
+        quality best;
+        try_all(&m, m.facet_vertex + m.facet_start[f], n, inside, &best);
+        assert_int_equal(is.whole, best.whole);
+        near(is.least, best.least, 1e-8 * best.least);
+        sum->facets++;
+        sum->inside += any;
+        sum->split += any - is.whole;
+    }
+    rg_mesh_free(&shorter);
+    rg_mesh_free(&t);
+    rg_mesh_free(&m);
+}
+
+/* Right angles everywhere, of which many are inside angles; edges left out make facets of all shapes. steps: a staircase of
+ * cells from corner to corner is one facet. */
+static rg_pattern *gaps(int n, double out, int steps, unsigned *seed)
+{
+    rg_lines l = drawing();
+    for (int i = 0; i <= n; i++)
+        for (int j = 0; j < n; j++)
+            for (int way = 0; way < 2; way++) {
+                const int rim = i == 0 || i == n;
+                if (!rim && (noise(seed) + 1) / 2 < out) continue;
+                if (!rim && steps && j == (way ? i : i - 1)) continue;
+                draw(&l, rim ? RG_BORDER : noise(seed) < 0 ? RG_MOUNTAIN : RG_VALLEY, way ? i : j, way ? j : i, way ? i : j + 1, way ? j + 1 : i);
+            }
+    draw_moved(&l, 1, 0.1 * n, 0, 0);
+    return pattern_of(&l);
+}
+
+static void inside_angles(void **state)
+{
+    (void)state;
+    unsigned seed = 9;
+    tally sum = {0};
+    for (int round = 0; round < 60; round++) {
+        rg_pattern *p = gaps(3 + round % 6, 0.06 * (round % 6), 0, &seed);
+        splits_what_can_be(p, &sum);
+        rg_pattern_destroy(p);
+    }
+    static const char *const kinds[] = {"crane", "frog", "tatou", "boxpleat", "four-crane", "open-sink", "miura"};
+    const rg_memory mem = rg_mem_default(NULL);
+    for (int k = 0; k < 7; k++) {
+        rg_lines l;
+        assert_int_equal(rg_generate_lines(kinds[k], 0, 0, 0, &mem, &l, NULL), RG_OK);
+        rg_pattern *p = pattern_of(&l);
+        splits_what_can_be(p, &sum);
+        rg_pattern_destroy(p);
+    }
+    assert_true(sum.facets > 300 && sum.inside > 300);
+    assert_true(sum.split > sum.inside / 4 && sum.split < sum.inside);
+}
+
+/* Facets too large for the best of all ways. */
+static void inside_angles_of_large_facets(void **state)
+{
+    (void)state;
+    unsigned seed = 10;
+    tally sum = {0};
+    for (int round = 0; round < 6; round++) {
+        rg_pattern *p = gaps(24, 0, 1, &seed);
+        splits_what_can_be(p, &sum);
+        rg_pattern_destroy(p);
+    }
+    assert_true(sum.large > 5 && sum.whole_in_large_short > 20);
+    assert_true(2 * sum.whole_in_large < sum.whole_in_large_short);
+}
+
+/* Equal ways across are chosen by the corners' numbers, not by rounding. */
+static void rounding_does_not_choose(void **state)
+{
+    (void)state;
+    rg_mesh t[2];
+    for (int k = 0; k < 2; k++) {
+        rg_lines l = drawing();
+        for (int i = 0; i <= 5; i++)
+            for (int j = 0; j < 5; j++) {
+                draw(&l, i % 5 ? RG_VALLEY : RG_BORDER, i, j, i, j + 1);
+                draw(&l, i % 5 ? RG_VALLEY : RG_BORDER, j, i, j + 1, i);
+            }
+        draw_moved(&l, k ? 1.7 : 1, k ? 1e-3 : 0, 0, 0);
+        const rg_memory mem = rg_mem_default(NULL);
+        rg_mesh m;
+        rg_pattern *p = pattern_of(&l);
+        assert_int_equal(rg_mesh_from_pattern(p, &mem, &m, NULL), RG_OK);
+        assert_int_equal(rg_triangulate_all(&m, &t[k]), RG_OK);
+        rg_mesh_free(&m);
+        rg_pattern_destroy(p);
+    }
+    assert_int_equal(t[0].nf, 50);
+    assert_memory_equal(t[0].facet_vertex, t[1].facet_vertex, 150 * sizeof *t[0].facet_vertex);
+    for (int k = 0; k < 2; k++) rg_mesh_free(&t[k]);
+}
+
+static void memory(void **state)
+{
+    (void)state;
+    counted c = {1000000, 0, 0};
+    const rg_memory mem = {counted_resize, &c};
+    unsigned seed = 12;
+    rg_mesh m, t;
+    rg_pattern *p = gaps(6, 0, 0, &seed);
+    assert_int_equal(rg_mesh_from_pattern(p, &mem, &m, NULL), RG_OK);
+    const long before = c.out;
+    for (long k = 0;; k++) {
+        c.left = k;
+        const rg_status s = rg_triangulate_all(&m, &t);
+        if (s == RG_OK) break;
+        assert_int_equal(s, RG_ENOMEM);
+        assert_int_equal(c.out, before);
+    }
+    assert_true(t.added == 36);
+    rg_mesh_free(&t);
+    rg_mesh_free(&m);
+    assert_int_equal(c.out, 0);
+    rg_pattern_destroy(p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -265,6 +533,10 @@ int main(void)
         cmocka_unit_test(a_triangle_of_straight_corners),
         cmocka_unit_test(nearly_straight_corners),
         cmocka_unit_test(what_is_triangles_stays),
+        cmocka_unit_test(inside_angles),
+        cmocka_unit_test(inside_angles_of_large_facets),
+        cmocka_unit_test(rounding_does_not_choose),
+        cmocka_unit_test(memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
