@@ -34,8 +34,32 @@ static const double ARRIVED = 0.007, RETURNED = 0.05;
 /* Exactness of the progress of a state that is asked for. */
 static const double SAME_PROGRESS = 1e-5;
 
+/* Ways of the pattern that count as none; and how far from where it should be a crease may end for the pattern to close. */
+static const double FIXED = 1e-12, END_OFF = 1 * RG_DEG;
+
 static double way(const rg_flow *F, int32_t i) { return F->target[i] - F->from[i]; }
 static int is_driven(const rg_flow *F, int32_t i) { return way(F, i) != 0 && !isnan(F->target[i]); }
+
+static int correct(rg_flow *F, double *rho, double *u, double tol);
+static void stop(rg_flow *F, const char *why);
+
+/* rho, which should close on the pattern given, closed on it: a drawing's rounding is made up for by the creases, a
+ * little. Zero: it is off by more than that. */
+static int close_on_pattern(rg_flow *F, double *rho)
+{
+    memcpy(F->trial, rho, (size_t)F->N * sizeof *rho);
+    memset(F->trial_u, 0, (size_t)F->U * sizeof *F->trial_u);
+    if (rg_joint_assemble(&F->J, rho, F->trial_u, NULL) <= F->tol) return 1;
+    for (int32_t i = 0; i < F->N; i++) F->scale[i] = 1;
+    for (int32_t i = 0; i < F->U; i++) F->scale[F->N + i] *= FIXED;
+    int closed = correct(F, F->trial, F->trial_u, F->tol);
+    for (int32_t i = 0; i < F->U; i++) F->scale[F->N + i] /= FIXED;
+    memset(F->trial_u, 0, (size_t)F->U * sizeof *F->trial_u);
+    closed = closed && rg_joint_assemble(&F->J, F->trial, F->trial_u, NULL) <= F->tol;
+    for (int32_t i = 0; i < F->N; i++) closed = closed && fabs(F->trial[i] - rho[i]) <= END_OFF;
+    if (closed) memcpy(rho, F->trial, (size_t)F->N * sizeof *rho);
+    return closed;
+}
 
 static double progress(const rg_flow *F, const double *rho, double *least)
 {
@@ -68,11 +92,11 @@ rg_status rg_flow_init(rg_flow *F, const rg_mesh *m, const rg_settings *s, const
     if (status == RG_OK) status = rg_adjust_init(&F->adjust, &mem, &F->freedom);
     if (status == RG_OK) status = rg_limit_init(&F->limit, &mem, m);
     const size_t n = (size_t)F->N, u = (size_t)F->U;
-    double **of_creases[] = {&F->from, &F->target, &F->rho, &F->old_rho, &F->trial, &F->loud, &F->pull};
+    double **of_creases[] = {&F->from, &F->target, &F->end, &F->rho, &F->old_rho, &F->trial, &F->loud, &F->pull};
     double **of_ways[] = {&F->u, &F->old_u, &F->trial_u};
     double **of_both[] = {&F->wish, &F->z, &F->scale, &F->dz};
     int ok = (F->held = rg_mem_array(&mem, n, 1)) != NULL;
-    for (int i = 0; i < 7; i++) ok &= (*of_creases[i] = rg_mem_array(&mem, n, sizeof(double))) != NULL;
+    for (int i = 0; i < 8; i++) ok &= (*of_creases[i] = rg_mem_array(&mem, n, sizeof(double))) != NULL;
     for (int i = 0; i < 3; i++) ok &= (*of_ways[i] = rg_mem_array(&mem, u, sizeof(double))) != NULL;
     for (int i = 0; i < 4; i++) ok &= (*of_both[i] = rg_mem_array(&mem, n + u, sizeof(double))) != NULL;
     if (status == RG_OK && !ok) status = RG_ENOMEM;
@@ -82,16 +106,19 @@ rg_status rg_flow_init(rg_flow *F, const rg_mesh *m, const rg_settings *s, const
     }
     if (from) memcpy(F->from, from, n * sizeof *from);
     memcpy(F->target, target, n * sizeof *target);
-    memcpy(F->rho, F->from, n * sizeof *from);
-    memcpy(F->old_rho, F->from, n * sizeof *from);
-    for (int32_t i = 0; i < F->N; i++) {
-        F->driven += is_driven(F, i);
-        F->loud[i] = 1;
-        F->scale[i] = 1;
-        F->trial[i] = isnan(F->target[i]) ? F->from[i] : F->target[i];
-    }
+    F->from_flat = 1;
     for (int32_t i = 0; i < F->U; i++) F->scale[F->N + i] = fmax(law->give, 1e-6) * F->freedom.reach[i];
-    F->end_is_closed = rg_joint_assemble(&F->J, F->trial, F->trial_u, NULL) <= s->tol;
+    for (int32_t i = 0; i < F->N; i++) {
+        F->from_flat &= F->from[i] == 0;
+        F->end[i] = isnan(F->target[i]) ? F->from[i] : F->target[i];
+        F->loud[i] = 1;
+    }
+    F->end_is_closed = close_on_pattern(F, F->end);
+    memcpy(F->rho, F->from, n * sizeof *from);
+    if (!F->from_flat && !close_on_pattern(F, F->rho)) stop(F, "the state to start from does not close");
+    memcpy(F->from, F->rho, n * sizeof *from);
+    memcpy(F->old_rho, F->rho, n * sizeof *from);
+    for (int32_t i = 0; i < F->N; i++) F->driven += is_driven(F, i);
     F->h = 1;
     return RG_OK;
 }
@@ -103,9 +130,9 @@ void rg_flow_free(rg_flow *F)
     rg_joint_free(&F->J);
     rg_adjust_free(&F->adjust);
     rg_limit_free(&F->limit);
-    void *block[] = {F->from, F->target, F->rho, F->old_rho, F->trial, F->loud, F->pull, F->u, F->old_u, F->trial_u,
+    void *block[] = {F->from, F->target, F->end, F->rho, F->old_rho, F->trial, F->loud, F->pull, F->u, F->old_u, F->trial_u,
                      F->wish, F->z, F->scale, F->dz, F->held};
-    for (int i = 0; i < 15; i++) rg_mem_free(&F->mem, block[i]);
+    for (int i = 0; i < 16; i++) rg_mem_free(&F->mem, block[i]);
     memset(F, 0, sizeof *F);
 }
 
@@ -137,6 +164,8 @@ static int correct(rg_flow *F, double *rho, double *u, double tol)
     }
 }
 
+static int is_limited(const rg_flow *F) { return F->s >= FREE_UNTIL; }
+
 static void make_wish(rg_flow *F)
 {
     const double ds = F->step * F->h / RG_PI;
@@ -155,9 +184,8 @@ static void make_wish(rg_flow *F)
         else if (F->law.together) F->wish[i] = ds * left / (1 - fmin(F->s, 0.97));
         else F->wish[i] = ds * all;
         if (on_the_way) F->wish[i] *= F->loud[i];
-        if (F->s < WRONG_FROM) continue;
-        if (left * all > 0 && fabs(left) > fabs(all)) F->scale[i] = F->law.stubborn;
-        if (F->s >= FREE_UNTIL && F->pull[i] != 0) {
+        if (F->s >= WRONG_FROM && left * all > 0 && fabs(left) > fabs(all)) F->scale[i] = F->law.stubborn;
+        if (is_limited(F) && F->pull[i] != 0) {
             F->wish[i] = BACK * F->pull[i];
             F->scale[i] = BEYOND_GIVES;
         }
@@ -177,7 +205,7 @@ static void hold(rg_flow *F, int32_t i)
 static int32_t hold_what_overfolds(rg_flow *F, const double *dz, double beyond)
 {
     int32_t more = 0;
-    for (int32_t i = 0; i < F->limit.first_added && F->s >= FREE_UNTIL; i++) {
+    for (int32_t i = 0; i < F->limit.first_added && is_limited(F); i++) {
         const double then = dz ? F->rho[i] + dz[i] : F->trial[i];
         if (F->held[i] || !(fabs(then) > RG_PI + beyond)) continue;
         hold(F, i);
@@ -233,6 +261,9 @@ static int begin_again(rg_flow *F)
     }
     memcpy(F->rho, F->from, (size_t)F->N * sizeof *F->rho);
     memset(F->u, 0, (size_t)F->U * sizeof *F->u);
+    memcpy(F->old_rho, F->from, (size_t)F->N * sizeof *F->rho);
+    memset(F->old_u, 0, (size_t)F->U * sizeof *F->u);
+    F->proper = 0;
     F->attempt++;
     F->s = F->old_s = F->best_s = F->best_least = 0;
     F->idle = 0;
@@ -258,7 +289,7 @@ static int land(rg_flow *F, double least)
         if (!isnan(F->target[i]) && !(fabs(F->rho[i] - target) <= F->step)) return 0;
     }
     if (F->end_is_closed) {
-        for (int32_t i = 0; i < F->N; i++) F->rho[i] = isnan(F->target[i]) ? 0 : F->target[i];
+        memcpy(F->rho, F->end, (size_t)F->N * sizeof *F->rho);
         memset(F->u, 0, (size_t)F->U * sizeof *F->u);
         F->landed = 1;
     }
@@ -267,12 +298,24 @@ static int land(rg_flow *F, double least)
     return 1;
 }
 
+/* The first state past the free start that keeps the limits: what lies between is taken straight from the start to it,
+ * as what closes near flat and near folded paper is homogeneous in the distance. */
+static int is_proper(const rg_flow *F)
+{
+    for (int32_t i = 0; i < F->limit.first_added; i++)
+        if (!isnan(F->target[i]) && !(fabs(F->trial[i]) <= RG_PI + BEYOND)) return 0;
+    return is_limited(F);
+}
+
 static void accept(rg_flow *F)
 {
     double least;
-    memcpy(F->old_rho, F->rho, (size_t)F->N * sizeof *F->rho);
-    memcpy(F->old_u, F->u, (size_t)F->U * sizeof *F->u);
-    F->old_s = F->s;
+    if (F->proper) {
+        memcpy(F->old_rho, F->rho, (size_t)F->N * sizeof *F->rho);
+        memcpy(F->old_u, F->u, (size_t)F->U * sizeof *F->u);
+        F->old_s = F->s;
+    }
+    F->proper = F->proper || is_proper(F);
     memcpy(F->rho, F->trial, (size_t)F->N * sizeof *F->rho);
     memcpy(F->u, F->trial_u, (size_t)F->U * sizeof *F->u);
     F->s = progress(F, F->rho, &least);

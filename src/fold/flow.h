@@ -36,9 +36,12 @@ typedef struct rg_flow {
     rg_adjust adjust;
     rg_limit limit;
     double *from, *target;    /* [N] radians; equal: the crease stays where it is; target NAN: wishes nothing */
+    double *end;              /* [N] target where there is one, closed on the pattern given if that is possible */
     int32_t driven;
+    int from_flat;
     double *rho, *u, s;       /* the state: closed, [N] [U], progress */
-    double *old_rho, *old_u, old_s; /* the state before it */
+    double *old_rho, *old_u, old_s; /* the state before it, or the start while no state is proper */
+    int proper;               /* the start is left behind, and the limits are kept */
     double *trial, *trial_u;
     double *wish, *z, *scale, *dz; /* [N + U] */
     double *loud, *pull;      /* [N] */

@@ -87,39 +87,61 @@ static rg_status straight(rg_choice *c, const rg_mesh *none, const rg_settings *
     return RG_OK;
 }
 
-static void describe(const rg_flow_law *law, int all, char *text, size_t room)
+static void describe(const rg_flow_law *law, int all, int back, char *text, size_t room)
 {
     const char *moves = law->give > 0 ? "joint flow, the pattern gives way" : law->gain > 0 ? "flow with adjusted creases" : "flow";
-    snprintf(text, room, "%s%s%s%s", moves, all ? ", triangulated" : "", law->kawasaki ? ", kept flat-foldable" : "",
-             law->attempts ? ", several starts" : "");
+    snprintf(text, room, "%s%s%s%s%s", moves, all ? ", triangulated" : "", law->kawasaki ? ", kept flat-foldable" : "",
+             law->attempts ? ", several starts" : "", back ? ", unfolded from its end" : "");
+}
+
+/* One flow by one law, from flat or, back, from the folded end to flat. */
+static rg_status flow_once(rg_take *t, const rg_mesh *none, const rg_settings *s, const rg_flow_law *law, int all, int back,
+                           double budget, rg_watch *watch, rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(s->memory);
+    const double sign = s->to < 0 ? -1 : 1;
+    rg_mesh m;
+    rg_status status = copy_mesh(none, all, &m);
+    if (status != RG_OK) return status;
+    double *target = rg_mem_array(&mem, (size_t)m.N, sizeof *target), *end = rg_mem_array(&mem, (size_t)m.N, sizeof *end);
+    double *flat = rg_mem_array(&mem, (size_t)m.N, sizeof *flat);
+    if (target && end && flat) {
+        for (int32_t i = 0; i < m.N; i++) {
+            target[i] = i < m.N - m.added ? sign * m.target[m.crease_edge[i]] : NAN;
+            end[i] = isnan(target[i]) ? 0 : target[i];
+        }
+        if (!back) {
+            status = rg_take_flow(t, &m, s, law, NULL, target, budget, watch, why);
+        } else {
+            for (int32_t i = 0; i < m.N; i++) flat[i] = isnan(target[i]) ? NAN : 0;
+            status = rg_take_flow(t, &m, s, law, end, flat, budget, watch, why);
+            if (status == RG_OK) rg_take_turn_round(t, target);
+        }
+    } else {
+        status = RG_ENOMEM;
+    }
+    rg_mesh_free(&m);
+    rg_mem_free(&mem, target);
+    rg_mem_free(&mem, end);
+    rg_mem_free(&mem, flat);
+    return status;
 }
 
 static rg_status flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, int all, rg_watch *watch, rg_diag *why, int *done)
 {
-    const rg_memory mem = rg_mem_default(s->memory);
-    const double sign = s->to < 0 ? -1 : 1;
-    double left = MOST_WORK[s->effort];
-    for (int32_t n = 0; n < MOST_LAWS[s->effort] && !*done && left > 0; n++) {
-        rg_flow_law law = LAWS[n];
-        if (law.gain > 0 && s->adjust == 0) continue;
-        if (law.gain > 0 && s->adjust > 0) law.gain = s->adjust;
-        rg_mesh m;
-        rg_take t;
-        rg_status status = copy_mesh(none, all, &m);
-        double *target = status == RG_OK ? rg_mem_array(&mem, (size_t)m.N, sizeof *target) : NULL;
-        if (status == RG_OK && !target) rg_mesh_free(&m), status = RG_ENOMEM;
-        if (status != RG_OK) return status;
-        for (int32_t i = 0; i < m.N; i++) target[i] = i < m.N - m.added ? sign * m.target[m.crease_edge[i]] : NAN;
-        const double budget = left < MOST_WORK_OF_ONE[s->effort] ? left : MOST_WORK_OF_ONE[s->effort];
-        status = rg_take_flow(&t, &m, s, &law, NULL, target, budget, watch, why);
-        rg_mem_free(&mem, target);
-        if (status != RG_OK) return status;
-        left -= t.work;
-        char text[120];
-        describe(&law, all, text, sizeof text);
-        *done = consider(c, &t, all ? "all" : "none", all ? "stops short without added creases" : "asked for", text) ||
-                watch->cancelled;
-    }
+    double left = MOST_WORK[s->effort], work;
+    rg_flow_law law;
+    for (int32_t n = 0, use; (use = rg_strategy_law(s, n, &law, &work)) >= 0 && !*done; n++)
+        for (int back = 0; use && back <= (law.give > 0 && fabs(s->to) == 1) && !*done && left > 0; back++) {
+            rg_take t;
+            char text[120];
+            const rg_status status = flow_once(&t, none, s, &law, all, back, fmin(left, work), watch, why);
+            if (status != RG_OK) return status;
+            left -= t.work;
+            describe(&law, all, back, text, sizeof text);
+            *done = consider(c, &t, all ? "all" : "none", all ? "stops short without added creases" : "asked for", text) ||
+                    watch->cancelled;
+        }
     return RG_OK;
 }
 

@@ -163,7 +163,7 @@ rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, cons
             attempt = F.attempt;
             frame = t->count = 1;
         }
-        if (F.steps > 1) keep_passed(t, &F, settings->frames, &frame);
+        if (F.proper || F.landed) keep_passed(t, &F, settings->frames, &frame);
         if (is_cancelled(watch, F.s_end > 0 ? F.s / F.s_end : 1)) break;
     }
     if (s == RG_OK) {
@@ -189,4 +189,29 @@ rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, cons
     }
     t->cost.seconds = seconds() - begun;
     return RG_OK;
+}
+
+static void swap(void *a, void *b, size_t bytes)
+{
+    unsigned char *x = a, *y = b;
+    for (size_t i = 0; i < bytes; i++) {
+        const unsigned char was = x[i];
+        x[i] = y[i];
+        y[i] = was;
+    }
+}
+
+void rg_take_turn_round(rg_take *t, const double *target)
+{
+    const size_t N = (size_t)t->mesh.N, nv = (size_t)t->mesh.nv;
+    if (t->outcome != RG_FOLDED) {
+        t->score = -1;
+        return;
+    }
+    for (size_t i = 0, j = (size_t)t->count - 1; i < j; i++, j--) {
+        swap(t->rho + i * N, t->rho + j * N, N * sizeof *t->rho);
+        if (t->flat) swap(t->flat + i * nv, t->flat + j * nv, nv * sizeof *t->flat);
+    }
+    memcpy(t->target, target, N * sizeof *target);
+    memset(t->from, 0, N * sizeof *t->from);
 }
