@@ -217,10 +217,22 @@ static int land(rg_fold *f)
     return 1;
 }
 
-/* A node at s from the prediction in f->trial. far: see set_right. Non-zero: it is made, in f->trial and f->t. */
-static int make_node(rg_fold *f, double s, double *far)
+/* With more creases than equations t is known beside the path as well as on it, and a good prediction need not be closed
+ * to ask for it there. */
+static int make_node_at_once(rg_fold *f, double s, double *far)
+{
+    if (!(rg_integrate_tangent(f, f->trial, s, 0, f->t) > 0)) return 0;
+    *far = f->moved = set_right(f, s);
+    return *far <= FARTHEST_SET_RIGHT && rg_newton_close(f, s, CORRECTIONS, 1);
+}
+
+/* A node at s from the prediction in f->trial, which closes to `error`. far: see set_right. Non-zero: it is made, in
+ * f->trial and f->t. */
+static int make_node(rg_fold *f, double s, double error, double *far)
 {
     const int32_t N = f->mesh.N;
+    if (!f->one_way && N > 3 * f->mesh.M && error <= GOOD_PREDICTION && f->path.count >= RG_PATH_WINDOW)
+        return make_node_at_once(f, s, far) && !(rg_limit_pull(&f->limit, f->trial, f->pull) > 0);
     if (!rg_newton_close(f, s, CORRECTIONS, 0)) return 0;
     if (!(rg_integrate_tangent(f, f->trial, s, 1, f->t) > 0)) return 0;
     *far = 0;
@@ -239,14 +251,13 @@ static int make_node(rg_fold *f, double s, double *far)
     return !(rg_limit_pull(&f->limit, f->trial, f->pull) > 0);
 }
 
-/* Where the next node is put for a step of h: the end if that is near, a frame if one is, for which it then costs
- * nothing more. */
+/* Where the next node is put for a step of h: the end if that is near, the last frame that is within reach, for which it then
+ * costs nothing more. */
 static double snap(const rg_fold *f, double from, double h)
 {
     if (from + 1.2 * h >= f->s_end) return f->s_end;
-    int32_t frame = (int32_t)((from + h) / rg_fold_frame_progress(f, 1) + 0.5);
-    double s = rg_fold_frame_progress(f, frame);
-    return !f->one_way && fabs(s - from - h) <= 0.3 * h ? s : from + h;
+    double s = rg_fold_frame_progress(f, (int32_t)((from + 1.3 * h) / rg_fold_frame_progress(f, 1)));
+    return !f->one_way && s - from >= 0.4 * h ? s : from + h;
 }
 
 int rg_integrate_advance(rg_fold *f)
@@ -263,7 +274,7 @@ int rg_integrate_advance(rg_fold *f)
             continue; /* the wish has no direction at the end itself */
         }
         double error = rg_constraint_closure(&f->K, f->trial, NULL), rate = error / reach(f, s);
-        if (!(error <= POOR_PREDICTION) || !make_node(f, s, &far)) continue;
+        if (!(error <= POOR_PREDICTION) || !make_node(f, s, error, &far)) continue;
         rg_path_insert(p, s, f->trial, f->t);
         f->nodes++;
         if (!f->one_way) choose_order(f);
