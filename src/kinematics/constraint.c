@@ -63,7 +63,6 @@ rg_status rg_constraint_init(rg_constraint *K, const rg_memory *mem, const rg_me
         rg_constraint_free(K);
         return RG_ENOMEM;
     }
-    for (int32_t k = 0; k < m->M; k++) K->C.x[m->loop_start[k]] = (rg_vec3){1, 0, 0};
     rg_constraint_set_theta(K, m->loop_theta);
     return RG_OK;
 }
@@ -101,42 +100,49 @@ static void turn_creases(rg_constraint *K, const double *rho)
     rg_turn_creases(4, rest, K->cos + whole, K->sin + whole);
 }
 
-/* Round each vertex of the four, as rg_loop_walk does: C's numbers and r if they are wanted. bad[4]: out, a measure of
- * the rotation angle of F that rises with it, sin^2 up to a right angle and 2 - sin^2 beyond; NaN for NaN. */
+/* One row of A, A <- A chi: eq. (1). */
+RG_WITHIN void advance(rg_quad *x, rg_quad *y, rg_quad *z, const rg_quad *rho_cos, const rg_quad *rho_sin,
+                       const rg_quad *theta_cos, const rg_quad *theta_sin)
+{
+    const rg_quad turned = *rho_cos * *y + *rho_sin * *z;
+    *z = *rho_cos * *z - *rho_sin * *y;
+    *y = *theta_cos * turned - *theta_sin * *x;
+    *x = *theta_cos * *x + *theta_sin * turned;
+}
+
+/* v[4] <- four vectors */
+RG_WITHIN void scatter(const rg_quad *x, const rg_quad *y, const rg_quad *z, rg_vec3 *v0, rg_vec3 *v1, rg_vec3 *v2, rg_vec3 *v3)
+{
+    *v0 = (rg_vec3){(*x)[0], (*y)[0], (*z)[0]};
+    *v1 = (rg_vec3){(*x)[1], (*y)[1], (*z)[1]};
+    *v2 = (rg_vec3){(*x)[2], (*y)[2], (*z)[2]};
+    *v3 = (rg_vec3){(*x)[3], (*y)[3], (*z)[3]};
+}
+
+/* Round each vertex of the four, as rg_loop_walk does: C's numbers and r if they are wanted. bad: out, a measure of the
+ * rotation angle of F that rises with it, sin^2 up to a right angle and 2 - sin^2 beyond; NaN for NaN. Loops of three and
+ * four are written out: compilers unroll them at -O3 only. */
 RG_WITHIN void walk_four(rg_constraint *K, const rg_four *four, int wanted, rg_quad *bad)
 {
-    const int32_t *crease = K->crease + 4 * four->at;
+    const int32_t *crease = K->crease + 4 * four->at, *start = K->C.start, *vertex = four->vertex;
     const double *tc = K->theta_cos + 4 * four->at, *ts = K->theta_sin + 4 * four->at;
     const double *cosine = K->cos, *sine = K->sin;
-    rg_quad x[3], y[3], z[3]; /* columns of A */
-    rg_vec3 *c[4];
-    for (int lane = 0; lane < 4; lane++) c[lane] = K->C.x + K->C.start[four->vertex[lane]];
+    rg_vec3 *c0 = K->C.x + start[vertex[0]], *c1 = K->C.x + start[vertex[1]];
+    rg_vec3 *c2 = K->C.x + start[vertex[2]], *c3 = K->C.x + start[vertex[3]];
+    rg_quad xx = {1, 1, 1, 1}, xy = {0}, xz = {0}, yx = {0}, yy = xx, yz = {0}, zx = {0}, zy = {0}, zz = xx; /* columns of A */
     for (int32_t i = 0; i < four->degree; i++, crease += 4, tc += 4, ts += 4) {
-        const rg_quad rho_cos = {cosine[crease[0]], cosine[crease[1]], cosine[crease[2]], cosine[crease[3]]};
-        const rg_quad rho_sin = {sine[crease[0]], sine[crease[1]], sine[crease[2]], sine[crease[3]]};
-        const rg_quad theta_cos = *(const rg_quad_anywhere *)tc, theta_sin = *(const rg_quad_anywhere *)ts;
-        if (i == 0) { /* from I, whose e_x is there since init */
-            x[0] = theta_cos, x[1] = theta_sin * rho_cos, x[2] = theta_sin * rho_sin;
-            y[0] = -theta_sin, y[1] = theta_cos * rho_cos, y[2] = theta_cos * rho_sin;
-            z[0] = (rg_quad){0}, z[1] = -rho_sin, z[2] = rho_cos;
-            continue;
-        }
-        if (wanted)
-            for (int lane = 0; lane < 4; lane++) c[lane][i] = (rg_vec3){x[0][lane], x[1][lane], x[2][lane]}; /* A_i e_x  eqs. (2)-(7) */
-        for (int a = 0; a < 3; a++) { /* F = chi_1 ... chi_n     eq. (1) */
-            const rg_quad turned = rho_cos * y[a] + rho_sin * z[a];
-            z[a] = rho_cos * z[a] - rho_sin * y[a];
-            y[a] = theta_cos * turned - theta_sin * x[a];
-            x[a] = theta_cos * x[a] + theta_sin * turned;
-        }
+        const rg_quad rc = {cosine[crease[0]], cosine[crease[1]], cosine[crease[2]], cosine[crease[3]]};
+        const rg_quad rs = {sine[crease[0]], sine[crease[1]], sine[crease[2]], sine[crease[3]]};
+        const rg_quad c = *(const rg_quad_anywhere *)tc, s = *(const rg_quad_anywhere *)ts;
+        if (wanted) scatter(&xx, &xy, &xz, c0 + i, c1 + i, c2 + i, c3 + i); /* (b, c, a)_i = A_i e_x      eqs. (2)-(7) */
+        advance(&xx, &yx, &zx, &rc, &rs, &c, &s);
+        advance(&xy, &yy, &zy, &rc, &rs, &c, &s);
+        advance(&xz, &yz, &zz, &rc, &rs, &c, &s);
     }
-    const rg_quad r0 = (y[2] - z[1]) * 0.5, r1 = (z[0] - x[2]) * 0.5, r2 = (x[1] - y[0]) * 0.5; /* eq. (13) */
-    if (wanted)
-        for (int lane = 0; lane < 4; lane++) { /* eq. (12) */
-            double *r = K->r + 3 * four->vertex[lane];
-            r[0] = r0[lane], r[1] = r1[lane], r[2] = r2[lane];
-        }
-    const rg_quad sine2 = r0 * r0 + r1 * r1 + r2 * r2, twice = x[0] + y[1] + z[2] - 1;
+    const rg_quad r0 = (yz - zy) * 0.5, r1 = (zx - xz) * 0.5, r2 = (xy - yx) * 0.5; /* eq. (13) */
+    rg_vec3 *r = (rg_vec3 *)K->r; /* eq. (12) */
+    if (wanted) scatter(&r0, &r1, &r2, r + vertex[0], r + vertex[1], r + vertex[2], r + vertex[3]);
+    const rg_quad sine2 = r0 * r0 + r1 * r1 + r2 * r2, twice = xx + yy + zz - 1;
     const rg_quad_int acute = twice > 0;
     *bad = (rg_quad)((acute & (rg_quad_int)sine2) | (~acute & (rg_quad_int)(2 - sine2)));
 }
