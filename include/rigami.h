@@ -222,7 +222,7 @@ typedef struct rg_report {
     int32_t added_creases, unknowns, constraints, components; /* the model */
     const char *triangulation;                                /* "none" or "all", and why, below */
     const char *why_triangulated;
-    char strategy[120];                                       /* what got it there: triangulation, adjustment, drive */
+    char strategy[160];                                       /* what got it there: triangulation, adjustment, drive */
     double adjust_gain, pattern_gives;                        /* both 0: the pattern was not moved */
     int32_t tries;                                            /* of which this motion is the first that folds, or the best */
     const char *method, *solver;
@@ -310,6 +310,21 @@ RG_API rg_status rg_report_write(const rg_motion *m, double seconds_writing, dou
 RG_API rg_status rg_info_write(const rg_pattern *p, const char *file, rg_diag *why);
 /* The same for people: counts, what may keep it from folding and where, what triangulating adds, warnings. */
 RG_API rg_status rg_info_text(const rg_pattern *p, const char *file, rg_diag *why);
+
+/* ----------------------------------------------------------------------------------------------- chart ---- */
+
+/* Speed against accuracy for one pattern: every method with every solver over a range of steps, against the path in
+ * closed form where there is one, else against one refined until it stands still. */
+typedef struct rg_chart rg_chart;
+
+/* Takes seconds to a minute. s: triangulate (auto: as drawn if that folds), frames, to, tol, memory; method and solver are
+ * those of the chart. Stopped by `progress`, it holds what was done so far. RG_ESHEET; RG_EARG: no vertex inside the sheet.
+ * Owner: the caller, rg_chart_destroy. */
+RG_API rg_status rg_chart_create(const rg_pattern *p, const rg_settings *s, rg_progress progress, void *ctx,
+                                 rg_chart **chart, rg_diag *why);
+RG_API void rg_chart_destroy(rg_chart *c);
+/* .csv: every run; .svg: the diagram; .md and "-": what it says, in words and tables. `title`: the pattern's name. */
+RG_API rg_status rg_chart_write(const rg_chart *c, const char *title, const char *path, rg_diag *why);
 
 #ifdef __cplusplus
 }

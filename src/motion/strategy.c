@@ -22,7 +22,7 @@ static const rg_flow_law LAWS[] = {
 enum { LAW_COUNT = sizeof LAWS / sizeof *LAWS };
 /* Laws that are tried, and work that is spent in all and on one, by effort. */
 static const int32_t MOST_LAWS[] = {4, LAW_COUNT, LAW_COUNT};
-static const double MOST_WORK[] = {8, 60, 600}, MOST_WORK_OF_ONE[] = {4, 25, 200};
+static const double MOST_WORK[] = {8, 120, 1500}, MOST_WORK_OF_ONE[] = {4, 25, 300};
 
 int rg_strategy_law(const rg_settings *s, int32_t n, rg_flow_law *law, double *work)
 {
@@ -33,9 +33,13 @@ int rg_strategy_law(const rg_settings *s, int32_t n, rg_flow_law *law, double *w
     return s->adjust != 0 || law->gain == 0;
 }
 
-static rg_status copy_mesh(const rg_mesh *m, int all, rg_mesh *out)
+/* The facets as drawn, or cut: so that inside angles are split, or by the shortest diagonals. Either folds patterns that the
+ * other does not. */
+typedef enum cut { AS_DRAWN, SPLITTING, SHORT } cut;
+
+static rg_status copy_mesh(const rg_mesh *m, cut how, rg_mesh *out)
 {
-    return all ? rg_triangulate_all(m, out) : rg_mesh_copy(m, out);
+    return how == SPLITTING ? rg_triangulate_all(m, out) : how == SHORT ? rg_triangulate_short(m, out) : rg_mesh_copy(m, out);
 }
 
 static void add_cost(rg_cost *sum, const rg_cost *c)
@@ -80,28 +84,28 @@ static rg_status straight(rg_choice *c, const rg_mesh *none, const rg_settings *
     rg_take t;
     rg_settings mine = *s;
     mine.triangulate = all ? RG_TRIANGULATE_ALL : RG_TRIANGULATE_NONE;
-    rg_status status = copy_mesh(none, all, &m);
+    rg_status status = copy_mesh(none, all ? SPLITTING : AS_DRAWN, &m);
     if (status == RG_OK) status = rg_take_straight(&t, &m, &mine, watch, why);
     if (status != RG_OK) return status;
     *done = consider(c, &t, all ? "all" : "none", why_all, all ? "straight on, triangulated" : "straight on") || watch->cancelled;
     return RG_OK;
 }
 
-static void describe(const rg_flow_law *law, int all, int back, char *text, size_t room)
+static void describe(const rg_flow_law *law, cut how, int back, char *text, size_t room)
 {
     const char *moves = law->give > 0 ? "joint flow, the pattern gives way" : law->gain > 0 ? "flow with adjusted creases" : "flow";
-    snprintf(text, room, "%s%s%s%s%s", moves, all ? ", triangulated" : "", law->kawasaki ? ", kept flat-foldable" : "",
+    snprintf(text, room, "%s%s%s%s%s", moves, how == SPLITTING ? ", triangulated" : how == SHORT ? ", triangulated by short diagonals" : "", law->kawasaki ? ", kept flat-foldable" : "",
              law->attempts ? ", several starts" : "", back ? ", unfolded from its end" : "");
 }
 
 /* One flow by one law, from flat or, back, from the folded end to flat. */
-static rg_status flow_once(rg_take *t, const rg_mesh *none, const rg_settings *s, const rg_flow_law *law, int all, int back,
+static rg_status flow_once(rg_take *t, const rg_mesh *none, const rg_settings *s, const rg_flow_law *law, cut how, int back,
                            double budget, rg_watch *watch, rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(s->memory);
     const double sign = s->to < 0 ? -1 : 1;
     rg_mesh m;
-    rg_status status = copy_mesh(none, all, &m);
+    rg_status status = copy_mesh(none, how, &m);
     if (status != RG_OK) return status;
     double *target = rg_mem_array(&mem, (size_t)m.N, sizeof *target), *end = rg_mem_array(&mem, (size_t)m.N, sizeof *end);
     double *flat = rg_mem_array(&mem, (size_t)m.N, sizeof *flat);
@@ -132,13 +136,17 @@ static rg_status flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, i
     double left = MOST_WORK[s->effort], work;
     rg_flow_law law;
     for (int32_t n = 0, use; (use = rg_strategy_law(s, n, &law, &work)) >= 0 && !*done; n++)
-        for (int back = 0; use && back <= (law.give > 0 && fabs(s->to) == 1) && !*done && left > 0; back++) {
+        for (int way = 0; use && way < 4 && !*done && left > 0; way++) {
+            const int back = way % 2, shorter = way / 2;
+            if (back && !(law.give > 0 && fabs(s->to) == 1)) continue;
+            if (shorter && (!all || law.gain == 0)) continue;
+            const cut how = !all ? AS_DRAWN : shorter ? SHORT : SPLITTING;
             rg_take t;
-            char text[120];
-            const rg_status status = flow_once(&t, none, s, &law, all, back, fmin(left, work), watch, why);
+            char text[160];
+            const rg_status status = flow_once(&t, none, s, &law, how, back, fmin(left, work), watch, why);
             if (status != RG_OK) return status;
             left -= t.work;
-            describe(&law, all, back, text, sizeof text);
+            describe(&law, how, back, text, sizeof text);
             *done = consider(c, &t, all ? "all" : "none", all ? "stops short without added creases" : "asked for", text) ||
                     watch->cancelled;
         }

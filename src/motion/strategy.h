@@ -13,7 +13,7 @@
 typedef struct rg_choice {
     rg_take take;
     const char *triangulation, *why_triangulated;
-    char strategy[120];
+    char strategy[160];
     int32_t tries;
     rg_cost cost; /* of all tries */
 } rg_choice;
