@@ -157,7 +157,7 @@ static int land(rg_fold *f)
 {
     const int32_t N = f->mesh.N;
     double far = 0, refused = 0, wished = 0, left = 1 - f->s;
-    if (f->s_end < 1 || !f->end_is_closed) return 0;
+    if (f->s_end < 1 || !f->end_is_closed || f->frame < f->settings.frames - 1) return 0;
     for (int32_t i = 0; i < N; i++) {
         double d = f->end[i] - f->rho[i];
         far = fmax(far, fabs(d));
@@ -194,7 +194,9 @@ static void step_newton(rg_fold *f)
     }
     if (land(f)) return;
     double fastest = largest(N, f->t), most = f->settings.step / fastest;
-    double ds = fmin(fmin(f->ds, most), goal - f->s);
+    const double left = goal - f->s;
+    double ds = fmin(f->ds, most);
+    if (!(ds < left - SMALLEST_STEP)) ds = left; /* leaves no rest that would be too small a step */
     for (;; ds /= 2) {
         if (!(ds > SMALLEST_STEP)) {
             stop(f, "the facets leave no way on: even the smallest step does not close");
@@ -208,7 +210,7 @@ static void step_newton(rg_fold *f)
         }
         if (strayed <= FARTHEST_CORRECTION * way + 1e-6) break;
     }
-    int whole = f->s + ds >= goal;
+    int whole = ds >= left;
     f->ds = whole ? fmax(2 * ds, f->ds == INFINITY ? 0 : f->ds) : 2 * ds;
     accept(f, f->trial, whole ? goal : f->s + ds);
 }
@@ -235,13 +237,13 @@ static void step_euler(rg_fold *f)
         stop(f, "the step diverged");
         return;
     }
-    if (f->s + ds > goal && ds > 0) part = (goal - f->s) / ds;
+    if (f->s + ds > goal - SMALLEST_STEP && ds > 0) part = (goal - f->s) / ds;
     if (!(part * way > SMALLEST_STEP * f->settings.step)) {
         stop(f, "no motion that the facets allow folds any further");
         return;
     }
     for (int32_t i = 0; i < N; i++) f->trial[i] = f->rho[i] + part * f->t[i]; /* eq. (10) */
-    accept(f, f->trial, part < 1 ? goal : f->s + ds);
+    accept(f, f->trial, part != 1 ? goal : f->s + ds);
     f->closure = rg_constraint_closure(&f->K, f->rho, NULL);
 }
 
