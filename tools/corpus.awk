@@ -16,11 +16,14 @@ function count(set, way) {
     folds = $21 == 0 && $11 >= 99 && $12 <= 1e-8 && $13 <= 1e-8
     if (folds) folded[set, way]++
     if ($12 != "" && $12 <= 1e-8) closed[set, way]++
+    if (set == "all" && way == "full" && folds && $16 >= 1e-9) { moved[++moves] = $16 + 0; stretched[moves] = $17 + 0 }
     if ($18 + 0 > slowest[set, way]) slowest[set, way] = $18 + 0
     percent[set, way] += $10
 }
 function of(n, all) { return sprintf("%d of %d", n, all) }
 function short(x) { return x == "" ? "" : x == 0 ? "0" : sprintf("%.0e", x) }
+# Degrees beyond half a turn, where they are more than may be.
+function over(x) { return x > 0.1 ? sprintf("%.1f", x) : "" }
 function part(x) { return x < 1e-9 ? "" : x < 0.0005 ? "< 0.001" : sprintf("%.3f", x) }
 # Percent are cut, not rounded: 99.97 is not 100.
 function cut(x) { return x == "" ? "" : sprintf("%.1f", int(x * 10) / 10) }
@@ -34,12 +37,15 @@ function summary(set, words,   w, way, i) {
             slowest[set, way]
     }
 }
-function sort_names(   i, j, t) {
-    for (i = 2; i <= patterns; i++)
-        for (j = i; j > 1 && pattern[j] < pattern[j - 1]; j--) { t = pattern[j]; pattern[j] = pattern[j - 1]; pattern[j - 1] = t }
+function sort(a, n,   i, j, t) {
+    for (i = 2; i <= n; i++)
+        for (j = i; j > 1 && a[j] < a[j - 1]; j--) { t = a[j]; a[j] = a[j - 1]; a[j - 1] = t }
 }
 END {
-    sort_names()
+    sort(pattern, patterns)
+    sort(moved, moves)
+    sort(stretched, moves)
+    middle = int((moves + 1) / 2)
     print "# Which real crease patterns fold\n"
     print "Written by `make corpus`, by " version "; all columns and reasons are in [corpus.csv](corpus.csv). The patterns are other"
     print "people's and not part of this project. Each is flat-foldable at every vertex (angles to 0.6 degrees) and has one sheet without"
@@ -54,15 +60,22 @@ END {
     print "\nAs drawn: `--adjust off --triangulate none --method newton`, the kinematics of section 2 alone. Triangles: `--triangulate all`"
     print "instead, section 3.2. As usual: no options; added creases, adjusted creases of section 3.3 and what goes beyond it, each only"
     print "where the pattern needs it.\n"
+    if (moves) {
+        printf "%d of those that fold as usual do so with their vertices moved on the way: by %.1f %% of the sheet in the middle one,\n",
+            moves, 100 * moved[middle]
+        printf "by %.1f %% in the one that needs most; the line stretched or shortened most is so by %.0f %% and %.0f %%.\n\n",
+            100 * moved[moves], 100 * stretched[middle], 100 * stretched[moves]
+    }
     print "## As usual\n"
     print "N: creases. Closed: closed vertices (3.1). Moved: the largest displacement of a vertex, over the sheet's size. Stretched: the"
-    print "largest strain against the pattern given, over all frames. Tries: of which this one is the first that folds, or the best.\n"
-    print "| pattern | N | closed | outcome | folded, % | least, % | closure | strain | moved | stretched | tries | s | strategy |"
-    print "|---|--:|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|---|"
+    print "largest strain against the pattern given, over all frames. Over: degrees by which a crease was beyond half a turn, where they"
+    print "are more than 0.1. Tries: of which this one is the first that folds, or the best.\n"
+    print "| pattern | N | closed | outcome | folded, % | least, % | closure | strain | moved | stretched | over | tries | s | strategy |"
+    print "|---|--:|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|---|"
     for (i = 1; i <= patterns; i++) {
         split(line["full", pattern[i]], f, ",")
-        printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %.1f | %s |\n", pattern[i], f[3], f[5], f[19], cut(f[10]), cut(f[11]),
-            short(f[12]), short(f[13]), part(f[16]), part(f[17]), f[8], f[18], f[7]
+        printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %.1f | %s |\n", pattern[i], f[3], f[5], f[19],
+            cut(f[10]), cut(f[11]), short(f[12]), short(f[13]), part(f[16]), part(f[17]), over(f[15]), f[8], f[18], f[7]
     }
     print "\n## As drawn, and in triangles\n"
     print "| pattern | as drawn: outcome | folded, % | least, % | closure | s | triangles: outcome | folded, % | least, % | closure | s |"
