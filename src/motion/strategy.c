@@ -37,6 +37,9 @@ int rg_strategy_law(const rg_settings *s, int32_t n, rg_flow_law *law, double *w
  * other does not. */
 typedef enum cut { AS_DRAWN, SPLITTING, SHORT } cut;
 
+/* How often half as much give is tried when the pattern folds. */
+static const int32_t LESS_GIVE[] = {0, 2, 5};
+
 static rg_status copy_mesh(const rg_mesh *m, cut how, rg_mesh *out)
 {
     return how == SPLITTING ? rg_triangulate_all(m, out) : how == SHORT ? rg_triangulate_short(m, out) : rg_mesh_copy(m, out);
@@ -57,12 +60,13 @@ static const double OVERFOLD = 0.1 * RG_DEG;
 
 static int rank(const rg_take *t) { return t->outcome != RG_FOLDED ? 0 : t->overfold > OVERFOLD ? 1 : 2; }
 
-/* Keeps the better of what is kept and *t; takes *t over. Non-zero: it folds, nothing more is to be tried. */
+/* Keeps the better of what is kept and *t; takes *t over. Of two that fold the one that moves the pattern less is better.
+ * Non-zero: *t folds, and was kept. */
 static int consider(rg_choice *c, rg_take *t, const char *triangulation, const char *why, const char *strategy)
 {
     add_cost(&c->cost, &t->cost);
     const int old = c->take.mem.resize ? rank(&c->take) : -1, new = rank(t);
-    const int better = new > old || (new == old && t->score > c->take.score);
+    const int better = new > old || (new == old && (new == 2 ? t->moved < c->take.moved : t->score > c->take.score));
     c->tries++;
     if (!better) {
         rg_take_free(t);
@@ -131,24 +135,52 @@ static rg_status flow_once(rg_take *t, const rg_mesh *none, const rg_settings *s
     return status;
 }
 
-static rg_status flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, int all, rg_watch *watch, rg_diag *why, int *done)
+/* What is tried, besides the law: how facets are cut, and whether the motion is found from its end. */
+typedef struct way { cut how; int back; double left; } way;
+
+static rg_status try_flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, const rg_flow_law *law, way *w, double work,
+                          rg_watch *watch, rg_diag *why, int *folds)
 {
-    double left = MOST_WORK[s->effort], work;
+    rg_take t;
+    char text[160];
+    const rg_status status = flow_once(&t, none, s, law, w->how, w->back, fmin(w->left, work), watch, why);
+    if (status != RG_OK) return status;
+    w->left -= t.work;
+    describe(law, w->how, w->back, text, sizeof text);
+    *folds = consider(c, &t, w->how ? "all" : "none", w->how ? "stops short without added creases" : "asked for", text);
+    return RG_OK;
+}
+
+/* The pattern should give way no more than it has to: half as readily, while that still folds and moves it less. */
+static rg_status economise(rg_choice *c, const rg_mesh *none, const rg_settings *s, rg_flow_law law, way *w, double work,
+                           rg_watch *watch, rg_diag *why)
+{
+    rg_status status = RG_OK;
+    for (int n = 0, folds = 1; n < LESS_GIVE[s->effort] && folds && w->left > 0 && !watch->cancelled && status == RG_OK; n++) {
+        law.give /= 2;
+        status = try_flow(c, none, s, &law, w, work, watch, why, &folds);
+    }
+    return status;
+}
+
+static rg_status flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, int all, rg_watch *watch, rg_diag *why)
+{
+    double work;
+    int folds = 0;
     rg_flow_law law;
-    for (int32_t n = 0, use; (use = rg_strategy_law(s, n, &law, &work)) >= 0 && !*done; n++)
-        for (int way = 0; use && way < 4 && !*done && left > 0; way++) {
-            const int back = way % 2, shorter = way / 2;
-            if (back && !(law.give > 0 && fabs(s->to) == 1)) continue;
+    rg_status status = RG_OK;
+    way w = {AS_DRAWN, 0, MOST_WORK[s->effort]};
+    for (int32_t n = 0, use; (use = rg_strategy_law(s, n, &law, &work)) >= 0; n++)
+        for (int k = 0; use && k < 4; k++) {
+            const int shorter = k / 2;
+            w.back = k % 2;
+            w.how = !all ? AS_DRAWN : shorter ? SHORT : SPLITTING;
+            if (w.back && !(law.give > 0 && fabs(s->to) == 1)) continue;
             if (shorter && (!all || law.gain == 0)) continue;
-            const cut how = !all ? AS_DRAWN : shorter ? SHORT : SPLITTING;
-            rg_take t;
-            char text[160];
-            const rg_status status = flow_once(&t, none, s, &law, how, back, fmin(left, work), watch, why);
+            if (!(w.left > 0) || watch->cancelled) return RG_OK;
+            status = try_flow(c, none, s, &law, &w, work, watch, why, &folds);
             if (status != RG_OK) return status;
-            left -= t.work;
-            describe(&law, how, back, text, sizeof text);
-            *done = consider(c, &t, all ? "all" : "none", all ? "stops short without added creases" : "asked for", text) ||
-                    watch->cancelled;
+            if (folds) return law.give > 0 ? economise(c, none, s, law, &w, work, watch, why) : RG_OK;
         }
     return RG_OK;
 }
@@ -166,7 +198,7 @@ rg_status rg_strategy_run(rg_choice *c, const rg_mesh *none, const rg_settings *
         status = straight(c, none, s, 1, may_leave ? "stops short without added creases" : "asked for", watch, why, &done);
     /* Who asks for a method and no adjustment asks for that and nothing else. */
     if (status == RG_OK && !done && !(s->method != RG_METHOD_AUTO && s->adjust == 0))
-        status = flow(c, none, s, may_add && !triangles, watch, why, &done);
+        status = flow(c, none, s, may_add && !triangles, watch, why);
     if (status == RG_OK && c->take.outcome != RG_FOLDED && strcmp(c->triangulation, "none") == 0 && may_add && may_leave && !triangles)
         c->why_triangulated = "added creases get it no further";
     if (status != RG_OK) rg_take_free(&c->take);

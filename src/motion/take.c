@@ -62,6 +62,15 @@ static double overfold(const rg_take *t)
     return most;
 }
 
+static double moved(const rg_take *t)
+{
+    double most = 0;
+    for (int32_t k = 0; t->flat && k < t->count; k++)
+        for (int32_t v = 0; v < t->mesh.nv; v++)
+            most = fmax(most, rg_vec2_length(rg_vec2_sub(t->flat[(size_t)k * (size_t)t->mesh.nv + (size_t)v], t->mesh.X[v])));
+    return most;
+}
+
 static void keep(rg_take *t, const double *rho, const rg_vec2 *X)
 {
     memcpy(t->rho + (size_t)t->count * (size_t)t->mesh.N, rho, (size_t)t->mesh.N * sizeof *rho);
@@ -176,6 +185,7 @@ rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, cons
             keep(t, F.rho, F.J.X);
         }
         t->overfold = overfold(t);
+        t->moved = moved(t);
         if (t->outcome == RG_STOPPED) s = rg_diagnose_flow(&F, t->vertex, &t->vertices, t->crease, &t->creases);
         t->work = F.work;
         t->method = "joint";

@@ -19,6 +19,7 @@ typedef struct rg_take {
     char reason[200];
     double score;             /* to compare takes by: how far it came */
     double overfold;          /* the most a driven crease was beyond half a turn in a frame, radians */
+    double moved;             /* the farthest a vertex of the pattern went, over frames, lengths */
     const char *method, *solver;
     rg_flow_law law;          /* of a flow */
     rg_cost cost;
