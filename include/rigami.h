@@ -229,7 +229,7 @@ typedef struct rg_report {
     int64_t steps, solves, cg_iterations, factorizations, assemblies;
     double seconds_total, seconds_solving;
     rg_outcome outcome;
-    char reason[240];
+    char reason[360];
     double folded_percent, least_folded_percent;
     double max_closure_residual; /* radians; recomputed from the fold angles */
     double max_edge_strain;      /* over frames and edges: | 3D length / pattern length - 1 | */

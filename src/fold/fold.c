@@ -306,7 +306,7 @@ rg_status rg_fold_step(rg_fold *f, rg_step_info *info)
             f->frame = f->settings.frames - 1;
             frame = f->frame;
             f->outcome = RG_FOLDED;
-        } else if (f->steps > MOST_STEPS) {
+        } else if (f->steps - f->frame > MOST_STEPS) { /* besides those that frames ask for */
             stop(f, "the number of steps ran out");
         } else if (creeps(f)) {
             stop(f, "it goes on in steps too small to get anywhere");

@@ -69,23 +69,39 @@ rg_status rg_motion_pose(const rg_motion *m, int32_t frame, double (*xyz)[3])
     return rg_motion_place(m, frame, (rg_vec3 *)xyz);
 }
 
-/* Where and why the kept try is held, in words: the strongest vertex and what it is. */
+/* A crease below the first has not left flat; within the second of half a turn it is at its limit. */
+static const double LOCKED = 1e-6, AT_LIMIT = 0.5 * RG_DEG;
+
+/* Of the creases that are held short: how many are locked flat, how many vertices' creases are at half a turn. */
+static void count_held(const rg_motion *m, int32_t *locked, int32_t *at_limit)
+{
+    const double *rho = rg_motion_angles(m, m->report.frame_count - 1);
+    *locked = *at_limit = 0;
+    for (int32_t i = 0; i < m->report.blocking_crease_count; i++) *locked += fabs(rho[m->report.blocking_creases[i]]) <= LOCKED;
+    for (int32_t i = 0; i < m->mesh.N - m->mesh.added; i++) *at_limit += fabs(rho[i]) >= RG_PI - AT_LIMIT;
+}
+
+/* Where and why the kept try is held, in words: the strongest vertex and what it is, the creases, what may help. */
 static void explain(rg_motion *m, const rg_pattern *p)
 {
     rg_report *r = &m->report;
     if (r->outcome != RG_STOPPED || !r->blocking_vertex_count) return;
     const double x = r->blocking_at[0][0], y = r->blocking_at[0][1];
-    int32_t creases = 0, closed = 0;
-    for (int32_t e = 0; e < m->mesh.ne; e++)
-        if (m->mesh.edge_crease[e] < m->mesh.N - m->mesh.added)
-            creases += m->mesh.edge[e][0] == r->blocking_vertices[0] || m->mesh.edge[e][1] == r->blocking_vertices[0];
+    int32_t creases = 0, closed = 0, locked, at_limit;
+    for (int32_t i = 0; i < m->mesh.N - m->mesh.added; i++) {
+        const int32_t *end = m->mesh.edge[m->mesh.crease_edge[i]];
+        creases += end[0] == r->blocking_vertices[0] || end[1] == r->blocking_vertices[0];
+    }
     for (int32_t i = 0; i < p->closed_triples; i++)
         closed |= hypot(p->closed[i].x - x, p->closed[i].y - y) <= 1e-9 * m->mesh.size;
-    const char *help = m->settings.adjust == 0 ? "; adjusting creases may help" : "";
-    if (m->settings.triangulate == RG_TRIANGULATE_NONE) help = "; added creases may help";
+    count_held(m, &locked, &at_limit);
+    const char *help = m->settings.triangulate == RG_TRIANGULATE_NONE ? "added creases may help"
+                       : m->settings.adjust == 0                      ? "adjusting creases may help"
+                                                                      : "nothing known helps";
     const size_t used = strlen(r->reason);
-    snprintf(r->reason + used, sizeof r->reason - used, "; held most at (%.6g, %.6g), %s vertex of %d creases%s", x, y,
-             closed ? "a closed" : "a", (int)creases, help);
+    snprintf(r->reason + used, sizeof r->reason - used,
+             "; held most at (%.6g, %.6g), a %svertex of %d creases (%d free); creases locked flat: %d, at half a turn: %d; %s", x, y,
+             closed ? "closed " : "", (int)creases, (int)(creases > 3 ? creases - 3 : 0), (int)locked, (int)at_limit, help);
 }
 
 /* What the kept try has, becomes the motion's. */
@@ -171,7 +187,7 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_
         rg_motion_destroy(m);
         return s == RG_ENOMEM ? rg_fail(s, why, 0, "out of memory") : s;
     }
-    explain(m, p);
+    if (!watch.cancelled) explain(m, p);
     r->seconds_total = seconds() - begun;
     *motion = m;
     return RG_OK;
