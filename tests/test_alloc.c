@@ -215,13 +215,16 @@ static void motions(void **state)
     }
 }
 
-/* A sheet that stops short has been tried in several ways: each of them may run out of memory. */
+/* A sheet that does not simply fold is tried in several ways: each of them may run out of memory. */
 static void motions_that_stop_short(void **state)
 {
     (void)state;
     job j = {.text = opx(3, 1), .settings = rg_settings_default()};
     j.settings.frames = 3;
     j.settings.effort = RG_EFFORT_FAST;
+    refuse_everywhere(create_motion, &j);
+    j.settings.triangulate = RG_TRIANGULATE_NONE;
+    j.settings.adjust = 0;
     refuse_everywhere(create_motion, &j);
     assert_true(j.folded < 99);
     free(j.text);

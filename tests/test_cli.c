@@ -49,6 +49,8 @@ static pid_t start(const char *const *args, const streams *s)
 {
     char *argv[MOST_ARGS + 2] = {program};
     posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    sigset_t usual;
     pid_t pid = 0;
     for (int i = 0; args[i]; i++) {
         assert_true(i < MOST_ARGS);
@@ -60,8 +62,16 @@ static pid_t start(const char *const *args, const streams *s)
     else if (s->out_fd > 0) posix_spawn_file_actions_adddup2(&actions, s->out_fd, 1);
     else posix_spawn_file_actions_addopen(&actions, 1, s->out ? s->out : "stdout", O_WRONLY | O_CREAT | O_TRUNC, 0644);
     posix_spawn_file_actions_addopen(&actions, 2, "stderr", O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    assert_int_equal(posix_spawn(&pid, program, &actions, NULL, argv, environ), 0);
+    /* Whoever runs the tests may ignore interrupts, and that is handed down. */
+    sigemptyset(&usual);
+    sigaddset(&usual, SIGINT);
+    sigaddset(&usual, SIGTERM);
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setsigdefault(&attributes, &usual);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    assert_int_equal(posix_spawn(&pid, program, &actions, &attributes, argv, environ), 0);
     posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
     return pid;
 }
 
@@ -204,7 +214,8 @@ static void a_fold_that_stops_short_is_written_and_explained(void **state)
     const char *const files[] = {"short.opx", "stuck.opx"};
     for (int i = 0; i < 2; i++) {
         char begin[80];
-        const ran *r = ends(1, run("fold", files[i], "-q", "-o", "short.fold", "-o", "short.csv", "--report", "short.json"));
+        const ran *r = ends(1, run("fold", files[i], "-q", "--triangulate", "none", "--adjust", "off", "-o", "short.fold", "-o",
+                                   "short.csv", "--report", "short.json"));
         snprintf(begin, sizeof begin, "rigami: %s: stopped at ", files[i]);
         assert_int_equal(strncmp(r->err, begin, strlen(begin)), 0);
         assert_non_null(strstr(r->err, "vert")); /* the vertex that blocks is the middle */
@@ -654,7 +665,7 @@ static void an_interrupted_fold_is_written_up_to_there(void **state)
         const struct timespec moment = {0, 2000000};
         unlink("stderr");
         unlink("broken.csv");
-        const pid_t pid = start(ARGS("fold", "good.opx", "--progress", "--frames", "1000000", "-o", "broken.csv", "--report",
+        const pid_t pid = start(ARGS("fold", "good.opx", "--progress", "--frames", "100000", "-o", "broken.csv", "--report",
                                      "broken.json"), &(streams){0});
         while (is_empty("stderr") && waitpid(pid, NULL, WNOHANG) == 0) nanosleep(&moment, NULL); /* until it folds */
         assert_int_equal(kill(pid, signals[k]), 0);
@@ -663,8 +674,8 @@ static void an_interrupted_fold_is_written_up_to_there(void **state)
         json_t *report = json_load_file("broken.json", 0, NULL);
         assert_non_null(report);
         const json_t *result = json_object_get(report, "result");
-        assert_string_equal(json_string_value(json_object_get(result, "reason")), "interrupted");
-        assert_true(json_array_size(json_object_get(report, "frames")) < 1000000);
+        assert_int_equal(strncmp(json_string_value(json_object_get(result, "reason")), "interrupted", 11), 0);
+        assert_true(json_array_size(json_object_get(report, "frames")) < 100000);
         json_decref(report);
         assert_false(is_empty("broken.csv"));
         assert_int_equal(names("broken."), 2);
