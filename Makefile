@@ -114,6 +114,10 @@ $B/tests/test_%: $B/tests/test_%.o $B/librigami.a
 	$(call say,link,$@)
 	$Q$(link) -o $@ $(filter %.o %.a,$^) -lcmocka $(if $(filter 1,$(GPL)),-lgsl -lgslcblas) $(libs) $(LDLIBS)
 
+$B/tests/stability: $B/tests/stability.o $B/librigami.a
+	$(call say,link,$@)
+	$Q$(link) -o $@ $^ $(libs) $(LDLIBS)
+
 $B/tests/bench/%: $B/tests/bench/%.o $B/librigami.a
 	$(call say,link,$@)
 	$Q$(link) -o $@ $^ $(libs) $(LDLIBS)
@@ -210,6 +214,13 @@ format:
 
 pictures: all
 	@sh tools/make_pictures $B/rigami
+
+# docs/chart, docs/stability: measured anew, each in a minute or two.
+chart: build
+	@sh tools/make_charts $B/rigami
+stability: $B/tests/stability
+	@$< docs/stability
+.PHONY: chart stability
 
 figures: $B/rigami
 	@sh tools/make_figures $B/rigami

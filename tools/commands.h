@@ -10,5 +10,6 @@ int cmd_fold(const options *o);
 int cmd_info(const options *o);
 int cmd_convert(const options *o);
 int cmd_gen(const options *o);
+int cmd_chart(const options *o);
 
 #endif

@@ -7,10 +7,10 @@
 static const int32_t ITERATIONS_PER_CREASE = 4;
 static const int32_t ITERATIONS_AT_LEAST = 2000;
 /* From this many creases on a sparse factorisation beats the iteration. */
-static const int32_t CHOLESKY_FROM = 24;
-/* A factor of the same numbers takes a few iterations, one of others soon more than a new one would cost. */
+static const int32_t CHOLESKY_FROM = 16;
 /* The part of what is held that the sheet can do; below this it is rounding. */
 static const double LEAST_LEFT = 1e-9;
+/* A factor of the same numbers takes a few iterations, one of others soon more than a new one would cost. */
 static const int32_t DIRECT_ITERATIONS = 200, STALE_ITERATIONS = 12;
 
 rg_status rg_project_init(rg_project *P, const rg_memory *mem, const rg_constraint *K, rg_solver solver)

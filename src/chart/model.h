@@ -1,0 +1,27 @@
+/* model.h -- how much of a model a sheet needs, and what its symmetries would save.
+ * Paper    section 3.2 (what triangulation adds)        Uses  run.h        Used by  chart.c */
+#ifndef RG_MODEL_H
+#define RG_MODEL_H
+
+#include "chart/run.h"
+
+/* Turns by multiples of 60 and 90 degrees and mirrors in lines at multiples of 15 degrees, through the mean of the vertices, as
+ * far as they take every edge to one of the same or, all together, of the opposite target. */
+typedef struct rg_symmetry {
+    int32_t order;              /* how many, the identity among them */
+    int32_t creases, vertices;  /* orbits of creases and of interior vertices */
+} rg_symmetry;
+
+rg_status rg_symmetry_find(rg_symmetry *y, const rg_memory *mem, const rg_mesh *m);
+
+/* One way to model a sheet. */
+typedef struct rg_model {
+    int32_t unknowns, constraints;
+    rg_run run;         /* by the default method; run.error: of the creases drawn */
+    double bend;        /* the most an added crease folds in a frame, radians */
+} rg_model;
+
+/* Folds m, of which `drawn` creases are compared with the reference's frames. RG_ENOMEM. */
+rg_status rg_model_fold(rg_model *o, const rg_mesh *m, const rg_settings *s, int32_t drawn, const rg_frames *with, rg_diag *why);
+
+#endif

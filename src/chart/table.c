@@ -1,0 +1,209 @@
+/* table.c -- what a chart says, as a table for programs and as one for people. */
+#include "base/number.h"
+#include "chart/chart.h"
+
+static void number(double x, FILE *out)
+{
+    char text[RG_NUMBER_ROOM];
+    if (isnan(x)) return; /* an empty field */
+    fputs(rg_number_print(text, x), out);
+}
+
+static void field(double x, FILE *out)
+{
+    fputc(',', out);
+    number(x, out);
+}
+
+/* To three digits: "%g" would take the locale's decimal point. */
+static double rounded(double x)
+{
+    if (!(fabs(x) > 0 && fabs(x) < INFINITY)) return x;
+    const double unit = pow(10, floor(log10(fabs(x))) - 2);
+    return unit < 1 ? round(x / unit) / round(1 / unit) : round(x / unit) * unit;
+}
+
+/* A number for people: two digits and a power of ten where it is small. */
+static void brief(double x, FILE *out)
+{
+    if (isnan(x)) fputs("-", out);
+    else if (x != 0 && fabs(x) < 0.01) {
+        int power = (int)floor(log10(fabs(x)));
+        int digits = (int)lround(fabs(x) * pow(10, 1 - power));
+        if (digits == 100) digits = 10, power++;
+        fprintf(out, "%d.%de%d", digits / 10, digits % 10, power);
+    } else number(rounded(x), out);
+}
+
+void rg_chart_csv(const rg_chart *c, const char *title, FILE *out)
+{
+    fputs("pattern,creases,constraints,method,solver,step_deg,tol_rad,default,outcome,frames,percent,error_rad,closure_rad,"
+          "seconds,passes,steps,solves,cg_iterations,factorizations,assemblies\n", out);
+    for (int32_t i = 0; i < c->runs; i++) {
+        const rg_run *r = &c->run[i];
+        fputc('"', out);
+        for (const char *s = title; *s; s++) fprintf(out, *s == '"' ? "\"\"" : "%c", *s);
+        fprintf(out, "\",%d,%d,%s,%s", (int)c->N, 3 * (int)c->M, rg_run_method_name(r->method), rg_run_solver_name(r->solver));
+        field(r->way.step / RG_DEG, out);
+        field(r->way.tol, out);
+        fprintf(out, ",%d,%s,%d", i == 0, rg_chart_reached(c, r) ? "reached" : "stopped", (int)r->frames);
+        const double numbers[] = {r->percent, r->error, r->closure, r->seconds, r->passes};
+        for (int k = 0; k < 5; k++) field(numbers[k], out);
+        fprintf(out, ",%lld,%lld,%lld,%lld,%lld\n", (long long)r->steps, (long long)r->solves, (long long)r->iterations,
+                (long long)r->factorizations, (long long)r->assemblies);
+    }
+}
+
+/* ---------------------------------------------------------------------------------------------- in words ---- */
+
+static void reference(const rg_chart *c, FILE *out)
+{
+    const rg_reference *ref = &c->ref;
+    fputs("Reference: ", out);
+    if (ref->exact) {
+        fputs("closed form (every vertex flat-foldable, of degree 4); the sheet closes there to ", out);
+        brief(ref->closure, out);
+        fputs(" rad.\n\n", out);
+        return;
+    }
+    if (ref->frames.count < 2) {
+        fputs("none: steps cut shorter and shorter do not get from flat to the next frame, or to different ones.\n\n", out);
+        return;
+    }
+    fputs("rk4 with graded steps, halved; the path changed by", out);
+    for (int32_t n = 1; n < ref->halvings; n++) {
+        fputs(n > 1 ? ", " : " ", out);
+        brief(ref->change[n], out);
+    }
+    fputs(" rad; its error is about ", out);
+    brief(ref->error, out);
+    fputs(" rad.\n\n", out);
+    if (ref->frames.count < c->settings.frames)
+        fprintf(out, "It is known for %d of %d frames: errors are those of these.\n\n", (int)ref->frames.count, (int)c->settings.frames);
+}
+
+static void verdict(const rg_chart *c, FILE *out)
+{
+    if (c->runs == 0) return;
+    const rg_run *a = &c->run[0], *quick = rg_chart_best(c, 0), *lean = rg_chart_best(c, 1);
+    if (!rg_chart_reached(c, a) || !quick || !lean) {
+        fprintf(out, "The default, %s with %s, stops short.\n\n", rg_run_method_name(a->method), rg_run_solver_name(a->solver));
+        return;
+    }
+    fprintf(out, "The default is %s with %s: ", rg_run_method_name(a->method), rg_run_solver_name(a->solver));
+    brief(a->error, out);
+    fputs(" rad off in ", out);
+    brief(1000 * a->seconds, out);
+    fputs(" ms, ", out);
+    brief(a->passes, out);
+    fputs(" passes. As accurate, the quickest takes ", out);
+    brief(1000 * quick->seconds, out);
+    fprintf(out, " ms (%s, %s), the default ", rg_run_method_name(quick->method), rg_run_solver_name(quick->solver));
+    brief(a->seconds / quick->seconds, out);
+    fputs(" times that; the leanest ", out);
+    brief(lean->passes, out);
+    fprintf(out, " passes (%s, %s), the default ", rg_run_method_name(lean->method), rg_run_solver_name(lean->solver));
+    brief(a->passes / lean->passes, out);
+    fputs(" times that.\n\n", out);
+}
+
+static void runs(const rg_chart *c, FILE *out)
+{
+    int32_t stopped = 0;
+    for (int32_t i = 1; i < c->runs; i++) stopped += !rg_chart_reached(c, &c->run[i]);
+    fprintf(out, "Of %d runs %d stopped short", (int)c->runs, (int)stopped);
+    for (int32_t i = 1, n = 0; i < c->runs; i++) {
+        const rg_run *r = &c->run[i];
+        if (rg_chart_reached(c, r)) continue;
+        fprintf(out, "%s%s with %s at ", n++ ? "; " : ": ", rg_run_method_name(r->method), rg_run_solver_name(r->solver));
+        brief(r->percent, out);
+        fputs(" percent, step ", out);
+        brief(r->way.step / RG_DEG, out);
+    }
+    fputs(". The default, and those that none beats both in time and in error:\n\n", out);
+    fputs("| method | solver | step, deg | tol | error, rad | closure, rad | ms | passes | steps | solves |\n"
+          "|---|---|---|---|---|---|---|---|---|---|\n", out);
+    for (int32_t i = 0; i < c->runs; i++) {
+        const rg_run *r = &c->run[i];
+        if (i > 0 && !rg_chart_on_front(c, i)) continue;
+        fprintf(out, "| %s%s | %s | ", i == 0 ? "**default** " : "", rg_run_method_name(r->method), rg_run_solver_name(r->solver));
+        if (r->method == RG_METHOD_ADAPTIVE) fputs("-", out);
+        else brief(r->way.step / RG_DEG, out);
+        fputs(" | ", out);
+        brief(r->way.tol, out);
+        fputs(" | ", out);
+        brief(r->error, out);
+        fputs(" | ", out);
+        brief(r->closure, out);
+        fputs(" | ", out);
+        brief(1000 * r->seconds, out);
+        fputs(" | ", out);
+        brief(r->passes, out);
+        fprintf(out, " | %lld | %lld |\n", (long long)r->steps, (long long)r->solves);
+    }
+    fputs("\n", out);
+}
+
+static void slope(const rg_slope *s, FILE *out)
+{
+    if (s->exact) fputs("exact", out);
+    else brief(isnan(s->slope) ? NAN : round(100 * s->slope) / 100, out);
+}
+
+static void orders(const rg_chart *c, FILE *out)
+{
+    fputs("Observed order from ", out);
+    brief(100 * c->from, out);
+    fputs(" to ", out);
+    brief(100 * c->to, out);
+    fputs(" percent:\n\n| method | of the formula alone | as it folds |\n|---|---|---|\n", out);
+    for (int j = 0; j < RG_ORDERS; j++) {
+        fprintf(out, "| %s | ", rg_run_method_name(c->order[j].method));
+        slope(&c->order[j].open, out);
+        fputs(" | ", out);
+        slope(&c->order[j].closed, out);
+        fputs(" |\n", out);
+    }
+    fputs("\n", out);
+}
+
+static void model(const rg_chart *c, const char *name, const rg_model *o, FILE *out)
+{
+    fprintf(out, "| %s | %d | %d | %s | ", name, (int)o->unknowns, (int)o->constraints,
+            o->run.outcome == RG_FOLDED ? "reached" : "stopped");
+    brief(o->run.error, out);
+    fputs(" | ", out);
+    brief(o->run.closure, out);
+    fputs(" | ", out);
+    brief(o->bend / RG_DEG, out);
+    fputs(" | ", out);
+    brief(1000 * o->run.seconds, out);
+    fputs(" | ", out);
+    brief(o->run.passes, out);
+    fputs(" |\n", out);
+    (void)c;
+}
+
+static void models(const rg_chart *c, FILE *out)
+{
+    fputs("| model | unknowns | constraints | outcome | path off, rad | closure, rad | facets bend, deg | ms | passes |\n"
+          "|---|---|---|---|---|---|---|---|---|\n", out);
+    model(c, "facets as drawn", &c->none, out);
+    model(c, "all triangles", &c->all, out);
+    fprintf(out, "| bars and hinges | %d | %d bars, %d hinges | | | | | | |\n\n", 3 * (int)c->nodes, (int)c->edges_all,
+            (int)c->all.unknowns);
+    fprintf(out, "Symmetries: %d; they leave %d of %d creases and %d of %d vertices to solve for.\n", (int)c->symmetry.order,
+            (int)c->symmetry.creases, (int)c->none.unknowns, (int)c->symmetry.vertices, (int)c->none.constraints / 3);
+}
+
+void rg_chart_words(const rg_chart *c, const char *title, FILE *out)
+{
+    fprintf(out, "## %s\n\n%d creases%s, %d constraints, %d frames.\n", title, (int)c->N,
+            c->triangulated ? ", facets cut into triangles" : "", 3 * (int)c->M, (int)c->settings.frames);
+    reference(c, out);
+    verdict(c, out);
+    orders(c, out);
+    models(c, out);
+    fputs("\n", out);
+    runs(c, out);
+}
