@@ -220,7 +220,7 @@ typedef struct rg_frame {
 typedef struct rg_report {
     rg_pattern_info pattern;
     int32_t added_creases, unknowns, constraints, components; /* the model */
-    const char *triangulation;                                /* "none" or "all", and why, below */
+    const char *triangulation;                                /* "none", "some" or "all", and why, below */
     const char *why_triangulated;
     char strategy[160];                                       /* what got it there: triangulation, adjustment, drive */
     double adjust_gain, pattern_gives;                        /* both 0: the pattern was not moved */

@@ -36,6 +36,8 @@ rg_status rg_mesh_from_pattern(const rg_pattern *p, const rg_memory *mem, rg_mes
 rg_status rg_triangulate_all(const rg_mesh *m, rg_mesh *out);
 /* The same by short diagonals, whatever they split: sheets fold one way that do not fold the other. */
 rg_status rg_triangulate_short(const rg_mesh *m, rg_mesh *out);
+/* Only the facets f with which[f] non-zero, the first way or, shorter non-zero, the second. */
+rg_status rg_triangulate_some(const rg_mesh *m, const unsigned char *which, int shorter, rg_mesh *out);
 /* A copy, with an allocator of its own. RG_ENOMEM, *out is then zeroed. */
 rg_status rg_mesh_copy(const rg_mesh *m, rg_mesh *out);
 void rg_mesh_free(rg_mesh *m);

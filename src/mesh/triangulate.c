@@ -44,6 +44,15 @@ static void put_ear(rg_mesh *m, const rg_polygon *p, int32_t i, int32_t diagonal
     rg_polygon_add_triangle(m, (int32_t[]){p->v[before], p->v[i], p->v[after]}, (int32_t[]){p->e[before], p->e[i], diagonal});
 }
 
+/* What is left of a facet, as a facet. */
+static void put_rest(rg_mesh *m, const rg_polygon *p)
+{
+    const int32_t at = m->facet_start[m->nf];
+    memcpy(m->facet_vertex + at, p->v, (size_t)p->n * sizeof *p->v);
+    memcpy(m->facet_edge + at, p->e, (size_t)p->n * sizeof *p->e);
+    m->facet_start[++m->nf] = at + p->n;
+}
+
 /* Cuts off ears until a triangle is left. A facet whose corners lie so close to one line that no ear can be told from a
  * sliver without area stays as it is: it is planar and needs no added crease. */
 static void cut_ears(rg_mesh *m, rg_polygon *p, double *of)
@@ -65,13 +74,11 @@ static void cut_ears(rg_mesh *m, rg_polygon *p, double *of)
         of[left] = score(p, left);
         of[right] = score(p, right);
     }
-    const int32_t at = m->facet_start[m->nf];
-    memcpy(m->facet_vertex + at, p->v, (size_t)p->n * sizeof *p->v);
-    memcpy(m->facet_edge + at, p->e, (size_t)p->n * sizeof *p->e);
-    m->facet_start[++m->nf] = at + p->n;
+    put_rest(m, p);
 }
 
-static void cut_facets(const rg_mesh *m, int split, unsigned char *inside, rg_polygon *p, rg_polygon_work *w, double *of, rg_mesh *out)
+static void cut_facets(const rg_mesh *m, int split, const unsigned char *which, unsigned char *inside, rg_polygon *p,
+                       rg_polygon_work *w, double *of, rg_mesh *out)
 {
     for (int32_t f = 0; f < m->nf; f++) {
         const int32_t first = m->facet_start[f];
@@ -79,11 +86,12 @@ static void cut_facets(const rg_mesh *m, int split, unsigned char *inside, rg_po
         p->inside = inside + first;
         memcpy(p->v, m->facet_vertex + first, (size_t)p->n * sizeof *p->v);
         memcpy(p->e, m->facet_edge + first, (size_t)p->n * sizeof *p->e);
-        if (!split || !rg_polygon_cut(p, w, out)) cut_ears(out, p, of);
+        if (which && !which[f]) put_rest(out, p);
+        else if (!split || !rg_polygon_cut(p, w, out)) cut_ears(out, p, of);
     }
 }
 
-static rg_status cut_all(const rg_mesh *m, int split, int32_t most, rg_mesh *out)
+static rg_status cut_all(const rg_mesh *m, int split, const unsigned char *which, int32_t most, rg_mesh *out)
 {
     const size_t n = (size_t)most, table = (size_t)(most < RG_POLYGON_LARGEST ? most : RG_POLYGON_LARGEST);
     unsigned char *inside = rg_mem_array(&m->mem, (size_t)m->facet_start[m->nf], 1);
@@ -92,13 +100,13 @@ static rg_status cut_all(const rg_mesh *m, int split, int32_t most, rg_mesh *out
     rg_polygon_work w = {rg_mem_array(&m->mem, table * table, sizeof *w.cost), rg_mem_array(&m->mem, table * table, sizeof *w.apex)};
     rg_status s = inside && of && p.v && p.e && w.cost && w.apex ? RG_OK : RG_ENOMEM;
     if (s == RG_OK && split) s = rg_inside_find(m, inside);
-    if (s == RG_OK) cut_facets(m, split, inside, &p, &w, of, out);
+    if (s == RG_OK) cut_facets(m, split, which, inside, &p, &w, of, out);
     void *block[] = {inside, of, p.v, p.e, w.cost, w.apex};
     for (int i = 0; i < 6; i++) rg_mem_free(&m->mem, block[i]);
     return s;
 }
 
-static rg_status triangulate(const rg_mesh *m, int split, rg_mesh *out)
+static rg_status triangulate(const rg_mesh *m, int split, const unsigned char *which, rg_mesh *out)
 {
     int32_t most = 3, more = 0;
     for (int32_t f = 0; f < m->nf; f++) {
@@ -126,13 +134,18 @@ static rg_status triangulate(const rg_mesh *m, int split, rg_mesh *out)
         memcpy(out->edge, m->edge, (size_t)m->ne * sizeof *out->edge);
         memcpy(out->assignment, m->assignment, (size_t)m->ne);
         memcpy(out->target, m->target, (size_t)m->ne * sizeof *out->target);
-        s = cut_all(m, split, most, out);
+        s = cut_all(m, split, which, most, out);
     }
     if (s == RG_OK) s = rg_mesh_connect(out);
     if (s != RG_OK) rg_mesh_free(out);
     return s;
 }
 
-rg_status rg_triangulate_all(const rg_mesh *m, rg_mesh *out) { return triangulate(m, 1, out); }
+rg_status rg_triangulate_all(const rg_mesh *m, rg_mesh *out) { return triangulate(m, 1, NULL, out); }
 
-rg_status rg_triangulate_short(const rg_mesh *m, rg_mesh *out) { return triangulate(m, 0, out); }
+rg_status rg_triangulate_short(const rg_mesh *m, rg_mesh *out) { return triangulate(m, 0, NULL, out); }
+
+rg_status rg_triangulate_some(const rg_mesh *m, const unsigned char *which, int shorter, rg_mesh *out)
+{
+    return triangulate(m, !shorter, which, out);
+}

@@ -39,9 +39,13 @@ typedef enum cut { AS_DRAWN, SPLITTING, SHORT } cut;
 
 /* How often half as much give is tried when the pattern folds. */
 static const int32_t LESS_GIVE[] = {0, 2, 5};
+/* How often fewer cuts are tried then; a facet that bends by less (radians) may stay whole, if no vertex goes much farther. */
+static const int32_t FEWER_CUTS[] = {0, 2, 4};
+static const double HARDLY_BENT = 10 * RG_DEG, LITTLE_MORE = 1.1;
 
-static rg_status copy_mesh(const rg_mesh *m, cut how, rg_mesh *out)
+static rg_status copy_mesh(const rg_mesh *m, cut how, const unsigned char *which, rg_mesh *out)
 {
+    if (which && how) return rg_triangulate_some(m, which, how == SHORT, out);
     return how == SPLITTING ? rg_triangulate_all(m, out) : how == SHORT ? rg_triangulate_short(m, out) : rg_mesh_copy(m, out);
 }
 
@@ -88,7 +92,7 @@ static rg_status straight(rg_choice *c, const rg_mesh *none, const rg_settings *
     rg_take t;
     rg_settings mine = *s;
     mine.triangulate = all ? RG_TRIANGULATE_ALL : RG_TRIANGULATE_NONE;
-    rg_status status = copy_mesh(none, all ? SPLITTING : AS_DRAWN, &m);
+    rg_status status = copy_mesh(none, all ? SPLITTING : AS_DRAWN, NULL, &m);
     if (status == RG_OK) status = rg_take_straight(&t, &m, &mine, watch, why);
     if (status != RG_OK) return status;
     *done = consider(c, &t, all ? "all" : "none", why_all, all ? "straight on, triangulated" : "straight on") || watch->cancelled;
@@ -102,14 +106,23 @@ static void describe(const rg_flow_law *law, cut how, int back, char *text, size
              law->attempts ? ", several starts" : "", back ? ", unfolded from its end" : "");
 }
 
+/* What is tried, besides the law: how facets are cut, and which, NULL: all; whether the motion is found from its end; and the
+ * work that is left. */
+typedef struct way {
+    cut how;
+    const unsigned char *which;
+    int back;
+    double left;
+} way;
+
 /* One flow by one law, from flat or, back, from the folded end to flat. */
-static rg_status flow_once(rg_take *t, const rg_mesh *none, const rg_settings *s, const rg_flow_law *law, cut how, int back,
+static rg_status flow_once(rg_take *t, const rg_mesh *none, const rg_settings *s, const rg_flow_law *law, const way *w,
                            double budget, rg_watch *watch, rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(s->memory);
     const double sign = s->to < 0 ? -1 : 1;
     rg_mesh m;
-    rg_status status = copy_mesh(none, how, &m);
+    rg_status status = copy_mesh(none, w->how, w->which, &m);
     if (status != RG_OK) return status;
     double *target = rg_mem_array(&mem, (size_t)m.N, sizeof *target), *end = rg_mem_array(&mem, (size_t)m.N, sizeof *end);
     double *flat = rg_mem_array(&mem, (size_t)m.N, sizeof *flat);
@@ -118,7 +131,7 @@ static rg_status flow_once(rg_take *t, const rg_mesh *none, const rg_settings *s
             target[i] = i < m.N - m.added ? sign * m.target[m.crease_edge[i]] : NAN;
             end[i] = isnan(target[i]) ? 0 : target[i];
         }
-        if (!back) {
+        if (!w->back) {
             status = rg_take_flow(t, &m, s, law, NULL, target, budget, watch, why);
         } else {
             for (int32_t i = 0; i < m.N; i++) flat[i] = isnan(target[i]) ? NAN : 0;
@@ -135,19 +148,18 @@ static rg_status flow_once(rg_take *t, const rg_mesh *none, const rg_settings *s
     return status;
 }
 
-/* What is tried, besides the law: how facets are cut, and whether the motion is found from its end. */
-typedef struct way { cut how; int back; double left; } way;
-
 static rg_status try_flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, const rg_flow_law *law, way *w, double work,
                           rg_watch *watch, rg_diag *why, int *folds)
 {
     rg_take t;
     char text[160];
-    const rg_status status = flow_once(&t, none, s, law, w->how, w->back, fmin(w->left, work), watch, why);
+    const rg_status status = flow_once(&t, none, s, law, w, fmin(w->left, work), watch, why);
     if (status != RG_OK) return status;
     w->left -= t.work;
     describe(law, w->how, w->back, text, sizeof text);
-    *folds = consider(c, &t, w->how ? "all" : "none", w->how ? "stops short without added creases" : "asked for", text);
+    *folds = consider(c, &t, w->how ? "all" : "none", w->how ? "stops short without added creases"
+                    : s->triangulate == RG_TRIANGULATE_AUTO     ? "folds without added creases"
+                                                                : "asked for", text);
     return RG_OK;
 }
 
@@ -163,13 +175,66 @@ static rg_status economise(rg_choice *c, const rg_mesh *none, const rg_settings 
     return status;
 }
 
-static rg_status flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, int all, rg_watch *watch, rg_diag *why)
+/* Facets that bend by `least` or more somewhere in the kept motion; how many that is. Added creases come facet by facet. */
+static int32_t mark_bending(const rg_take *t, const rg_mesh *none, double least, unsigned char *which)
+{
+    const size_t N = (size_t)t->mesh.N;
+    int32_t i = t->mesh.N - t->mesh.added, n = 0;
+    for (int32_t f = 0; f < none->nf; f++) {
+        which[f] = 0;
+        for (int32_t k = none->facet_start[f] + 3; k < none->facet_start[f + 1] && i < t->mesh.N; k++, i++)
+            for (int32_t frame = 0; frame < t->count; frame++)
+                which[f] |= fabs(t->rho[(size_t)frame * N + (size_t)i]) >= least;
+        n += which[f];
+    }
+    return n;
+}
+
+/* No more creases should be added than have to be: facets that hardly bend stay whole, if it folds then and moves the
+ * pattern little more. */
+static rg_status prune(rg_choice *c, const rg_mesh *none, const rg_settings *s, way *w, double work, rg_watch *watch, rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(s->memory);
+    unsigned char *which = rg_mem_array(&mem, (size_t)none->nf, 1);
+    rg_status status = which ? RG_OK : RG_ENOMEM;
+    for (int n = 0; status == RG_OK && n < FEWER_CUTS[s->effort] && w->left > 0 && !watch->cancelled; n++) {
+        rg_take t;
+        const int32_t bending = mark_bending(&c->take, none, HARDLY_BENT * (n + 1), which);
+        if (bending == 0 || c->take.mesh.added == 0) break;
+        const rg_flow_law law = c->take.law;
+        w->which = which;
+        status = flow_once(&t, none, s, &law, w, fmin(w->left, work), watch, why);
+        if (status != RG_OK) break;
+        w->left -= t.work;
+        c->tries++;
+        add_cost(&c->cost, &t.cost);
+        const int better = rank(&t) == 2 && t.mesh.added < c->take.mesh.added && t.moved <= LITTLE_MORE * c->take.moved;
+        if (better) {
+            rg_take_free(&c->take);
+            c->take = t;
+            c->triangulation = "some";
+            c->why_triangulated = "stops short without added creases; facets that hardly bend stay whole";
+        } else {
+            rg_take_free(&t);
+            break;
+        }
+    }
+    rg_mem_free(&mem, which);
+    return status;
+}
+
+static rg_status flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, int all, int may_leave, rg_watch *watch,
+                      rg_diag *why)
 {
     double work;
     int folds = 0;
     rg_flow_law law;
     rg_status status = RG_OK;
-    way w = {AS_DRAWN, 0, MOST_WORK[s->effort]};
+    way w = {AS_DRAWN, NULL, 0, MOST_WORK[s->effort]};
+    if (all && may_leave && rg_strategy_law(s, 0, &law, &work) > 0) {
+        status = try_flow(c, none, s, &law, &w, work, watch, why, &folds);
+        if (status != RG_OK || folds) return status;
+    }
     for (int32_t n = 0, use; (use = rg_strategy_law(s, n, &law, &work)) >= 0; n++)
         for (int k = 0; use && k < 4; k++) {
             const int shorter = k / 2;
@@ -180,7 +245,10 @@ static rg_status flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, i
             if (!(w.left > 0) || watch->cancelled) return RG_OK;
             status = try_flow(c, none, s, &law, &w, work, watch, why, &folds);
             if (status != RG_OK) return status;
-            if (folds) return law.give > 0 ? economise(c, none, s, law, &w, work, watch, why) : RG_OK;
+            if (!folds) continue;
+            if (law.give > 0) status = economise(c, none, s, law, &w, work, watch, why);
+            if (status == RG_OK && may_leave) status = prune(c, none, s, &w, work, watch, why);
+            return status;
         }
     return RG_OK;
 }
@@ -198,7 +266,7 @@ rg_status rg_strategy_run(rg_choice *c, const rg_mesh *none, const rg_settings *
         status = straight(c, none, s, 1, may_leave ? "stops short without added creases" : "asked for", watch, why, &done);
     /* Who asks for a method and no adjustment asks for that and nothing else. */
     if (status == RG_OK && !done && !(s->method != RG_METHOD_AUTO && s->adjust == 0))
-        status = flow(c, none, s, may_add && !triangles, watch, why);
+        status = flow(c, none, s, may_add && !triangles, may_leave, watch, why);
     if (status == RG_OK && c->take.outcome != RG_FOLDED && strcmp(c->triangulation, "none") == 0 && may_add && may_leave && !triangles)
         c->why_triangulated = "added creases get it no further";
     if (status != RG_OK) rg_take_free(&c->take);
