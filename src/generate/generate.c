@@ -37,6 +37,8 @@ static const kind kinds[] = {
     {"open-sink", "Waterbomb base, open sink", rg_open_sink_draw, {0}, {0}, 0, 0, 0},
     {"crane", "Crane", rg_crane_draw, {0}, {0}, 0, 0, 0},
     {"tatou", "Tatou", rg_tatou_draw, {0}, {0}, 0, 0, 0},
+    {"closed-split", "Closed vertices that splitting frees", rg_closed_split_draw, {0}, {0}, 0, 0, 0},
+    {"closed-adjust", "Closed vertices that adjusting frees", rg_closed_adjust_draw, {0}, {0}, 0, 0, 0},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -44,7 +46,7 @@ const char *const *rg_generate_kinds(void)
 {
     static const char *const names[] = {"miura", "waterbomb", "hypar", "boxpleat", "yoshimura", "resch", "kresling", "random",
                                         "preliminary", "waterbomb-base", "fish", "bird", "frog", "four-crane", "open-sink",
-                                        "crane", "tatou", NULL};
+                                        "crane", "tatou", "closed-split", "closed-adjust", NULL};
     return names;
 }
 

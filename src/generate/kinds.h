@@ -30,4 +30,8 @@ void rg_open_sink_draw(rg_drawing *d);
 void rg_crane_draw(rg_drawing *d);
 void rg_tatou_draw(rg_drawing *d);
 
+/* Vertices that wait for each other */
+void rg_closed_split_draw(rg_drawing *d);
+void rg_closed_adjust_draw(rg_drawing *d);
+
 #endif
