@@ -9,6 +9,8 @@
 
 /* A vertex that is this part of the sheet off where a take has it has not moved. */
 static const double IN_PLACE = 1e-12;
+/* A way this short, radians, is what a drawing does not close by. */
+static const double NO_WAY = 0.02;
 
 /* ------------------------------------------------------------------------------------------------ the mesh ---- */
 
@@ -78,7 +80,7 @@ static double part_done(const rg_take *t, int32_t frame, double *least)
     *least = INFINITY;
     for (int32_t i = 0; i < t->mesh.N; i++) {
         const double way = t->target[i] - t->from[i];
-        if (isnan(way) || way == 0) continue;
+        if (!(fabs(way) > NO_WAY)) continue;
         sum += (rho[i] - t->from[i]) / way;
         *least = fmin(*least, (rho[i] - t->from[i]) / way);
         n++;

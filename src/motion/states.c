@@ -231,7 +231,10 @@ static rg_status leg_init(const rg_states *q, leg *w, int32_t k, int32_t frames,
     }
     for (int32_t f = 0; f < w->mesh.nf; f++) w->triangles &= w->mesh.facet_start[f + 1] - w->mesh.facet_start[f] == 3;
     s = close_up(q, &w->mesh, w->from, &w->from_closes);
-    return s == RG_OK && known ? close_up(q, &w->mesh, w->to, &w->to_closes) : s;
+    if (s == RG_OK && known) s = close_up(q, &w->mesh, w->to, &w->to_closes);
+    for (int32_t i = 0; !w->to_closes && i < w->mesh.N; i++) /* what a state does not close by is no way to go */
+        if (fabs(w->to[i] - w->from[i]) <= SAME_STATE) w->to[i] = w->from[i];
+    return s;
 }
 
 /* One law of the flow, from `from` to `to` or the other way around. */
