@@ -59,7 +59,7 @@ static const rule rules[] = {
     {FOR_FOLD, "solver", 0, "NAME", CHOICE, AT(solver), 0, 0, 1, solvers, "linear solver (auto):"},
     {FOR_FOLD | FOR_CHART, "triangulate", 0, "WHAT", CHOICE, AT(triangulate), 0, 0, 1, triangulations,
      "added creases; auto: only what the pattern needs (auto):"},
-    {FOR_FOLD, "adjust", 0, "GAIN", ADJUST, 0, 0, 1000, 1, NULL,
+    {FOR_FOLD, "adjust", 0, "GAIN", ADJUST, 0, 0, 1, 1, NULL,
      "move vertices so that closed ones open: auto (where nothing else folds), off, or how strongly, such as 0.1 (auto)"},
     {FOR_FOLD, "effort", 0, "HOW", CHOICE, AT(effort), 0, 0, 1, efforts,
      "how much is tried when the plain way stops short (normal):"},
@@ -186,7 +186,7 @@ static int set_adjust(const rule *r, const char *text, rg_settings *s)
 {
     double v = strcmp(text, "auto") == 0 ? RG_ADJUST_AUTO : 0;
     if (strcmp(text, "auto") != 0 && strcmp(text, "off") != 0 && (!whole_text(text, &v) || !(v >= r->low && v <= r->high)))
-        return refuse(r, text, "auto, off, or a number from 0 to 1000");
+        return refuse(r, text, "auto, off, or a number from 0 to 1");
     s->adjust = v;
     return ENDS_WELL;
 }
