@@ -238,12 +238,21 @@ static int try_step(rg_flow *F, double f, double longest)
     return far <= FARTHEST_CORRECTION * f * longest + LITTLE;
 }
 
+static int has_returned(const rg_flow *F)
+{
+    for (int32_t i = 0; i < F->U; i++)
+        if (!(fabs(F->u[i]) <= RETURNED * F->freedom.reach[i])) return 0;
+    return 1;
+}
+
+/* Any pattern that obeys Kawasaki's theorem closes with all creases at half a turn: only the one given counts as folded. */
 static void stop(rg_flow *F, const char *why)
 {
     double least;
     progress(F, F->rho, &least);
-    F->outcome = least >= 0.99 && F->s_end >= 1 ? RG_FOLDED : RG_STOPPED;
-    snprintf(F->reason, sizeof F->reason, "%s", why);
+    const int arrived = least >= 0.99 && F->s_end >= 1;
+    F->outcome = arrived && has_returned(F) ? RG_FOLDED : RG_STOPPED;
+    snprintf(F->reason, sizeof F->reason, "%s", arrived && !has_returned(F) ? "folded, but with no way back to the pattern given" : why);
 }
 
 /* From the start again, with the creases that lost asked for more loudly; zero: that was tried often enough. */
@@ -282,8 +291,7 @@ static int signs_are_wrong(const rg_flow *F)
 static int land(rg_flow *F, double least)
 {
     if (F->s_end < 1 || !(least >= 1 - ARRIVED)) return 0;
-    for (int32_t i = 0; i < F->U; i++)
-        if (!(fabs(F->u[i]) <= RETURNED * F->freedom.reach[i])) return 0;
+    if (!has_returned(F)) return 0;
     for (int32_t i = 0; i < F->N; i++) {
         const double target = isnan(F->target[i]) ? F->from[i] : F->target[i];
         if (!isnan(F->target[i]) && !(fabs(F->rho[i] - target) <= F->step)) return 0;

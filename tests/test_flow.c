@@ -1,0 +1,435 @@
+/* fold/flow.c: every state closes, no facet turns over, no crease goes past half a turn, the ends are those of the pattern
+ * given; what cannot fold stops and says where. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "near.h"
+
+#include "counted.h"
+#include "folded.h"
+#include "fold/flow.h"
+#include "generate/generate.h"
+#include "motion/diagnose.h"
+
+enum { MOST = 40 };
+
+static const rg_flow_law GIVING = {.gain = 0.1, .give = 1, .stubborn = 0.2}, STIFF = {.stubborn = 0.2};
+static const rg_flow_law ADJUSTING = {.gain = 0.1, .kawasaki = 1, .stubborn = 0.2};
+
+static rg_pattern *generated(const char *kind, int32_t n)
+{
+    const rg_memory mem = rg_mem_default(NULL);
+    rg_lines l;
+    assert_int_equal(rg_generate_lines(kind, n, 0, 0, &mem, &l, NULL), RG_OK);
+    return pattern_of(&l);
+}
+
+/* Four creases to the corners of a square, or the middles of its sides. */
+static rg_pattern *cross(const char *assignment, int to_corners, double x, double y)
+{
+    rg_lines l = drawing();
+    for (int i = 0; i < 4; i++) {
+        const double a = RG_PI / 2 * i + to_corners * RG_PI / 4, r = to_corners ? sqrt(2) : 1;
+        draw(&l, assignment[i], x, y, r * cos(a), r * sin(a));
+    }
+    draw_box(&l, -1, -1, 1, 1);
+    return pattern_of(&l);
+}
+
+typedef struct run { rg_mesh m; rg_flow F; rg_settings s; double *target; rg_vec2 *X; } run;
+
+static void begin(run *r, rg_pattern *p, int triangulated, const rg_flow_law *law, const rg_settings *s)
+{
+    *r = (run){.m = mesh_of(p), .s = s ? *s : rg_settings_default()};
+    if (triangulated) {
+        rg_mesh drawn = r->m;
+        assert_int_equal(rg_triangulate_all(&drawn, &r->m), RG_OK);
+        rg_mesh_free(&drawn);
+    }
+    rg_pattern_destroy(p);
+    r->target = calloc((size_t)r->m.N + 1, sizeof *r->target);
+    r->X = calloc((size_t)r->m.nv, sizeof *r->X);
+    assert_true(r->target && r->X);
+    for (int32_t i = 0; i < r->m.N; i++) r->target[i] = i < r->m.N - r->m.added ? r->m.target[r->m.crease_edge[i]] : NAN;
+    assert_int_equal(rg_flow_init(&r->F, &r->m, &r->s, law, NULL, r->target), RG_OK);
+}
+
+static void end(run *r)
+{
+    rg_flow_free(&r->F);
+    rg_flow_free(&r->F);
+    rg_mesh_free(&r->m);
+    free(r->target);
+    free(r->X);
+}
+
+/* Largest entry of chi_1 ... chi_n - I over the vertices, with the angles of the pattern X. */
+static double unclosed(const rg_mesh *m, const rg_vec2 *X, const double *rho)
+{
+    double worst = 0;
+    for (int32_t k = 0; k < m->M; k++) {
+        const int32_t start = m->loop_start[k], n = m->loop_start[k + 1] - start, v = m->inner_vertex[k];
+        double fold[MOST], theta[MOST], angle[MOST + 1];
+        assert_true(n <= MOST);
+        for (int32_t i = 0; i <= n; i++) {
+            const int32_t *e = m->edge[m->crease_edge[m->loop_crease[start + i % n]]];
+            const rg_vec2 d = rg_vec2_sub(X[e[e[0] == v]], X[v]);
+            angle[i] = atan2(d.y, d.x);
+            if (i < n) fold[i] = rho[m->loop_crease[start + i]];
+            if (i) theta[i - 1] = fmod(angle[i] - angle[i - 1] + 4 * RG_PI, 2 * RG_PI);
+        }
+        worst = fmax(worst, off_identity(round_trip(n, fold, theta)));
+    }
+    return worst;
+}
+
+static double facet_area(const rg_mesh *m, int32_t f, const rg_vec2 *X)
+{
+    double twice = 0;
+    const int32_t n = m->facet_start[f + 1] - m->facet_start[f], *v = m->facet_vertex + m->facet_start[f];
+    for (int32_t i = 0; i < n; i++) twice += rg_vec2_cross(X[v[i]], X[v[(i + 1) % n]]);
+    return twice / 2;
+}
+
+static void is_proper(const run *r, const double *rho, const double *u)
+{
+    rg_freedom_move(&r->F.freedom, u, r->X);
+    below(unclosed(&r->m, r->X, rho), 4 * r->s.tol);
+    for (int32_t f = 0; f < r->m.nf; f++) assert_true(facet_area(&r->m, f, r->X) > 0.05 * facet_area(&r->m, f, r->m.X));
+    for (int32_t i = 0; i < r->m.N - r->m.added; i++) below(fabs(rho[i]), RG_PI + 0.1 * RG_DEG);
+}
+
+/* Mean of rho over target. */
+static double progress(const run *r, const double *rho)
+{
+    double sum = 0;
+    int32_t n = 0;
+    for (int32_t i = 0; i < r->m.N; i++)
+        if (!isnan(r->target[i]) && r->target[i] != 0) sum += rho[i] / r->target[i], n++;
+    return sum / n;
+}
+
+/* Steps to the end, of which each state is looked at; returns the farthest that a vertex was, in lengths. */
+static double go(run *r)
+{
+    double far = 0;
+    for (int32_t n = 0; r->F.outcome == RG_RUNNING; n++) {
+        assert_true(n < 40000);
+        rg_flow_step(&r->F);
+        is_proper(r, r->F.rho, r->F.u);
+        near(r->F.s, progress(r, r->F.rho), 1e-12 + (r->F.outcome == RG_FOLDED ? 0.01 : 0));
+        for (int32_t i = 0; i < r->F.U; i++) far = fmax(far, fabs(r->F.u[i]));
+    }
+    return far;
+}
+
+static void ends_as_given(const run *r)
+{
+    if (r->F.outcome != RG_FOLDED) print_error("%s\n", r->F.reason);
+    assert_int_equal(r->F.outcome, RG_FOLDED);
+    for (int32_t i = 0; i < r->F.U; i++) near(r->F.u[i], 0, 1e-9 * r->m.size);
+    for (int32_t i = 0; i < r->m.N - r->m.added; i++) near(r->F.rho[i], r->target[i], 1e-9);
+    near(r->F.s, 1, 1e-9);
+}
+
+static void closed_vertices_fold_where_the_pattern_gives(void **state)
+{
+    (void)state;
+    static const struct { const char *kind; int32_t n; } made[] = {{"frog", 0}, {"boxpleat", 8}, {"four-crane", 0}, {"open-sink", 0}};
+    for (int k = 0; k < 4; k++) {
+        run r;
+        begin(&r, generated(made[k].kind, made[k].n), 1, &GIVING, NULL);
+        const double far = go(&r);
+        ends_as_given(&r);
+        assert_true(r.F.U > 0 && far > 1e-4 * r.m.size && far < 0.1 * r.m.size);
+        end(&r);
+    }
+}
+
+/* Nothing gives: what folds by itself folds, and the pattern is not there to be moved. */
+static void open_patterns_fold_as_they_are(void **state)
+{
+    (void)state;
+    static const struct { const char *kind; int32_t n; } made[] = {{"miura", 5}, {"waterbomb-base", 0}, {"fish", 0}, {"bird", 0}, {"preliminary", 0}};
+    for (int k = 0; k < 5; k++) {
+        run r;
+        begin(&r, generated(made[k].kind, made[k].n), 0, &STIFF, NULL);
+        assert_int_equal(r.F.U, 0);
+        near(go(&r), 0, 0);
+        ends_as_given(&r);
+        end(&r);
+    }
+}
+
+/* On the way a Miura-ori obeys its closed form, however the flow drives it. */
+static void a_miura_has_one_way_to_fold(void **state)
+{
+    (void)state;
+    run r;
+    begin(&r, draw_miura(4, 1.125), 0, &STIFF, NULL);
+    int looked = 0;
+    while (r.F.outcome == RG_RUNNING) {
+        rg_flow_step(&r.F);
+        if (r.F.s < 0.05 || r.F.s > 0.99) continue;
+        double straight = NAN, zigzag = NAN;
+        for (int32_t i = 0; i < r.m.N; i++) {
+            const int32_t *e = r.m.edge[r.m.crease_edge[i]];
+            double *one = fabs(r.m.X[e[0]].y - r.m.X[e[1]].y) < 0.5 ? &straight : &zigzag;
+            if (!isnan(*one)) near(fabs(r.F.rho[i]), *one, 1e-7);
+            *one = fabs(r.F.rho[i]);
+        }
+        near(tan(straight / 2), cos(1.125) * tan(zigzag / 2), 1e-7 * (1 + tan(zigzag / 2)));
+        looked++;
+    }
+    assert_true(looked > 20);
+    end(&r);
+}
+
+/* Four creases at right angles can go one after the other: first the two in line that are alike, all the way. */
+static void a_sheet_folded_in_four(void **state)
+{
+    (void)state;
+    for (int to_corners = 0; to_corners < 2; to_corners++) {
+        run r;
+        begin(&r, cross("VMMM", to_corners, 0, 0), 0, &STIFF, NULL);
+        int32_t of[4];
+        for (int32_t j = 0; j < 4; j++) of[j] = r.m.loop_crease[j];
+        int odd = 0;
+        for (int j = 0; j < 4; j++)
+            if (r.target[of[j]] > 0) odd = j;
+        while (r.F.outcome == RG_RUNNING) {
+            rg_flow_step(&r.F);
+            is_proper(&r, r.F.rho, r.F.u);
+            const double first = r.F.rho[of[(odd + 1) % 4]], second = r.F.rho[of[odd]];
+            assert_true(fabs(second) < 1e-4 || fabs(first + RG_PI) < 0.1 * RG_DEG);
+        }
+        ends_as_given(&r);
+        end(&r);
+    }
+}
+
+/* Vertices in a ring, each of which has to wait for the next: the sheet does not fold as it is, which is not said of it. */
+static void locked(rg_pattern *p, int triangulated, const rg_flow_law *law, int names_all)
+{
+    run r;
+    int32_t vertex[MOST], crease[200], vertices, creases;
+    begin(&r, p, triangulated, law, NULL);
+    go(&r);
+    assert_int_equal(r.F.outcome, RG_STOPPED);
+    assert_true(strlen(r.F.reason) > 10);
+    double least = INFINITY;
+    for (int32_t i = 0; i < r.m.N - r.m.added; i++) least = fmin(least, r.F.rho[i] / r.target[i]);
+    below(least, 0.6);
+    assert_true(r.m.N <= 200 && r.m.M <= MOST);
+    assert_int_equal(rg_diagnose_flow(&r.F, vertex, &vertices, crease, &creases), RG_OK);
+    if (names_all) assert_int_equal(vertices, r.m.M);
+    assert_true(vertices > 0 && vertices <= r.m.M);
+    for (int32_t i = 0; i < vertices; i++) {
+        int is_inner = 0;
+        for (int32_t k = 0; k < r.m.M; k++) is_inner |= r.m.inner_vertex[k] == vertex[i];
+        assert_true(is_inner);
+    }
+    for (int32_t i = 0; i < creases; i++) assert_true(r.F.rho[crease[i]] / r.target[crease[i]] < 0.99);
+    end(&r);
+}
+
+static void rings_of_closed_vertices_are_locked(void **state)
+{
+    (void)state;
+    locked(generated("closed-split", 0), 0, &STIFF, 1);
+    locked(generated("closed-adjust", 0), 0, &STIFF, 0);
+    locked(generated("closed-adjust", 0), 1, &STIFF, 0);
+}
+
+static void splitting_frees_the_one_and_adjusting_the_other(void **state)
+{
+    (void)state;
+    run r;
+    begin(&r, generated("closed-split", 0), 1, &STIFF, NULL);
+    near(go(&r), 0, 0);
+    ends_as_given(&r);
+    end(&r);
+    static const double gives[] = {0.25, 0.5, 1, 2, 3};
+    int folds = 0, lost = 0;
+    for (int k = 0; k < 5; k++) {
+        const rg_flow_law law = {.gain = 0.1, .give = gives[k], .stubborn = 0.3};
+        begin(&r, generated("closed-adjust", 0), 1, &law, NULL);
+        go(&r);
+        if (r.F.outcome == RG_FOLDED) ends_as_given(&r), folds++;
+        else lost += r.F.s > 0.99; /* folded flat, but as another pattern: that does not count */
+        end(&r);
+    }
+    assert_true(folds > 0 && lost > 0);
+}
+
+/* Maekawa's theorem forbids it, with and without a pattern that gives. */
+static void four_mountains_never_fold(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        const rg_flow_law law = k % 3 == 0 ? STIFF : k % 3 == 1 ? GIVING : ADJUSTING;
+        locked(cross("MMMM", 1, k < 3 ? 0 : 0.3, 0), 0, &law, 1);
+    }
+}
+
+/* Kawasaki's theorem is kept where the law says so. */
+static void kept_flat_foldable(void **state)
+{
+    (void)state;
+    run r;
+    begin(&r, generated("boxpleat", 6), 1, &ADJUSTING, NULL);
+    assert_true(r.F.J.K > 0);
+    int moved = 0;
+    for (int n = 0; n < 150 && r.F.outcome == RG_RUNNING; n++) {
+        rg_flow_step(&r.F);
+        rg_freedom_move(&r.F.freedom, r.F.u, r.X);
+        for (int32_t k = 0; k < r.m.M; k++) {
+            double angle[MOST], sum = 0;
+            int32_t drawn = 0;
+            const int32_t v = r.m.inner_vertex[k];
+            for (int32_t j = r.m.loop_start[k]; j < r.m.loop_start[k + 1]; j++) {
+                if (r.m.loop_crease[j] >= r.m.N - r.m.added) continue;
+                const int32_t *e = r.m.edge[r.m.crease_edge[r.m.loop_crease[j]]];
+                const rg_vec2 d = rg_vec2_sub(r.X[e[e[0] == v]], r.X[v]);
+                angle[drawn++] = atan2(d.y, d.x);
+            }
+            for (int32_t i = 0; i < drawn; i++) {
+                const double theta = fmod(angle[(i + 1) % drawn] - angle[i] + 4 * RG_PI, 2 * RG_PI);
+                sum += i % 2 ? -theta : theta;
+            }
+            near(sum, 0, 1e-9);
+            moved += rg_vec2_length(rg_vec2_sub(r.X[v], r.m.X[v])) > 1e-3;
+        }
+    }
+    assert_true(moved > 10);
+    end(&r);
+}
+
+/* States in between: closed, between the last two, at the progress asked for. */
+static void states_between(void **state)
+{
+    (void)state;
+    run r;
+    int found = 0;
+    begin(&r, generated("frog", 0), 1, &GIVING, NULL);
+    while (r.F.outcome == RG_RUNNING) {
+        rg_flow_step(&r.F);
+        if (r.F.outcome != RG_RUNNING || !(r.F.s > r.F.old_s + 1e-4)) continue;
+        for (int k = 1; k < 4; k++) {
+            const double s = r.F.old_s + k * (r.F.s - r.F.old_s) / 4;
+            if (!rg_flow_at(&r.F, s)) continue;
+            rg_freedom_move(&r.F.freedom, r.F.trial_u, r.X);
+            below(unclosed(&r.m, r.X, r.F.trial), 4 * r.s.tol);
+            near(progress(&r, r.F.trial), s, 0.02);
+            found++;
+        }
+    }
+    assert_true(found > 100);
+    assert_true(rg_flow_at(&r.F, 1));
+    for (int32_t i = 0; i < r.m.N; i++) near(r.F.trial[i], r.F.rho[i], 1e-9);
+    end(&r);
+}
+
+static void as_far_as_asked_for(void **state)
+{
+    (void)state;
+    rg_settings s = rg_settings_default();
+    s.to = 0.4;
+    run r;
+    begin(&r, generated("fish", 0), 0, &STIFF, &s);
+    while (r.F.outcome == RG_RUNNING) rg_flow_step(&r.F);
+    assert_int_equal(r.F.outcome, RG_FOLDED);
+    assert_true(r.F.s >= 0.4 && r.F.s < 0.45);
+    assert_true(rg_flow_at(&r.F, 0.4));
+    near(progress(&r, r.F.trial), 0.4, 1e-4);
+    end(&r);
+}
+
+/* From one folded state on to another one, and back to flat. */
+static void unfolding(void **state)
+{
+    (void)state;
+    run r;
+    begin(&r, generated("bird", 0), 0, &STIFF, NULL);
+    go(&r);
+    ends_as_given(&r);
+    double *from = calloc((size_t)r.m.N, sizeof *from), *to = calloc((size_t)r.m.N, sizeof *to);
+    assert_true(from && to);
+    memcpy(from, r.F.rho, (size_t)r.m.N * sizeof *from);
+    rg_flow back;
+    assert_int_equal(rg_flow_init(&back, &r.m, &r.s, &STIFF, from, to), RG_OK);
+    for (int n = 0; back.outcome == RG_RUNNING; n++) {
+        assert_true(n < 20000);
+        rg_flow_step(&back);
+        is_proper(&r, back.rho, back.u);
+    }
+    assert_int_equal(back.outcome, RG_FOLDED);
+    for (int32_t i = 0; i < r.m.N; i++) near(back.rho[i], 0, 1e-9);
+    rg_flow_free(&back);
+    free(from);
+    free(to);
+    end(&r);
+}
+
+static void the_same_bits_twice(void **state)
+{
+    (void)state;
+    run r[2];
+    for (int k = 0; k < 2; k++) begin(&r[k], generated("frog", 0), 1, &GIVING, NULL);
+    for (int n = 0; r[0].F.outcome == RG_RUNNING; n++) {
+        for (int k = 0; k < 2; k++) rg_flow_step(&r[k].F);
+        assert_memory_equal(r[0].F.rho, r[1].F.rho, (size_t)r[0].m.N * sizeof *r[0].F.rho);
+        assert_memory_equal(r[0].F.u, r[1].F.u, (size_t)r[0].F.U * sizeof *r[0].F.u);
+    }
+    assert_int_equal(r[1].F.outcome, r[0].F.outcome);
+    for (int k = 0; k < 2; k++) end(&r[k]);
+}
+
+static void memory(void **state)
+{
+    (void)state;
+    counted c = {0, 0, 0};
+    const rg_memory mem = {counted_resize, &c};
+    rg_settings s = rg_settings_default();
+    s.memory = &mem;
+    run r;
+    rg_flow F;
+    begin(&r, generated("open-sink", 0), 1, &GIVING, NULL);
+    for (long k = 0;; k++) {
+        c.left = k;
+        const rg_status status = rg_flow_init(&F, &r.m, &s, &GIVING, NULL, r.target);
+        if (status == RG_OK) break;
+        assert_int_equal(status, RG_ENOMEM);
+        assert_int_equal(c.out, 0);
+    }
+    c.left = 0;
+    const long asked = c.asked;
+    while (F.outcome == RG_RUNNING) {
+        rg_flow_step(&F);
+        if (F.s > F.old_s) rg_flow_at(&F, (F.s + F.old_s) / 2);
+    }
+    assert_int_equal(c.asked, asked);
+    assert_int_equal(F.outcome, RG_FOLDED);
+    rg_flow_free(&F);
+    assert_int_equal(c.out, 0);
+    end(&r);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(closed_vertices_fold_where_the_pattern_gives), cmocka_unit_test(open_patterns_fold_as_they_are),
+        cmocka_unit_test(a_miura_has_one_way_to_fold), cmocka_unit_test(a_sheet_folded_in_four),
+        cmocka_unit_test(rings_of_closed_vertices_are_locked), cmocka_unit_test(splitting_frees_the_one_and_adjusting_the_other),
+        cmocka_unit_test(four_mountains_never_fold), cmocka_unit_test(kept_flat_foldable), cmocka_unit_test(states_between),
+        cmocka_unit_test(as_far_as_asked_for), cmocka_unit_test(unfolding), cmocka_unit_test(the_same_bits_twice),
+        cmocka_unit_test(memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
