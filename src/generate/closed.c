@@ -66,7 +66,7 @@ void rg_closed_adjust_draw(rg_drawing *d)
     const rg_vec2 v[3] = {{0, 0}, {1, 0}, {0, 1 / sqrt(3)}};
     const ring r = ring_of(v);
     const rg_vec2 left = rg_meet(v[2], r.over[2], v[0], r.on[0]), top = rg_meet(v[1], r.over[1], v[2], r.on[2]);
-    const rg_vec2 below = along(v[0], r.over[0], 1), right = along(v[1], r.on[1], 1), corner = {left.x, below.y};
+    const rg_vec2 below = along(v[0], r.over[0], 1), right = along(v[1], r.on[1], 1), corner = {0.75 * left.x, 0.75 * below.y};
     draw_ring(d, &r, (rg_vec2[]){left, right, top}, (rg_vec2[]){below, top, left},
               (const char[]){RG_MOUNTAIN, RG_MOUNTAIN, RG_VALLEY});
     rg_drawing_path(d, (rg_vec2[]){left, corner, below, right, top, left}, 6, RG_BORDER);
