@@ -116,7 +116,7 @@ $B/tests/test_%: $B/tests/test_%.o $B/librigami.a
 
 $B/tests/stability: $B/tests/stability.o $B/librigami.a
 	$(call say,link,$@)
-	$Q$(link) -o $@ $^ $(libs) $(LDLIBS)
+	$Q$(link) -o $@ $^ -lcmocka $(libs) $(LDLIBS)
 
 $B/tests/bench/%: $B/tests/bench/%.o $B/librigami.a
 	$(call say,link,$@)
@@ -219,6 +219,7 @@ pictures: all
 chart: build
 	@sh tools/make_charts $B/rigami
 stability: $B/tests/stability
+	@mkdir -p docs/stability
 	@$< docs/stability
 .PHONY: chart stability
 

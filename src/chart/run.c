@@ -7,7 +7,7 @@
  * by one angle each, 4 x 3 multiplications a turn, less what the zeros of a turn save. */
 static const double ASSEMBLY_PASSES = 6;
 /* A time is known when it was taken so often and has taken this long in all. */
-static const double LONG_ENOUGH = 0.03;
+static const double LONG_ENOUGH = 0.02;
 static const int FEWEST_REPEATS = 3, MOST_REPEATS = 100;
 
 double rg_run_seconds(void)

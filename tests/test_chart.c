@@ -1,0 +1,249 @@
+/* Charts: orders of the methods, the closed form, what is written; and that hard places are judged as they are. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "near.h"
+#include "chart/chart.h"
+#include "scenarios.h"
+
+static rg_chart *chart_of(rg_pattern *p, int32_t frames)
+{
+    rg_settings s = rg_settings_default();
+    rg_chart *c = NULL;
+    rg_diag why = {0, ""};
+    s.frames = frames;
+    if (rg_chart_create(p, &s, NULL, NULL, &c, &why) != RG_OK) fail_msg("%s", why.text);
+    return c;
+}
+
+static const rg_order *order_of(const rg_chart *c, rg_method method)
+{
+    for (int j = 0; j < RG_ORDERS; j++)
+        if (c->order[j].method == method) return &c->order[j];
+    return NULL;
+}
+
+static void degree4(void **state)
+{
+    (void)state;
+    rg_pattern *p = draw_degree4();
+    rg_chart *c = chart_of(p, 31);
+    assert_true(c->ref.exact);
+    below(c->ref.closure, 1e-14);
+    near(order_of(c, RG_METHOD_EULER)->open.slope, 1, 0.2);
+    near(order_of(c, RG_METHOD_HEUN)->open.slope, 2, 0.2);
+    near(order_of(c, RG_METHOD_RK4)->open.slope, 4, 0.2);
+    /* The vertex can go one way only: whoever closes is exact, and eq. (14) has an order more than eq. (10). */
+    assert_true(order_of(c, RG_METHOD_NEWTON)->closed.exact);
+    assert_true(order_of(c, RG_METHOD_HEUN)->closed.exact);
+    assert_true(order_of(c, RG_METHOD_RK4)->closed.exact);
+    near(order_of(c, RG_METHOD_EULER)->closed.slope, 2, 0.4);
+
+    assert_true(rg_chart_reached(c, &c->run[0]));
+    below(c->run[0].error, 1e-9);
+    for (int32_t i = 1; i < c->runs; i++) {
+        assert_true(rg_chart_reached(c, &c->run[i]));
+        assert_true(c->run[i].passes > 0 && c->run[i].seconds > 0);
+        if (c->run[i].method != RG_METHOD_EULER) below(c->run[i].error, 1e-5);
+        if (c->run[i].method != RG_METHOD_EULER || !rg_chart_same_curve(c, i)) continue;
+        assert_true(c->run[i].error < c->run[i - 1].error); /* more cost, less error */
+        assert_true(c->run[i].passes > c->run[i - 1].passes);
+    }
+    const rg_run *lean = rg_chart_best(c, 1);
+    assert_non_null(lean);
+    below(c->run[0].passes, 1.5 * lean->passes);
+    rg_chart_destroy(c);
+    rg_pattern_destroy(p);
+}
+
+/* Along the freedoms of a sheet the orders are those of the formulas, also as it folds. */
+static void order_along_freedoms(void **state)
+{
+    (void)state;
+    /* Six creases: three ways to go. */
+    rg_pattern *p = vertex(6, (double[]){3.1, 58.2, 121.7, 187.3, 238.9, 301.4}, "VMVVMV");
+    rg_settings s = rg_settings_default();
+    rg_memory mem = rg_mem_default(NULL);
+    rg_mesh m;
+    rg_reference ref;
+    rg_order order[RG_ORDERS];
+    rg_diag why = {0, ""};
+    s.frames = 16;
+    s.to = 0.4;
+    assert_int_equal(rg_mesh_from_pattern(p, &mem, &m, &why), RG_OK);
+    assert_int_equal(rg_reference_make(&ref, &mem, &m, &s, &why), RG_OK);
+    assert_false(ref.exact);
+    assert_int_equal(ref.frames.count, s.frames);
+    below(ref.error, 1e-11);
+    assert_true(ref.halvings >= 2 && ref.change[ref.halvings - 1] >= 0);
+    assert_int_equal(rg_order_measure(order, &m, &s, &ref, 5, 14, &why), RG_OK);
+    static const double expected[RG_ORDERS] = {1, 1, 2, 4};
+    for (int j = 0; j < RG_ORDERS; j++) near(order[j].closed.slope, expected[j], 0.2);
+    rg_reference_free(&ref);
+    rg_mesh_free(&m);
+    rg_pattern_destroy(p);
+}
+
+static char *slurp(const char *path)
+{
+    FILE *f = fopen(path, "rb");
+    assert_non_null(f);
+    char *text = calloc(1, 1 << 20);
+    assert_non_null(text);
+    assert_true(fread(text, 1, (1 << 20) - 1, f) > 0);
+    fclose(f);
+    return text;
+}
+
+static int count_of(const char *text, char c)
+{
+    int n = 0;
+    for (; *text && *text != '\n'; text++) n += *text == c;
+    return n;
+}
+
+static void files(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/rigami-chart-XXXXXX", path[64];
+    rg_pattern *p = draw_bird();
+    rg_chart *c = chart_of(p, 11);
+    rg_diag why = {0, ""};
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/x.csv", folder);
+    assert_int_equal(rg_chart_write(c, "a,b", path, &why), RG_OK);
+    char *text = slurp(path), *line = text;
+    const int commas = count_of(text, ',');
+    int lines = 0, defaults = 0;
+    for (; *line; line = strchr(line, '\n') + 1, lines++) {
+        assert_non_null(strchr(line, '\n'));
+        assert_int_equal(count_of(line, ','), commas + (lines > 0)); /* the title has one more, in quotes */
+        double step = NAN;
+        int is_default = -1;
+        char method[20];
+        if (lines == 0) continue;
+        assert_int_equal(sscanf(line, "\"a,b\",%*d,%*d,%19[a-z0-9],%*[a-z],%lf,%*[^,],%d", method, &step, &is_default), 3);
+        assert_true(step > 0 && step <= 180);
+        defaults += is_default;
+    }
+    assert_int_equal(lines, c->runs + 1);
+    assert_int_equal(defaults, 1);
+    free(text);
+    remove(path);
+    snprintf(path, sizeof path, "%s/x.svg", folder);
+    assert_int_equal(rg_chart_write(c, "<&>", path, &why), RG_OK);
+    text = slurp(path);
+    assert_int_equal(strncmp(text, "<svg ", 5), 0);
+    assert_int_equal(strcmp(text + strlen(text) - 7, "</svg>\n"), 0);
+    assert_non_null(strstr(text, "&lt;&amp;"));
+    assert_null(strstr(text, "nan"));
+    assert_null(strstr(text, "-2147483648"));
+    free(text);
+    remove(path);
+    snprintf(path, sizeof path, "%s/x.pdf", folder);
+    assert_int_equal(rg_chart_write(c, "x", path, &why), RG_EARG);
+    assert_int_not_equal(access(path, F_OK), 0);
+    rmdir(folder);
+    rg_chart_destroy(c);
+    rg_pattern_destroy(p);
+}
+
+static void symmetry(void **state)
+{
+    (void)state;
+    rg_memory mem = rg_mem_default(NULL);
+    rg_diag why = {0, ""};
+    const struct { rg_pattern *p; int order, creases, vertices; } known[] = {
+        {draw_degree4(), 1, 4, 1},      /* none at all */
+        {draw_bird(), 4, 5, 2},         /* both diagonals are mirrors */
+        {draw_waterbomb(), 4, 2, 1},    /* both middle lines: one mountain or two of them, four valleys */
+    };
+    for (int i = 0; i < 3; i++) {
+        rg_mesh m;
+        rg_symmetry y;
+        assert_int_equal(rg_mesh_from_pattern(known[i].p, &mem, &m, &why), RG_OK);
+        assert_int_equal(rg_symmetry_find(&y, &mem, &m), RG_OK);
+        assert_int_equal(y.order, known[i].order);
+        assert_int_equal(y.creases, known[i].creases);
+        assert_int_equal(y.vertices, known[i].vertices);
+        rg_mesh_free(&m);
+        rg_pattern_destroy(known[i].p);
+    }
+}
+
+/* Steps longer than the way between frames once landed on the folded state before the frames that were due, and steps that
+ * ended a rounding short of a frame ended the run: no step was small enough for the rest. */
+static void every_frame_is_made(void **state)
+{
+    (void)state;
+    static const double steps[] = {30, 2.5, 0.3};
+    for (int i = 0; i < 3; i++) {
+        rg_pattern *p = draw_bird();
+        rg_settings s = column(RG_METHOD_NEWTON, RG_TRIANGULATE_NONE);
+        rg_motion *m = NULL;
+        rg_diag why = {0, ""};
+        s.step = steps[i] * RG_DEG;
+        assert_int_equal(rg_motion_create(p, &s, NULL, NULL, &m, &why), RG_OK);
+        const rg_report *r = rg_motion_report(m);
+        assert_int_equal(r->outcome, RG_FOLDED);
+        assert_int_equal(r->frame_count, s.frames);
+        for (int32_t k = 0; k < r->frame_count; k++) near(r->frames[k].percent, 100.0 * k / (s.frames - 1), 1e-6);
+        rg_motion_destroy(m);
+        rg_pattern_destroy(p);
+    }
+}
+
+static const scenario *scenario_called(const char *name)
+{
+    for (int i = 0; i < SCENARIOS; i++)
+        if (strcmp(scenarios[i].name, name) == 0) return &scenarios[i];
+    fail_msg("no scenario %s", name);
+    return NULL;
+}
+
+static void hard_places(void **state)
+{
+    (void)state;
+    cell c = try_cell(scenario_called("all mountains"), RG_METHOD_AUTO);
+    assert_int_equal(c.verdict, STOPPED);
+    assert_true(c.percent < 50);
+    c = try_cell(scenario_called("flat start"), RG_METHOD_AUTO);
+    assert_int_equal(c.verdict, REACHED);
+    c = try_cell(scenario_called("flat start"), RG_METHOD_EULER); /* eq. (14) closes up to its own second order */
+    assert_int_equal(c.verdict, DRIFTED);
+}
+
+/* Verdicts are of numbers, whatever the method says. */
+static void verdicts(void **state)
+{
+    (void)state;
+    const struct { cell c; int reached, verdict; } known[] = {
+        {{.percent = 100, .closure = 1e-12}, 1, REACHED},
+        {{.percent = 40, .closure = 1e-12}, 0, STOPPED},
+        {{.percent = 100, .closure = 1e-9}, 1, DRIFTED},
+        {{.percent = 100, .closure = 1e-9, .strain = 1e-3}, 1, DRIFTED},
+        {{.percent = 100, .closure = 1e-12, .strain = 1e-5}, 1, DIVERGED},
+        {{.percent = 100, .closure = NAN}, 1, DIVERGED},
+        {{.percent = 100, .closure = 0.2}, 1, DIVERGED},
+        {{.percent = 100, .closure = 1e-12, .beyond = 5.1}, 1, DIVERGED},
+        {{.percent = 100, .closure = 1e-12, .strain = NAN}, 1, DIVERGED},
+    };
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        cell c = known[i].c;
+        judge(&c, known[i].reached);
+        assert_int_equal(c.verdict, known[i].verdict);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(degree4),  cmocka_unit_test(order_along_freedoms), cmocka_unit_test(files),    cmocka_unit_test(symmetry),
+        cmocka_unit_test(verdicts), cmocka_unit_test(every_frame_is_made),  cmocka_unit_test(hard_places),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
