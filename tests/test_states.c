@@ -207,7 +207,7 @@ static void is_folded(const walk *w, int32_t frames)
     is_sound(w, frames);
     if (w->r->outcome != RG_FOLDED) fail_msg("%s", w->r->reason);
     near(w->r->folded_percent, 100, 1e-9);
-    near(w->r->least_folded_percent, 100, 1e-4);
+    near(w->r->least_folded_percent, 100, 1e-6);
     near(w->r->frames[frames - 1].percent, 100, 1e-9);
     assert_int_equal(w->r->states, w->count);
     assert_int_equal(w->r->states_reached, w->count);

@@ -183,6 +183,10 @@ rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, cons
             rg_joint_assemble(&F.J, F.rho, F.u, NULL);
             if (t->count > settings->frames) t->count = settings->frames;
             keep(t, F.rho, F.J.X);
+        } else if (F.landed) { /* a step may have gone past the last frame before it landed */
+            rg_joint_assemble(&F.J, F.rho, F.u, NULL);
+            t->count = settings->frames - 1;
+            keep(t, F.rho, F.J.X);
         }
         t->overfold = overfold(t);
         t->moved = moved(t);
