@@ -24,10 +24,11 @@ static const char fold_notes[] =
     "  x.csv                        fold angles in degrees, a row a frame, a column a crease\n"
     "  x.svg                        the crease pattern as folded\n"
     "  x.html                       a page to turn, fold and unfold it, all in one file\n"
-    "Without -o it folds and says how it went.\n\n" STATUSES;
+    "Without -o it folds and says how it went. Several IN are states of one sheet: the motion goes from\n"
+    "the first, folded, through all of them.\n\n" STATUSES;
 
 static const command commands[] = {
-    {"fold", FOR_FOLD, "IN [-o OUT]...", 1, 1000, "Folds a crease pattern and writes the motion.", fold_notes, cmd_fold},
+    {"fold", FOR_FOLD, "IN [IN]... [-o OUT]...", 1, 1000, "Folds a crease pattern and writes the motion.", fold_notes, cmd_fold},
     {"info", FOR_INFO, "IN", 1, 1, "Says what a crease pattern is, and whether and why it may not fold.",
      "IN is a crease pattern, - standard input. Exit status: 0 when it was read, whatever is\n"
      "said of it; 2 when not.\n",
