@@ -17,7 +17,7 @@ function count(set, way) {
     if (folds) folded[set, way]++
     if ($12 != "" && $12 <= 1e-8) closed[set, way]++
     if (set == "all" && way == "full" && folds && $16 >= 1e-9) { moved[++moves] = $16 + 0; stretched[moves] = $17 + 0 }
-    if ($18 + 0 > slowest[set, way]) slowest[set, way] = $18 + 0
+    if ($22 + 0 > slowest[set, way]) slowest[set, way] = $22 + 0
     percent[set, way] += $10
 }
 function of(n, all) { return sprintf("%d of %d", n, all) }
@@ -52,7 +52,7 @@ END {
     print "holes; that does not mean that rigid facets can fold it.\n"
     print "**Folds** means: exit 0, every driven crease within 1 % of its target, and in every frame closure (radians) and edge strain"
     print "within 1e-8. **Closes** means closure within 1e-8 in every frame that was written, also of runs that stopped short. Seconds"
-    print "are by the clock, with as many runs at once as there are cores; after " limit " of them a run is ended and told as timeout.\n"
+    print "are the processor's; after " limit " by the clock, with as many runs at once as there are cores, a run is ended and told as timeout.\n"
     print "| set | way | folds | | mean folded | closes | slowest, s |\n|---|---|--:|--:|--:|--:|--:|"
     summary("foldability", "`foldability/`")
     summary("others", "other folders")
@@ -75,7 +75,7 @@ END {
     for (i = 1; i <= patterns; i++) {
         split(line["full", pattern[i]], f, ",")
         printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %.1f | %s |\n", pattern[i], f[3], f[5], f[19],
-            cut(f[10]), cut(f[11]), short(f[12]), short(f[13]), part(f[16]), part(f[17]), over(f[15]), f[8], f[18], f[7]
+            cut(f[10]), cut(f[11]), short(f[12]), short(f[13]), part(f[16]), part(f[17]), over(f[15]), f[8], f[22], f[7]
     }
     print "\n## As drawn, and in triangles\n"
     print "| pattern | as drawn: outcome | folded, % | least, % | closure | s | triangles: outcome | folded, % | least, % | closure | s |"
@@ -84,7 +84,7 @@ END {
         printf "| %s", pattern[i]
         for (j = 1; j <= 2; j++) {
             split(line[j == 1 ? "plain" : "triangles", pattern[i]], f, ",")
-            printf " | %s | %s | %s | %s | %.1f", f[19], cut(f[10]), cut(f[11]), short(f[12]), f[18]
+            printf " | %s | %s | %s | %s | %.1f", f[19], cut(f[10]), cut(f[11]), short(f[12]), f[22]
         }
         print " |"
     }
