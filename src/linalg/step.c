@@ -160,22 +160,17 @@ static void precondition(rg_step *A, const double *r, double *z)
         for (int32_t i = 0; i < A->rows; i++) z[i] = A->diagonal[i] * r[i];
 }
 
-void rg_step_solve(rg_step *A, const double *b, double *x)
+/* Conjugate gradients on A A^T y = b. */
+static void iterate_with_factor(rg_step *A)
 {
     const int32_t m = A->rows;
-    const int32_t most = rg_supernodal_built() ? ITERATIONS_WITH_FACTOR : ITERATIONS_PER_ROW * m;
-    const double least = rg_supernodal_built() ? OUT_OF_REACH : OUT_OF_REACH_OF_DIAGONAL;
-    memset(A->y, 0, (size_t)m * sizeof *A->y);
-    memcpy(A->r, b, (size_t)m * sizeof *A->r);
-    precondition(A, A->r, A->z);
-    memcpy(A->p, A->z, (size_t)m * sizeof *A->p);
     double gamma = dot(m, A->r, A->z);
     const double target = TOLERANCE * TOLERANCE * gamma;
-    for (int32_t n = 0; n < most && gamma > target; n++) {
+    for (int32_t n = 0; n < ITERATIONS_WITH_FACTOR && gamma > target; n++) {
         rg_step_mul_t(A, A->p, A->t);
         rg_step_mul(A, A->t, A->q);
         const double curvature = dot(m, A->p, A->q);
-        if (!(curvature > least * gamma)) break; /* nothing left to move, or NaN */
+        if (!(curvature > OUT_OF_REACH * gamma)) break; /* nothing left to move, or NaN */
         const double alpha = gamma / curvature;
         for (int32_t i = 0; i < m; i++) A->y[i] += alpha * A->p[i];
         for (int32_t i = 0; i < m; i++) A->r[i] -= alpha * A->q[i];
@@ -185,6 +180,43 @@ void rg_step_solve(rg_step *A, const double *b, double *x)
         for (int32_t i = 0; i < m; i++) A->p[i] = A->z[i] + gamma / old * A->p[i];
         A->iterations++;
     }
+}
+
+/* Conjugate gradients on A^T D A x = A^T D b, D the inverse of the diagonal: the part of b that no column reaches, which many
+ * iterations on A A^T would be carried off by, is not seen. x is scratch. */
+static void iterate_with_diagonal(rg_step *A, double *x)
+{
+    const int32_t m = A->rows, most = ITERATIONS_PER_ROW * m;
+    rg_step_mul_t(A, A->z, x);
+    double gamma = dot(A->columns, x, x);
+    const double target = TOLERANCE * TOLERANCE * gamma;
+    for (int32_t n = 0; n < most && gamma > target; n++) {
+        rg_step_mul_t(A, A->p, A->t);
+        rg_step_mul(A, A->t, A->q);
+        precondition(A, A->q, A->z);
+        const double curvature = dot(m, A->q, A->z);
+        if (!(curvature > OUT_OF_REACH_OF_DIAGONAL * gamma)) break;
+        const double alpha = gamma / curvature;
+        for (int32_t i = 0; i < m; i++) A->y[i] += alpha * A->p[i];
+        for (int32_t i = 0; i < m; i++) A->r[i] -= alpha * A->q[i];
+        precondition(A, A->r, A->z);
+        const double old = gamma;
+        rg_step_mul_t(A, A->z, x);
+        gamma = dot(A->columns, x, x);
+        for (int32_t i = 0; i < m; i++) A->p[i] = A->z[i] + gamma / old * A->p[i];
+        A->iterations++;
+    }
+}
+
+void rg_step_solve(rg_step *A, const double *b, double *x)
+{
+    const int32_t m = A->rows;
+    memset(A->y, 0, (size_t)m * sizeof *A->y);
+    memcpy(A->r, b, (size_t)m * sizeof *A->r);
+    precondition(A, A->r, A->z);
+    memcpy(A->p, A->z, (size_t)m * sizeof *A->p);
+    if (rg_supernodal_built()) iterate_with_factor(A);
+    else iterate_with_diagonal(A, x);
     A->solves++;
     rg_step_mul_t(A, A->y, x);
 }
