@@ -16,6 +16,8 @@
 #include <dirent.h>
 #include <gif_lib.h>
 #include <png.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -567,6 +569,19 @@ static void videos_are_videos(void **state)
     assert_int_equal(entries(folder), 2);
     free(mp4.at);
     free(webm.at);
+
+    /* No file may be longer, which is like a disk that is full; ffmpeg by itself is content with that. */
+    struct rlimit was, small;
+    void (*before)(int) = signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &was), 0);
+    small = was;
+    small.rlim_cur = 400;
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    refuse(m, in("short.mp4"), RG_EWRITE, "short.mp4");
+    refuse(m, in("short.webm"), RG_EWRITE, "short.webm");
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &was), 0);
+    signal(SIGXFSZ, before);
+    assert_int_equal(entries(folder), 2);
     rg_motion_destroy(m);
 }
 
