@@ -246,13 +246,24 @@ static int has_returned(const rg_flow *F)
 }
 
 /* Any pattern that obeys Kawasaki's theorem closes with all creases at half a turn: only the one given counts as folded. */
+/* Does the pattern say of every crease where it ends? Unassigned ones, such as those that a pleated hypar bends along, may
+ * end anywhere, so nobody knows whether the pattern closes there as it was given. */
+static int end_is_definite(const rg_flow *F)
+{
+    for (int32_t i = 0; i < F->limit.first_added; i++)
+        if (isnan(F->target[i])) return 0;
+    return 1;
+}
+
 static void stop(rg_flow *F, const char *why)
 {
     double least;
     progress(F, F->rho, &least);
-    const int arrived = least >= 0.99 && F->s_end >= 1;
-    F->outcome = arrived && has_returned(F) ? RG_FOLDED : RG_STOPPED;
-    snprintf(F->reason, sizeof F->reason, "%s", arrived && !has_returned(F) ? "folded, but with no way back to the pattern given" : why);
+    const int arrived = least >= 0.99 && F->s_end >= 1, moved = arrived && !has_returned(F);
+    F->outcome = arrived && (!moved || !end_is_definite(F)) ? RG_FOLDED : RG_STOPPED;
+    if (moved) why = F->outcome == RG_FOLDED ? "folded, on a pattern moved a little: unassigned creases leave open where it ends"
+                                             : "folded, but with no way back to the pattern given";
+    snprintf(F->reason, sizeof F->reason, "%s", why);
 }
 
 /* From the start again, with the creases that lost asked for more loudly; zero: that was tried often enough. */
