@@ -22,7 +22,7 @@ static const rg_flow_law LAWS[] = {
 enum { LAW_COUNT = sizeof LAWS / sizeof *LAWS };
 /* Laws that are tried, and work that is spent in all and on one, by effort. */
 static const int32_t MOST_LAWS[] = {4, LAW_COUNT, LAW_COUNT};
-static const double MOST_WORK[] = {8, 120, 1500}, MOST_WORK_OF_ONE[] = {4, 25, 300};
+static const double MOST_WORK[] = {8, 90, 1500}, MOST_WORK_OF_ONE[] = {4, 25, 300};
 
 int rg_strategy_law(const rg_settings *s, int32_t n, rg_flow_law *law, double *work)
 {
