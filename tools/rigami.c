@@ -66,17 +66,24 @@ static void fill_descriptors(void)
         if (fcntl(fd, F_GETFD) < 0 && errno == EBADF) (void)!open("/dev/null", modes[fd]);
 }
 
+static void list_kinds(void)
+{
+    enum { WIDTH = 79 };
+    int at = printf("\nKIND is one of:") - 1;
+    for (const char *const *kind = rg_generate_kinds(); *kind; kind++) {
+        if (at + 1 + (int)strlen(*kind) > WIDTH) at = printf("\n ") - 1;
+        at += printf(" %s", *kind);
+    }
+    fputs("\n", stdout);
+}
+
 static int run(const command *c, int argc, char **argv)
 {
     options o;
     int status = options_parse(&o, c, argc, argv);
     if (status == ENDS_WELL && o.help) {
         options_help(c, stdout);
-        if (c->bit == FOR_GEN) {
-            fputs("\nKIND is one of:", stdout);
-            for (const char *const *kind = rg_generate_kinds(); *kind; kind++) printf(" %s", *kind);
-            fputs("\n", stdout);
-        }
+        if (c->bit == FOR_GEN) list_kinds();
     } else if (status == ENDS_WELL && o.version) {
         printf("rigami %s\n", rg_version());
     } else if (status == ENDS_WELL) {
