@@ -9,19 +9,7 @@
 
 #include "near.h"
 
-#include "draw.h"
-#include "mesh/mesh.h"
-
-static rg_mesh mesh_of(const rg_pattern *p)
-{
-    rg_memory mem = rg_mem_default(NULL);
-    rg_mesh m;
-    rg_diag why = {0, ""};
-    rg_status s = rg_mesh_from_pattern(p, &mem, &m, &why);
-    if (s != RG_OK) print_error("%s\n", why.text);
-    assert_int_equal(s, RG_OK);
-    return m;
-}
+#include "folded.h"
 
 static double area(const rg_mesh *m, int32_t f)
 {

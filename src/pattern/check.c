@@ -38,13 +38,21 @@ static double big_little_big(const struct rg_pattern *p, int32_t v, const double
     return most;
 }
 
-rg_status rg_check_vertices(struct rg_pattern *p)
+int32_t rg_check_most_edges(const struct rg_pattern *p)
 {
     int32_t most = 1;
+    for (int32_t v = 0; v < p->nv; v++) {
+        const int32_t n = p->star_start[v + 1] - p->star_start[v];
+        if (n > most) most = n;
+    }
+    return most;
+}
+
+rg_status rg_check_vertices(struct rg_pattern *p)
+{
     size_t room = 0;
     rg_status s = RG_OK;
-    for (int32_t v = 0; v < p->nv; v++) most = p->star_start[v + 1] - p->star_start[v] > most ? p->star_start[v + 1] - p->star_start[v] : most;
-    double *theta = rg_mem_array(&p->mem, (size_t)most, sizeof *theta);
+    double *theta = rg_mem_array(&p->mem, (size_t)rg_check_most_edges(p), sizeof *theta);
     if (!theta) return RG_ENOMEM;
     for (int32_t v = 0; s == RG_OK && v < p->nv; v++) {
         if (p->rim[v]) continue;

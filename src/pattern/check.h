@@ -1,5 +1,5 @@
 /* check.h -- can a vertex fold flat: degree, Kawasaki's theorem, Maekawa's theorem, big-little-big.
- * Paper    section 3.3, eq. (16) is Kawasaki's        Uses  pattern.h        Used by  pattern.c */
+ * Paper    section 3.3, eq. (16) is Kawasaki's        Uses  pattern.h        Used by  closed.c pattern.c */
 #ifndef RG_CHECK_H
 #define RG_CHECK_H
 
@@ -8,6 +8,8 @@
 /* Sector angles theta[i] of interior vertex v, from edge star[i] to the next one counter-clockwise; they add up to
  * 2 pi. theta: room for the vertex's degree. */
 void rg_check_sectors(const struct rg_pattern *p, int32_t v, double *theta);
+/* The most edges that meet at a vertex, at least 1. */
+int32_t rg_check_most_edges(const struct rg_pattern *p);
 /* Fills p->unfoldable, and the counts and the Kawasaki residual of p->info. RG_ENOMEM. */
 rg_status rg_check_vertices(struct rg_pattern *p);
 

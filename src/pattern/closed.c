@@ -15,11 +15,9 @@ static void far_end(const struct rg_pattern *p, int32_t v, int32_t e, double x[2
 
 rg_status rg_closed_find(struct rg_pattern *p)
 {
-    int32_t most = 1;
     size_t room = 0;
     rg_status s = RG_OK;
-    for (int32_t v = 0; v < p->nv; v++) most = p->star_start[v + 1] - p->star_start[v] > most ? p->star_start[v + 1] - p->star_start[v] : most;
-    double *theta = rg_mem_array(&p->mem, (size_t)most, sizeof *theta);
+    double *theta = rg_mem_array(&p->mem, (size_t)rg_check_most_edges(p), sizeof *theta);
     if (!theta) return RG_ENOMEM;
     for (int32_t v = 0; s == RG_OK && v < p->nv; v++) {
         const int32_t *star = p->star + p->star_start[v], n = p->star_start[v + 1] - p->star_start[v];

@@ -1,5 +1,5 @@
 /* numbered.h -- file names with the frame's number in them: name-%04d.png.
- * Uses  base        Used by  film.c */
+ * Uses  base        Used by  film.c output.c */
 #ifndef RG_NUMBERED_H
 #define RG_NUMBERED_H
 
