@@ -28,10 +28,19 @@ static void refuse_document_type(void *ctx, const xmlChar *name, const xmlChar *
     xmlStopParser(parser);
 }
 
-rg_status rg_xml_parse(const void *bytes, size_t size, rg_xml_type type, rg_xml **doc, rg_diag *why)
+/* Want of memory is not always told to the parser that it happens to, but to the thread; with nobody there, it is printed. */
+#if LIBXML_VERSION >= 21200
+static void note_memory(void *ctx, const xmlError *e)
+#else
+static void note_memory(void *ctx, xmlError *e)
+#endif
 {
-    if (size == 0) return rg_fail(RG_EFORMAT, why, 0, "the file is empty");
-    if (size > INT_MAX) return rg_fail(RG_EFORMAT, why, 0, "the file is larger than 2 GB");
+    int *none_left = ctx;
+    if (e->code == XML_ERR_NO_MEMORY) *none_left = 1;
+}
+
+static rg_status parse(const void *bytes, size_t size, rg_xml_type type, const int *none_left, rg_xml **doc, rg_diag *why)
+{
     xmlParserCtxt *parser = xmlNewParserCtxt();
     if (!parser) return RG_ENOMEM;
     int document_type = 0; /* the line it is declared at */
@@ -43,19 +52,33 @@ rg_status rg_xml_parse(const void *bytes, size_t size, rg_xml_type type, rg_xml 
     const int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_NOCDATA;
     xmlDoc *read = xmlCtxtReadMemory(parser, bytes, (int)size, NULL, NULL, options);
     rg_status s = RG_OK;
-    if (document_type) {
+    if (*none_left) {
+        s = RG_ENOMEM;
+    } else if (document_type) {
         s = rg_fail(RG_EFORMAT, why, document_type, "a document type is declared: no ORIPA file has one");
     } else if (!read) {
         const xmlError *e = xmlCtxtGetLastError(parser);
         const int n = e && e->message ? (int)strcspn(e->message, "\n") : 0;
-        s = e && e->code == XML_ERR_NO_MEMORY ? RG_ENOMEM
-            : rg_fail(RG_EFORMAT, why, e ? e->line : 0, "not well-formed XML: %.*s", n ? n : 7, n ? e->message : "unknown");
+        s = rg_fail(RG_EFORMAT, why, e ? e->line : 0, "not well-formed XML: %.*s", n ? n : 7, n ? e->message : "unknown");
     } else if (!xmlDocGetRootElement(read)) {
         s = rg_fail(RG_EFORMAT, why, 1, "XML without a root element");
     }
     xmlFreeParserCtxt(parser);
     if (s == RG_OK) *doc = read;
     else if (read) xmlFreeDoc(read);
+    return s;
+}
+
+rg_status rg_xml_parse(const void *bytes, size_t size, rg_xml_type type, rg_xml **doc, rg_diag *why)
+{
+    if (size == 0) return rg_fail(RG_EFORMAT, why, 0, "the file is empty");
+    if (size > INT_MAX) return rg_fail(RG_EFORMAT, why, 0, "the file is larger than 2 GB");
+    int none_left = 0;
+    const xmlStructuredErrorFunc listener = xmlStructuredError;
+    void *his = xmlStructuredErrorContext;
+    xmlSetStructuredErrorFunc(&none_left, note_memory);
+    const rg_status s = parse(bytes, size, type, &none_left, doc, why);
+    xmlSetStructuredErrorFunc(his, listener);
     return s;
 }
 
