@@ -1,7 +1,7 @@
 # make            the library and the command line        make demo      set up, build, fold a pattern, say where it is
 # make test       set up, build, run every test           make check     everything a change must pass
 # make bench      times, as CSV                           make install   prefix=/usr/local DESTDIR=
-# make asan, coverage, werror, layers, equations, outputs, format, pictures, figures, corpus [fresh=1], uninstall, clean
+# make asan, coverage, werror, layers, equations, outputs, format, pictures, figures, corpus [fresh=1], chart, stability, uninstall, clean
 # config=release|debug|asan|coverage   GL=osmesa|egl|none (the first that is there)   GPL=1|0   CC=gcc|clang   WERROR=0|1
 # V=1 shows whole commands
 config  ?= release
