@@ -40,10 +40,17 @@ static rg_status stand(rg_fold **f, const rg_mesh *m, const rg_settings *setting
     rg_status status = rg_mesh_copy(m, &copy);
     if (status == RG_OK) status = rg_fold_from_mesh(&copy, &s, f, why);
     if (status != RG_OK) return status;
-    memcpy((*f)->rho, ref->frames.rho + (size_t)from * (size_t)m->N, (size_t)m->N * sizeof *(*f)->rho);
-    (*f)->s = unit * from;
-    (*f)->steps = 2;
+    const rg_apart *a = &(*f)->apart;
+    const double *rho = ref->frames.rho + (size_t)from * (size_t)m->N;
+    rg_fold *const *system;
     (*f)->frame = 1;
+    for (int32_t p = 0, n = rg_fold_systems(*f, &system); p < n; p++) {
+        rg_fold *g = system[p];
+        for (int32_t i = 0; i < g->mesh.N; i++) g->rho[i] = rho[a->parts ? a->crease[a->start[p] + i] : i];
+        g->s = unit * from;
+        g->steps = 2;
+        g->frame = 1;
+    }
     return RG_OK;
 }
 
@@ -68,19 +75,23 @@ static int open_step(rg_fold *f, rg_method method, double h)
 /* The whole stretch in n steps. Zero: not reached. */
 static int go(rg_fold *f, rg_method method, int open, int32_t n)
 {
-    rg_step_info info = {0};
-    const double h = (f->s_end - f->s) / n;
-    if (open) {
-        while (n-- > 0)
-            if (!open_step(f, method, h)) return 0;
-        return 1;
+    rg_fold *const *system;
+    for (int32_t p = rg_fold_systems(f, &system); p-- > 0;) {
+        rg_fold *g = system[p];
+        rg_step_info info = {0};
+        const double h = (g->s_end - g->s) / n;
+        if (g->drive.count == 0) continue;
+        for (int32_t k = 0; open && k < n; k++)
+            if (!open_step(g, method, h)) return 0;
+        g->settings.step = method == RG_METHOD_EULER ? h * RG_PI : RG_PI;
+        while (!open && info.outcome == RG_RUNNING && info.frame < 1) {
+            g->ds = h * (1 + 1e-9); /* that n of them are enough */
+            rg_fold_step(g, &info);
+        }
+        if (!open && info.frame != 1) return 0;
     }
-    f->settings.step = method == RG_METHOD_EULER ? h * RG_PI : RG_PI;
-    while (info.outcome == RG_RUNNING && info.frame < 1) {
-        f->ds = h * (1 + 1e-9); /* that n of them are enough */
-        rg_fold_step(f, &info);
-    }
-    return info.frame == 1;
+    if (f->apart.parts) rg_apart_gather(&f->apart, f->rho, &f->closure);
+    return 1;
 }
 
 static void fit(rg_slope *s)

@@ -54,10 +54,9 @@ double rg_frames_distance(const rg_frames *a, const rg_frames *b)
     return far;
 }
 
-/* What the counters say, in products with C: two multiplications and additions a number of C. */
-static double passes(const rg_fold *f)
+/* What one system's counters say, in its own products with C: two multiplications and additions a number of C. */
+static double passes_of_one(const rg_fold *f, double pass)
 {
-    const double blocks = f->K.C.start[f->mesh.M], pass = 6 * (blocks > 0 ? blocks : 1);
     double sum = ASSEMBLY_PASSES * (double)f->assemblies + 2 * (double)f->P.solves + 2 * (double)f->P.iterations;
     if (f->P.solver == RG_SOLVER_CHOLESKY)
         sum += ((double)f->P.cholesky.factorizations * f->P.cholesky.L.flops +
@@ -67,6 +66,19 @@ static double passes(const rg_fold *f)
         sum += (double)f->P.factorizations * (4 * big * big * small + 8 * big * small * small + 9 * small * small * small) / pass;
     }
     return sum;
+}
+
+/* In products with the C of all. */
+static double passes(const rg_fold *f)
+{
+    rg_fold *const *system;
+    double sum = 0, all = 0;
+    for (int32_t p = rg_fold_systems(f, &system); p-- > 0;) {
+        const double blocks = system[p]->K.C.start[system[p]->mesh.M], pass = 6 * (blocks > 0 ? blocks : 1);
+        sum += pass * passes_of_one(system[p], pass);
+        all += pass;
+    }
+    return sum / all;
 }
 
 static void frame(rg_run *r, const rg_fold *f, const rg_frames *with, rg_frames *keep)
@@ -83,6 +95,16 @@ static void frame(rg_run *r, const rg_fold *f, const rg_frames *with, rg_frames 
     if (keep && k < keep->room) {
         memcpy(keep->rho + (size_t)k * (size_t)N, f->rho, (size_t)N * sizeof *f->rho);
         keep->count = k + 1;
+    }
+}
+
+/* Steps are to be no longer than this part of what lies behind and before them. */
+static void grade(rg_fold *f, double part)
+{
+    rg_fold *const *system;
+    for (int32_t p = rg_fold_systems(f, &system); p-- > 0;) {
+        rg_fold *g = system[p];
+        if (g->s > 0) g->ds = fmin(g->ds, part * fmin(g->s, fmax(1 - g->s, 1e-4)));
     }
 }
 
@@ -104,7 +126,7 @@ rg_status rg_run_make(rg_run *r, const rg_mesh *m, const rg_settings *settings, 
     double begun = rg_run_seconds(), looking = 0; /* at frames, which is not folding */
     status = rg_fold_from_mesh(&copy, &s, &f, why);
     while (status == RG_OK && info.outcome == RG_RUNNING) {
-        if (way->grade > 0 && f->s > 0) f->ds = fmin(f->ds, way->grade * fmin(f->s, fmax(1 - f->s, 1e-4)));
+        if (way->grade > 0) grade(f, way->grade);
         status = rg_fold_step(f, &info);
         /* Within 1 % of the end and no way on: that is the last frame, but not one to measure others by. */
         const int last = info.outcome == RG_FOLDED && info.frame < 0 && r->frames == s.frames - 1;
@@ -116,15 +138,16 @@ rg_status rg_run_make(rg_run *r, const rg_mesh *m, const rg_settings *settings, 
     r->seconds = rg_run_seconds() - begun - looking;
     if (status == RG_OK) {
         r->method = f->settings.method;
-        r->solver = f->P.solver;
+        const rg_cost cost = rg_fold_cost(f);
+        r->solver = rg_fold_solver(f);
         r->outcome = info.outcome;
         r->percent = 100 * info.progress;
         r->passes = passes(f);
-        r->steps = f->steps;
-        r->solves = f->P.solves;
-        r->iterations = f->P.iterations;
-        r->factorizations = f->P.factorizations;
-        r->assemblies = f->assemblies;
+        r->steps = cost.steps;
+        r->solves = cost.solves;
+        r->iterations = cost.iterations;
+        r->factorizations = cost.factorizations;
+        r->assemblies = cost.assemblies;
         if (!with || with->count < 2) r->error = NAN; /* flat, they are all alike */
     }
     rg_fold_destroy(f);

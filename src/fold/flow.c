@@ -408,6 +408,24 @@ void rg_flow_step(rg_flow *F)
     }
 }
 
+/* Closes F->trial, F->trial_u, which a chord or its correction may have taken past half a turn: such creases are put back
+ * there and held, and the others make up for it. Zero: it does not close. */
+static int close_within_half_turns(rg_flow *F)
+{
+    for (int32_t round = 0; round < ROUNDS; round++) {
+        int32_t held = 0;
+        if (!correct(F, F->trial, F->trial_u, 0.01 * F->tol) && !(F->closure <= F->tol)) return 0;
+        for (int32_t i = 0; i < F->limit.first_added && is_limited(F); i++) {
+            if (isnan(F->target[i]) || !(fabs(F->trial[i]) > RG_PI + BEYOND / 10)) continue;
+            F->trial[i] = copysign(RG_PI, F->trial[i]);
+            F->scale[i] = HELD_GIVES;
+            held++;
+        }
+        if (!held) return 1;
+    }
+    return correct(F, F->trial, F->trial_u, 0.01 * F->tol) || F->closure <= F->tol;
+}
+
 int rg_flow_at(rg_flow *F, double s)
 {
     if (F->landed && s >= 1) {
@@ -423,7 +441,7 @@ int rg_flow_at(rg_flow *F, double s)
         const double t = fabs(s1 - s0) > 1e-14 ? fmin(1, fmax(0, t0 + (t1 - t0) * (s - s0) / (s1 - s0))) : t1;
         for (int32_t i = 0; i < F->N; i++) F->trial[i] = (1 - t) * F->old_rho[i] + t * F->rho[i];
         for (int32_t i = 0; i < F->U; i++) F->trial_u[i] = (1 - t) * F->old_u[i] + t * F->u[i];
-        if (!correct(F, F->trial, F->trial_u, 0.01 * F->tol) && !(F->closure <= F->tol)) return found;
+        if (!close_within_half_turns(F)) return found;
         found = 1;
         const double is = progress(F, F->trial, &least);
         if (fabs(is - s) <= SAME_PROGRESS || t == 1) break;

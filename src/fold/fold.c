@@ -12,10 +12,10 @@ static const double FIRST_ANGLE = 0.01;
 /* Steps smaller than this part of the whole way are no progress. */
 static const double SMALLEST_STEP = 1e-6;
 static const int32_t MOST_STEPS = 20000;
-/* So many steps must gain this much of the way, or, with steps that are small by order, this part of what they could:
- * a motion that only creeps is over. */
-static const int32_t CREEP_STEPS = 200;
-static const double CREEP_GAIN = 1e-3, CREEP_PART = 0.01;
+/* So many steps must reach a frame, or gain this much of the way, or, with steps that are small by order, this part of what
+ * they could: a motion that only creeps is over. */
+static const int32_t MOST_IDLE = 60;
+static const double LEAST_GAIN = 1e-3, LEAST_PART = 0.01;
 static const double SOLVE_TOLERANCE = 1e-8;
 static const int32_t CORRECTIONS = 8;
 /* A correction this much longer than the step it corrects has left the branch. */
@@ -49,7 +49,23 @@ static rg_status check_settings(const rg_settings *s, rg_diag *why)
     return RG_OK;
 }
 
-rg_status rg_fold_from_mesh(rg_mesh *m, const rg_settings *settings, rg_fold **fold, rg_diag *why)
+/* The one system of all creases, and what its time loop works on. */
+static rg_status make_system(rg_fold *f, rg_diag *why)
+{
+    const rg_memory *mem = &f->mem;
+    rg_status s = rg_project_init(&f->P, mem, &f->K, f->settings.solver);
+    if (s == RG_EABSENT) return rg_fail(s, why, 0, "this build has no such solver: it was made with GPL=0");
+    if (s == RG_OK && f->smooth) s = rg_path_init(&f->path, mem, f->mesh.N);
+    double **array[] = {&f->trial, &f->wish, &f->t, &f->pull, &f->best, &f->end, &f->k[0], &f->k[1], &f->k[2]};
+    for (int i = 0; i < 9; i++)
+        if (!(*array[i] = rg_mem_array(mem, (size_t)f->mesh.N, sizeof(double))) && s == RG_OK) s = RG_ENOMEM;
+    if (s != RG_OK) return s;
+    for (int32_t i = 0; i < f->mesh.N; i++) f->end[i] = isnan(f->drive.target[i]) ? 0 : f->drive.target[i];
+    f->end_is_closed = rg_constraint_closure(&f->K, f->end, NULL) <= f->settings.tol;
+    return RG_OK;
+}
+
+static rg_status create(rg_mesh *m, const rg_settings *settings, int apart, rg_fold **fold, rg_diag *why)
 {
     rg_memory mem = rg_mem_default(settings->memory);
     rg_status s = check_settings(settings, why);
@@ -59,31 +75,33 @@ rg_status rg_fold_from_mesh(rg_mesh *m, const rg_settings *settings, rg_fold **f
         return s != RG_OK ? s : RG_ENOMEM;
     }
     f->mem = mem;
+    f->self = f;
     f->settings = *settings;
     if (f->settings.method == RG_METHOD_AUTO) f->settings.method = RG_METHOD_ADAPTIVE;
     f->smooth = f->settings.method == RG_METHOD_ADAPTIVE;
     f->mesh = *m;
     memset(m, 0, sizeof *m);
-    const int32_t N = f->mesh.N;
-    s = rg_constraint_init(&f->K, &mem, &f->mesh);
-    if (s == RG_OK) s = rg_project_init(&f->P, &mem, &f->K, settings->solver);
-    if (s == RG_EABSENT) rg_fail(s, why, 0, "this build has no such solver: it was made with GPL=0");
-    if (s == RG_OK) s = rg_drive_init(&f->drive, &mem, &f->mesh, settings->to < 0 ? -1 : 1);
-    if (s == RG_OK) s = rg_limit_init(&f->limit, &mem, &f->mesh);
-    if (s == RG_OK && f->smooth) s = rg_path_init(&f->path, &mem, N);
-    double **array[] = {&f->rho, &f->trial, &f->wish, &f->t, &f->pull, &f->best, &f->end, &f->k[0], &f->k[1], &f->k[2]};
-    for (int i = 0; i < 10; i++)
-        if (!(*array[i] = rg_mem_array(&mem, (size_t)N, sizeof(double))) && s == RG_OK) s = RG_ENOMEM;
-    if (s != RG_OK) {
-        rg_fold_destroy(f);
-        return s;
-    }
-    for (int32_t i = 0; i < N; i++) f->end[i] = isnan(f->drive.target[i]) ? 0 : f->drive.target[i];
-    f->end_is_closed = rg_constraint_closure(&f->K, f->end, NULL) <= f->settings.tol;
     f->s_end = fabs(settings->to);
     f->ds = INFINITY;
-    *fold = f;
-    return RG_OK;
+    f->rho = rg_mem_array(&mem, (size_t)f->mesh.N, sizeof *f->rho);
+    s = f->rho ? rg_constraint_init(&f->K, &mem, &f->mesh) : RG_ENOMEM;
+    if (s == RG_OK) s = rg_drive_init(&f->drive, &mem, &f->mesh, settings->to < 0 ? -1 : 1);
+    if (s == RG_OK) s = rg_limit_init(&f->limit, &mem, &f->mesh);
+    if (s == RG_OK && apart) s = rg_apart_init(&f->apart, &mem, &f->mesh, settings, why);
+    if (s == RG_OK && f->apart.parts == 0) s = make_system(f, why);
+    if (s == RG_OK) *fold = f;
+    else rg_fold_destroy(f);
+    return s;
+}
+
+rg_status rg_fold_from_mesh(rg_mesh *m, const rg_settings *settings, rg_fold **fold, rg_diag *why)
+{
+    return create(m, settings, 1, fold, why);
+}
+
+rg_status rg_fold_from_mesh_together(rg_mesh *m, const rg_settings *settings, rg_fold **fold, rg_diag *why)
+{
+    return create(m, settings, 0, fold, why);
 }
 
 rg_status rg_fold_create(const rg_pattern *p, const rg_settings *settings, rg_fold **fold, rg_diag *why)
@@ -108,6 +126,7 @@ void rg_fold_destroy(rg_fold *f)
     rg_project_free(&f->P);
     rg_drive_free(&f->drive);
     rg_limit_free(&f->limit);
+    rg_apart_free(&f->apart);
     rg_path_free(&f->path);
     double *array[] = {f->rho, f->trial, f->wish, f->t, f->pull, f->best, f->end, f->k[0], f->k[1], f->k[2]};
     for (int i = 0; i < 10; i++) rg_mem_free(&mem, array[i]);
@@ -118,6 +137,35 @@ const double *rg_fold_angles(const rg_fold *f, int32_t *creases)
 {
     if (creases) *creases = f->mesh.N;
     return f->rho;
+}
+
+int32_t rg_fold_systems(const rg_fold *f, rg_fold *const **system)
+{
+    *system = f->apart.parts ? f->apart.part : &f->self;
+    return f->apart.parts ? f->apart.parts : 1;
+}
+
+rg_cost rg_fold_cost(const rg_fold *f)
+{
+    rg_cost sum = {.seconds = f->seconds_solving};
+    rg_fold *const *system;
+    for (int32_t p = rg_fold_systems(f, &system); p-- > 0;) {
+        const rg_fold *g = system[p];
+        sum.steps += g->steps;
+        sum.solves += g->P.solves;
+        sum.iterations += g->P.iterations;
+        sum.factorizations += g->P.factorizations;
+        sum.assemblies += g->assemblies;
+    }
+    return sum;
+}
+
+rg_solver rg_fold_solver(const rg_fold *f)
+{
+    rg_fold *const *system, *most = NULL;
+    for (int32_t p = rg_fold_systems(f, &system); p-- > 0;)
+        if (!most || system[p]->mesh.N > most->mesh.N) most = system[p];
+    return most->P.solver;
 }
 
 double rg_fold_frame_progress(const rg_fold *f, int32_t frame)
@@ -285,39 +333,55 @@ static void step_adaptive(rg_fold *f)
 
 static int creeps(rg_fold *f)
 {
-    if (f->steps - f->creep_steps < CREEP_STEPS) return 0;
     const double s = f->smooth && f->path.count > 0 ? f->path.node[f->path.count - 1].s : f->s;
-    const double gain = s - f->creep_s, could = CREEP_STEPS * f->settings.step / RG_PI;
-    f->creep_steps = f->steps;
-    f->creep_s = s;
-    return !(gain >= fmin(CREEP_GAIN, CREEP_PART * could));
+    const double could = MOST_IDLE * f->settings.step / RG_PI;
+    if (s - f->idle_s >= fmin(LEAST_GAIN, LEAST_PART * could)) f->idle = 0, f->idle_s = s;
+    return f->idle++ >= MOST_IDLE;
+}
+
+/* One step of one system. Returns the frame that it ends on, -1: none. */
+static int32_t step(rg_fold *f)
+{
+    if (f->steps == 0) return 0; /* the flat state is the first frame */
+    if (f->drive.count == 0 || f->s_end == 0) { /* nothing to fold: flat is where it ends */
+        f->s = f->s_end;
+        f->outcome = RG_FOLDED;
+        return f->settings.frames - 1;
+    }
+    if (f->steps - f->frame > MOST_STEPS) { /* besides those that frames ask for */
+        stop(f, "the number of steps ran out");
+    } else if (creeps(f)) {
+        stop(f, "the facets leave hardly any way on: it goes on in steps too small to get anywhere");
+    } else {
+        if (f->settings.method == RG_METHOD_EULER) step_euler(f);
+        else if (f->steps == 1 && f->s == 0) leave_flat(f);
+        else if (f->smooth) step_adaptive(f);
+        else step_newton(f);
+        if (f->outcome == RG_RUNNING && f->s >= rg_fold_frame_progress(f, f->frame)) return f->frame;
+    }
+    return -1;
+}
+
+/* The same for several. */
+static int32_t step_apart(rg_fold *f)
+{
+    const int32_t last = f->settings.frames - 1;
+    int reached, done = 1;
+    rg_apart_step(&f->apart, f->frame, &reached, &f->outcome);
+    f->s = rg_apart_gather(&f->apart, f->rho, &f->closure);
+    if (f->outcome != RG_RUNNING) rg_apart_tell(&f->apart, f->reason, sizeof f->reason);
+    for (int32_t p = 0; p < f->apart.parts; p++) done &= f->apart.part[p]->frame > last;
+    return done ? last : reached ? f->frame : -1;
 }
 
 rg_status rg_fold_step(rg_fold *f, rg_step_info *info)
 {
-    int64_t solves = f->P.solves, iterations = f->P.iterations;
+    const rg_cost was = rg_fold_cost(f);
     int32_t frame = -1;
     double from = seconds();
     if (f->outcome == RG_RUNNING) {
-        if (f->steps == 0) {
-            frame = 0; /* the flat state is the first frame */
-        } else if (f->drive.count == 0 || f->s_end == 0) {
-            f->s = f->s_end; /* nothing to fold: flat is where it ends */
-            f->frame = f->settings.frames - 1;
-            frame = f->frame;
-            f->outcome = RG_FOLDED;
-        } else if (f->steps - f->frame > MOST_STEPS) { /* besides those that frames ask for */
-            stop(f, "the number of steps ran out");
-        } else if (creeps(f)) {
-            stop(f, "it goes on in steps too small to get anywhere");
-        } else {
-            if (f->settings.method == RG_METHOD_EULER) step_euler(f);
-            else if (f->steps == 1 && f->s == 0) leave_flat(f);
-            else if (f->smooth) step_adaptive(f);
-            else step_newton(f);
-            if (f->outcome == RG_RUNNING && f->s >= rg_fold_frame_progress(f, f->frame)) frame = f->frame;
-        }
-        if (frame >= 0) f->frame = frame + 1;
+        frame = f->apart.parts ? step_apart(f) : step(f);
+        if (frame >= 0) f->frame = frame + 1, f->idle = 0;
         if (f->outcome == RG_RUNNING && f->frame == f->settings.frames) {
             f->outcome = RG_FOLDED;
             if (f->s_end >= 1) stop(f, "all frames are made");
@@ -325,7 +389,8 @@ rg_status rg_fold_step(rg_fold *f, rg_step_info *info)
         f->steps += !f->smooth || f->steps < 2;
     }
     f->seconds_solving += seconds() - from;
-    *info = (rg_step_info){f->outcome, f->s, frame, f->closure, (int32_t)(f->P.solves - solves),
-                           (int32_t)(f->P.iterations - iterations)};
+    const rg_cost is = rg_fold_cost(f);
+    *info = (rg_step_info){f->outcome, f->s, frame, f->closure, (int32_t)(is.solves - was.solves),
+                           (int32_t)(is.iterations - was.iterations)};
     return RG_OK;
 }

@@ -3,19 +3,28 @@
 #ifndef RG_FOLD_H
 #define RG_FOLD_H
 
+#include "fold/apart.h"
 #include "fold/drive.h"
 #include "fold/limit.h"
 #include "fold/path.h"
 #include "kinematics/project.h"
+
+/* What was spent. */
+typedef struct rg_cost {
+    int64_t steps, solves, iterations, factorizations, assemblies;
+    double seconds;
+} rg_cost;
 
 struct rg_fold {
     rg_memory mem;
     rg_settings settings;
     rg_mesh mesh;
     rg_constraint K;
-    rg_project P;
     rg_drive drive;
     rg_limit limit;
+    rg_apart apart;               /* the folds of its components; with any, of what follows only the state and the end are used */
+    rg_fold *self;
+    rg_project P;
     double *rho;                  /* [N] the state: always closed to settings.tol under newton */
     double *trial, *wish, *t;     /* [N] */
     double *pull, *best;          /* [N] */
@@ -31,8 +40,8 @@ struct rg_fold {
     int end_is_closed;            /* the folded state closes to tolerance: land on it exactly */
     int32_t frame;                /* the next frame to reach */
     int32_t steps;
-    int32_t creep_steps;          /* and s, when it was last looked whether it creeps */
-    double creep_s;
+    int32_t idle;                 /* steps since a frame was reached or ... */
+    double idle_s;                /* ... progress was made, from there */
     int64_t assemblies;
     double moved;                 /* the farthest that a crease may have gone since the last factorisation */
     double closure;
@@ -41,8 +50,17 @@ struct rg_fold {
     double seconds_solving;
 };
 
-/* A fold of a mesh; *m is taken over, also on failure. */
+/* A fold of a mesh, its independent components apart; *m is taken over, also on failure. */
 rg_status rg_fold_from_mesh(rg_mesh *m, const rg_settings *s, rg_fold **fold, rg_diag *why);
+/* The same as one system, whatever components there are. */
+rg_status rg_fold_from_mesh_together(rg_mesh *m, const rg_settings *s, rg_fold **fold, rg_diag *why);
+
+/* The systems that are solved: f itself, or its components. Returns how many. */
+int32_t rg_fold_systems(const rg_fold *f, rg_fold *const **system);
+/* Of all systems. */
+rg_cost rg_fold_cost(const rg_fold *f);
+/* That of the system with most creases; never RG_SOLVER_AUTO. */
+rg_solver rg_fold_solver(const rg_fold *f);
 
 /* The progress at which a frame is due. */
 double rg_fold_frame_progress(const rg_fold *f, int32_t frame);

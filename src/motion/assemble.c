@@ -1,6 +1,5 @@
 #include "motion/assemble.h"
 #include "base/status.h"
-#include "motion/diagnose.h"
 #include "motion/measure.h"
 
 #include <stdio.h>
@@ -237,7 +236,6 @@ static rg_status make(rg_motion *m, const rg_states *q, const rg_pattern *last, 
     s = rg_tree_init(&m->mesh, m->settings.fixed_facet, &m->tree);
     if (s == RG_EARG)
         rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)m->settings.fixed_facet, (int)m->mesh.nf - 1);
-    if (s == RG_OK) s = rg_diagnose_components(&m->mesh, &m->mem, &r->components);
     return s == RG_OK ? measure(m) : s;
 }
 

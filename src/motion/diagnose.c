@@ -45,7 +45,8 @@ static int is_blocked(double rho, double from, double target, double wish, doubl
     return 1 - (rho - from) / way > ARRIVED && step / wish <= HELD;
 }
 
-rg_status rg_diagnose_blocking(rg_fold *f, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases)
+/* Of one system. */
+static rg_status diagnose(rg_fold *f, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases)
 {
     const rg_sparse *C = &f->K.C;
     rg_cg_report rep;
@@ -70,6 +71,21 @@ rg_status rg_diagnose_blocking(rg_fold *f, int32_t *vertex, int32_t *vertices, i
     return s;
 }
 
+rg_status rg_diagnose_blocking(rg_fold *f, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases)
+{
+    rg_fold *const *system;
+    rg_status s = RG_OK;
+    *vertices = *creases = 0;
+    for (int32_t p = 0, n = rg_fold_systems(f, &system), v, c; p < n && s == RG_OK; p++) {
+        if (n > 1 && system[p]->outcome == RG_FOLDED) continue;
+        int32_t *mine = crease + *creases;
+        s = diagnose(system[p], vertex + *vertices, &v, mine, &c);
+        for (int32_t i = 0; s == RG_OK && n > 1 && i < c; i++) mine[i] = f->apart.crease[f->apart.start[p] + mine[i]];
+        if (s == RG_OK) *vertices += v, *creases += c;
+    }
+    return s;
+}
+
 rg_status rg_diagnose_flow(rg_flow *F, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases)
 {
     const rg_mesh *m = F->mesh;
@@ -85,28 +101,5 @@ rg_status rg_diagnose_flow(rg_flow *F, int32_t *vertex, int32_t *vertices, int32
     for (int32_t i = 0; i < F->limit.first_added; i++)
         if (is_blocked(F->rho[i], F->from[i], F->target[i], F->wish[i], F->dz[i])) crease[(*creases)++] = i;
     rg_mem_free(&F->mem, by);
-    return RG_OK;
-}
-
-static int32_t root(int32_t *up, int32_t i)
-{
-    while (up[i] != i) i = up[i] = up[up[i]];
-    return i;
-}
-
-rg_status rg_diagnose_components(const rg_mesh *m, const rg_memory *mem, int32_t *components)
-{
-    int32_t *up = rg_mem_array(mem, (size_t)m->N, sizeof *up);
-    if (!up) return RG_ENOMEM;
-    for (int32_t i = 0; i < m->N; i++) up[i] = i;
-    *components = m->N;
-    for (int32_t k = 0; k < m->M; k++)
-        for (int32_t j = m->loop_start[k] + 1; j < m->loop_start[k + 1]; j++) {
-            int32_t a = root(up, m->loop_crease[j - 1]), b = root(up, m->loop_crease[j]);
-            if (a == b) continue;
-            up[a] = b;
-            --*components;
-        }
-    rg_mem_free(mem, up);
     return RG_OK;
 }

@@ -7,16 +7,13 @@
 #include "fold/fold.h"
 
 /* At the state f->rho:
- *   vertex[M]  out  vertex numbers that resist the wish most, the strongest first: y of eq. (15) is the reaction with
- *                   which each vertex turns the wish into the allowed step
+ *   vertex[M]  out  vertex numbers that resist the wish most, the strongest first, component by component: y of eq. (15) is
+ *                   the reaction with which each vertex turns the wish into the allowed step
  *   crease[N]  out  crease numbers that are short of their target and not let any nearer
  * Returns RG_ENOMEM, or RG_OK with the counts. */
 rg_status rg_diagnose_blocking(rg_fold *f, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases);
 
 /* The same at F->rho, F->u. */
 rg_status rg_diagnose_flow(rg_flow *F, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases);
-
-/* Groups of creases that are joined through interior vertices: each moves without the others. */
-rg_status rg_diagnose_components(const rg_mesh *m, const rg_memory *mem, int32_t *components);
 
 #endif

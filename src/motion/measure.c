@@ -1,5 +1,6 @@
 #include "motion/measure.h"
 #include "kinematics/loop.h"
+#include "mesh/components.h"
 
 #include <string.h>
 
@@ -62,9 +63,11 @@ static double displacement(const rg_mesh *m, const rg_vec2 *X)
 rg_status rg_measure_frames(rg_motion *m)
 {
     rg_report *r = &m->report;
+    int32_t *part = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *part);
     rg_place *place = rg_mem_array(&m->mem, (size_t)m->mesh.nf, sizeof *place);
     rg_vec3 *x = rg_mem_array(&m->mem, (size_t)m->mesh.nv, sizeof *x);
-    const rg_status s = place && x ? RG_OK : RG_ENOMEM;
+    const rg_status s = part && place && x ? RG_OK : RG_ENOMEM;
+    if (s == RG_OK) r->components = rg_components_find(&m->mesh, part);
     for (int32_t k = 0; s == RG_OK && k < r->frame_count; k++) {
         const double *rho = rg_motion_angles(m, k);
         const rg_vec2 *X = rg_motion_pattern(m, k);
@@ -78,6 +81,7 @@ rg_status rg_measure_frames(rg_motion *m)
         r->max_adjustment = larger(r->max_adjustment, displacement(&m->mesh, X));
         r->max_facet_gap = larger(r->max_facet_gap, rg_pose_gap(&m->mesh, X, place) / m->mesh.size);
     }
+    rg_mem_free(&m->mem, part);
     rg_mem_free(&m->mem, place);
     rg_mem_free(&m->mem, x);
     return s;

@@ -180,7 +180,6 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_
     if (s == RG_OK) s = rg_tree_init(&m->mesh, settings->fixed_facet, &m->tree);
     if (s == RG_EARG && m->mesh.nf > 0)
         rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)settings->fixed_facet, (int)m->mesh.nf - 1);
-    if (s == RG_OK) s = rg_diagnose_components(&m->mesh, &mem, &r->components);
     if (s == RG_OK) s = rg_measure_frames(m);
     rg_mesh_free(&none);
     if (s != RG_OK) {

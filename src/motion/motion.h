@@ -6,12 +6,6 @@
 #include "mesh/mesh.h"
 #include "pose/pose.h"
 
-/* What was spent, over all tries. */
-typedef struct rg_cost {
-    int64_t steps, solves, iterations, factorizations, assemblies;
-    double seconds;
-} rg_cost;
-
 struct rg_motion {
     rg_memory mem;
     rg_settings settings;

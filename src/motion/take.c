@@ -6,11 +6,6 @@
 #include <string.h>
 #include <time.h>
 
-/* So many steps without a frame or so much progress are as good as standing still. */
-static const int32_t MOST_IDLE = 60;
-static const double FASTER_THAN_CRAWLING = 1e-3;
-static const char CRAWLING[] = "the facets leave hardly any way on";
-
 static double seconds(void)
 {
     struct timespec t;
@@ -94,14 +89,9 @@ rg_status rg_take_straight(rg_take *t, rg_mesh *m, const rg_settings *settings, 
     rg_status s = rg_fold_from_mesh(m, settings, &f, why);
     if (s != RG_OK) return s;
     s = make_room(t, &f->mesh, settings->frames, 0);
-    double kept = -1, best = 0;
-    int32_t idle = 0;
-    int crawls = 0;
-    while (s == RG_OK && info.outcome == RG_RUNNING && !crawls) {
+    double kept = -1;
+    while (s == RG_OK && info.outcome == RG_RUNNING) {
         s = rg_fold_step(f, &info);
-        idle++;
-        if (info.frame >= 0 || info.progress > best + FASTER_THAN_CRAWLING) best = info.progress, idle = 0;
-        crawls = info.outcome == RG_RUNNING && idle > MOST_IDLE;
         if (s == RG_OK && info.frame >= 0) {
             memcpy(t->rho + (size_t)t->count++ * (size_t)f->mesh.N, f->rho, (size_t)f->mesh.N * sizeof *f->rho);
             kept = f->s;
@@ -111,15 +101,16 @@ rg_status rg_take_straight(rg_take *t, rg_mesh *m, const rg_settings *settings, 
     if (s == RG_OK) {
         memcpy(t->target, f->drive.target, (size_t)f->mesh.N * sizeof *t->target);
         for (int32_t i = f->limit.first_added; i < f->mesh.N; i++) t->target[i] = NAN;
-        t->outcome = watch->cancelled || crawls ? RG_STOPPED : info.outcome;
-        snprintf(t->reason, sizeof t->reason, "%.190s", watch->cancelled ? "interrupted" : crawls ? CRAWLING : f->reason);
+        t->outcome = watch->cancelled ? RG_STOPPED : info.outcome;
+        snprintf(t->reason, sizeof t->reason, "%.190s", watch->cancelled ? "interrupted" : f->reason);
         if (t->outcome == RG_STOPPED && f->mesh.N > 0)
             s = rg_diagnose_blocking(f, t->vertex, &t->vertices, t->crease, &t->creases);
         if (f->s != kept) memcpy(t->rho + (size_t)t->count++ * (size_t)f->mesh.N, f->rho, (size_t)f->mesh.N * sizeof *f->rho);
         static const char *const methods[] = {"auto", "euler", "newton", "heun", "rk4", "adaptive"};
+        static const char *const solvers[] = {"auto", "cg", "cholesky", "svd"};
         t->method = methods[f->settings.method];
-        t->solver = f->P.solver == RG_SOLVER_CHOLESKY ? "cholesky" : f->P.solver == RG_SOLVER_SVD ? "svd" : "cg";
-        t->cost = (rg_cost){f->steps, f->P.solves, f->P.iterations, f->P.factorizations, f->assemblies, 0};
+        t->solver = solvers[rg_fold_solver(f)];
+        t->cost = rg_fold_cost(f);
         t->mesh = f->mesh;
         memset(&f->mesh, 0, sizeof f->mesh);
         t->score = score(t, f->rho);

@@ -1,0 +1,32 @@
+/* apart.h -- independent components of a sheet, each a fold of its own: a system, steps and an end of its own.
+ * Paper    eq. (11): the blocks that the constraint falls into        Uses  components.h        Used by  fold.c
+ *
+ * Each component goes evenly from 0 to 100 % of its own way, frame by frame with the others. One that is done, or was never
+ * asked to move, is not solved any more; one that is held stays where it is, and the others go on. */
+#ifndef RG_APART_H
+#define RG_APART_H
+
+#include "mesh/mesh.h"
+#include "rigami.h"
+
+typedef struct rg_apart {
+    rg_memory mem;
+    int32_t parts;   /* 0: the sheet is in one piece */
+    rg_fold **part;  /* [parts] owned */
+    int32_t *start;  /* [parts + 1] into crease */
+    int32_t *crease; /* [N] by part: which crease of the sheet each of its creases is */
+} rg_apart;
+
+/* RG_ENOMEM, RG_EABSENT. Owner: the caller, rg_apart_free, also after a failure. */
+rg_status rg_apart_init(rg_apart *a, const rg_memory *mem, const rg_mesh *m, const rg_settings *s, rg_diag *why);
+void rg_apart_free(rg_apart *a);
+
+/* Each part that has not reached that frame yet makes a step. *reached: whether all that can have. *outcome: RG_RUNNING as long as
+ * a part is. */
+void rg_apart_step(rg_apart *a, int32_t frame, int *reached, rg_outcome *outcome);
+/* rho[N]: out. closure: out, the largest. Returns the progress of the whole. */
+double rg_apart_gather(const rg_apart *a, double *rho, double *closure);
+/* How it ended, in words. */
+void rg_apart_tell(const rg_apart *a, char *text, size_t room);
+
+#endif
