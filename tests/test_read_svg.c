@@ -74,6 +74,60 @@ static void transforms(void **state)
     rg_lines_free(&l);
 }
 
+/* What is repeated is where it would be, were it written out: transform, x and y, viewBox, style from without. */
+static void repeats(void **state)
+{
+    (void)state;
+    rg_lines l = read_svg("<svg xmlns:xlink='http://www.w3.org/1999/xlink' width='200' height='100'><defs>"
+        "<line id='l' x1='1' y1='2' x2='3' y2='5'/><g id='pair' transform='translate(10 0)'>"
+        "<use xlink:href='#l'/><use href='#l' x='1' y='.5' stroke='blue'/></g>"
+        "<symbol id='s' viewBox='-1 -2 4 8' width='7' height='9'><path d='M1 2H3'/></symbol>"
+        "<symbol id='plain'><path id='p' d='M1 2H3'/></symbol></defs>"
+        "<use href='#l'/><use href='#pair' stroke='red' transform='scale(2)' x='100'/><use href='#later' opacity='.5'/>"
+        "<g stroke='red'><use href='#s' x='5' y='6' width='4' height='8'/><use href='#s' width='8' height='32'/>"
+        "<use href='#s' width='100%' height='8'/><use href='#plain' x='1' width='50'/><use href='#p' transform='rotate(90)' y='1'/></g>"
+        "<path id='later' stroke='blue' d='M0 0V7'/><g stroke='black'>"
+        "<svg x='10' y='20' width='8' height='8' viewBox='0 0 4 2' preserveAspectRatio='none'><path d='M1 1H3'/></svg>"
+        "<svg x='10' y='20' width='8' height='8' viewBox='0 0 4 2' preserveAspectRatio='xMinYMax slice'><path d='M1 1H3'/></svg>"
+        "<svg x='50' viewBox='0 0 100 100' preserveAspectRatio='xMaxYMid'><path d='M0 0H1'/></svg></g></svg>");
+    const struct { char letter; double ax, ay, bx, by, target; } want[] = {
+        {'M', 222, 4, 226, 10, NAN}, {'V', 224, 5, 228, 11, NAN}, {'V', 0, 0, 0, 7, 90}, {'M', 7, 10, 9, 10, NAN},
+        {'M', 4, 16, 8, 16, NAN}, {'M', 100, 4, 102, 4, NAN}, {'M', 2, 2, 4, 2, NAN}, {'M', -3, 1, -3, 3, NAN},
+        {'V', 0, 0, 0, 7, NAN}, {'B', 12, 24, 16, 24, NAN}, {'B', 14, 24, 22, 24, NAN}, {'B', 150, 0, 151, 0, NAN}};
+    assert_int_equal(l.count, sizeof want / sizeof *want);
+    assert_int_equal(l.warnings, 0);
+    for (int32_t i = 0; i < l.count; i++)
+        is_line(&l, i, want[i].letter, want[i].ax, -want[i].ay, want[i].bx, -want[i].by, want[i].target);
+    rg_lines_free(&l);
+    /* Of two elements with one id the first counts; what is nowhere is told. */
+    l = read_svg(SVG("<g display='none'><path id='a' d='M0 0H1'/></g><path id='a' d='M0 0H2'/><use stroke='red' href='#a'/>\n"
+                     "<use href='#b'/><use href='other.svg#a'/><use/>"));
+    assert_int_equal(l.count, 1);
+    is_line(&l, 0, 'M', 0, 0, 1, 0, NAN);
+    assert_true(warned(&l, "no \"#b\"") && warned(&l, "\"other.svg#a\" lies in another file") && l.warnings == 3);
+    assert_int_equal(l.warning[0].line, 3);
+    rg_lines_free(&l);
+}
+
+/* Without end, or without end for all purposes. */
+static void repeats_that_do_not_end(void **state)
+{
+    (void)state;
+    refused(SVG("<g id='a'>\n<use href='#b'/></g><g id='b'>\n<use href='#a'/></g>"), RG_FORMAT_SVG, NULL, 3, "repeats itself");
+    refused("<svg id='a'>\n<use href='#a'/></svg>", RG_FORMAT_SVG, NULL, 2, "repeats itself");
+    refused("<svg>\n<use id='a' href='#a'/></svg>", RG_FORMAT_SVG, NULL, 2, "repeats itself");
+    char text[20000];
+    size_t n = (size_t)sprintf(text, "<svg><path id='g0' stroke='red' d='M0 0H1'/>");
+    for (int i = 1; i <= 40; i++)
+        n += (size_t)sprintf(text + n, "<g id='g%d'><use href='#g%d'/>\n<use href='#g%d'/></g>", i, i - 1, i - 1);
+    sprintf(text + n, "</svg>");
+    refused(text, RG_FORMAT_SVG, NULL, -1, "too large with all that it repeats");
+    n = (size_t)sprintf(text, "<svg><path id='g0' stroke='red' d='M0 0H1'/>");
+    for (int i = 1; i <= 400; i++) n += (size_t)sprintf(text + n, "<g id='g%d'><use href='#g%d'/></g>", i, i - 1);
+    sprintf(text + n, "</svg>");
+    refused(text, RG_FORMAT_SVG, NULL, 1, "nested too deep");
+}
+
 static void styles(void **state)
 {
     (void)state;
@@ -166,7 +220,7 @@ static void marks_and_numbers_too_large(void **state)
                               "<path d='M0 0C1 1 2 1 3 0' fill='red'/><line stroke='red' x2='1e999'/><line stroke='red' x2='1e300' transform='scale(1e300)'/>"
                               "<line stroke='red' x2='1'/><title>later</title>"));
     assert_int_equal(l.count, 1);
-    assert_true(warned(&l, "<circle>") && warned(&l, "<use>") && warned(&l, "finite"));
+    assert_true(warned(&l, "<circle>") && warned(&l, "#x") && warned(&l, "finite"));
     assert_int_equal(l.warnings, 4);
     assert_string_equal(l.title, "later");
     rg_lines_free(&l);
@@ -218,7 +272,7 @@ static void nesting_and_rules_end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shapes), cmocka_unit_test(paths), cmocka_unit_test(transforms), cmocka_unit_test(styles),
+        cmocka_unit_test(shapes), cmocka_unit_test(paths), cmocka_unit_test(transforms), cmocka_unit_test(repeats), cmocka_unit_test(repeats_that_do_not_end), cmocka_unit_test(styles),
         cmocka_unit_test(colours), cmocka_unit_test(refusals), cmocka_unit_test(marks_and_numbers_too_large),
         cmocka_unit_test(texts), cmocka_unit_test(entities_stay_closed), cmocka_unit_test(nesting_and_rules_end)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -32,12 +32,15 @@ rg_status rg_lines_add(rg_lines *l, rg_vec2 a, rg_vec2 b, char assignment, int32
 
 rg_status rg_lines_warn(rg_lines *l, int32_t where, const char *format, ...)
 {
+    if (l->warnings > RG_MOST_WARNINGS) return RG_OK;
     rg_status s = rg_mem_grow(&l->mem, (void **)&l->warning, &l->warning_room, (size_t)l->warnings + 1, sizeof *l->warning);
     if (s != RG_OK) return s;
+    const int is_last = l->warnings == RG_MOST_WARNINGS;
     rg_diag *d = &l->warning[l->warnings++];
     va_list args;
     va_start(args, format);
-    vsnprintf(d->text, sizeof d->text, format, args);
+    if (is_last) snprintf(d->text, sizeof d->text, "more warnings are left out");
+    else vsnprintf(d->text, sizeof d->text, format, args);
     va_end(args);
     d->line = where;
     return RG_OK;

@@ -37,6 +37,8 @@ typedef struct rg_lines {
 
 void rg_lines_init(rg_lines *l, const rg_memory *mem);
 void rg_lines_free(rg_lines *l);
+enum { RG_MOST_WARNINGS = 1000 }; /* one more says that there are more */
+
 /* Both: RG_ENOMEM leaves *l as it was. */
 rg_status rg_lines_add(rg_lines *l, rg_vec2 a, rg_vec2 b, char assignment, int32_t where);
 rg_status rg_lines_warn(rg_lines *l, int32_t where, const char *format, ...);

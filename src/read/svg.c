@@ -1,8 +1,10 @@
 #include "read/svg.h"
 #include "base/number.h"
 #include "base/status.h"
+#include "read/affine.h"
 #include "read/colour.h"
 #include "read/css.h"
+#include "read/ids.h"
 
 #include <string.h>
 
@@ -12,21 +14,29 @@ static const double MERGE = 1e-3;
  * tool. */
 static const double STRAIGHT = 1e-6;
 
-typedef struct matrix { double a, b, c, d, e, f; } matrix; /* x' = a x + c y + e, y' = b x + d y + f */
+/* What <use> repeats is bounded in sum, counted about as its bytes, and so is how deep the elements stand in each other. */
+enum { MOST_REPEATED = 1 << 24, OF_ELEMENT = 64, OF_SEGMENT = 16, MOST_NESTED = 512 };
 
 /* What an element hands down to those inside it. */
 typedef struct paint {
     int stroked, hidden, known; /* known: `stroke` is its colour */
     rg_colour stroke;
     double alpha, stroke_opacity, opacity; /* opacity: of all groups around too */
-    matrix m;
+    double w, h; /* of the viewport, NAN: not known */
+    rg_affine m;
 } paint;
+
+/* The <use> that are being followed, inmost first. */
+typedef struct chain { const rg_xml_node *user, *target; const struct chain *out; } chain;
 
 typedef struct reader {
     rg_lines *out;
     rg_diag *why;
     rg_css css;
-    int targets, told_colour, told_use, told_ring;
+    rg_ids ids;
+    const chain *uses;
+    int64_t repeated;
+    int targets, depth, told_colour, told_ring;
 } reader;
 
 static rg_status fail(const reader *r, const rg_xml_node *n, const char *what, const char *detail)
@@ -51,58 +61,51 @@ static int next_number(const char **s, double *x)
     return used > 0;
 }
 
-static rg_status length(const reader *r, const rg_xml_node *n, const char *name, double *x)
+/* 0: not a length, or in units that are not known. */
+static int pixels(const char *s, double *x)
 {
     static const struct { const char *unit; double pixels; } units[] = {
         {"", 1}, {"px", 1}, {"pt", 96.0 / 72}, {"pc", 16}, {"in", 96}, {"cm", 96 / 2.54}, {"mm", 96 / 25.4}};
+    double number;
+    if (!next_number(&s, &number)) return 0;
+    const size_t unit = strcspn(s, " \t\r\n");
+    if (s[unit + strspn(s + unit, " \t\r\n")]) return 0;
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+        if (strlen(units[i].unit) == unit && strncmp(units[i].unit, s, unit) == 0) return *x = number * units[i].pixels, 1;
+    return 0;
+}
+
+static rg_status length(const reader *r, const rg_xml_node *n, const char *name, double *x)
+{
     const char *s = rg_xml_attribute(n, name);
     *x = 0;
-    if (!*s) return RG_OK;
-    if (!next_number(&s, x)) return fail(r, n, name, rg_xml_attribute(n, name));
-    const size_t unit = strcspn(s, " \t\r\n");
-    if (s[unit + strspn(s + unit, " \t\r\n")] == 0)
-        for (size_t i = 0; i < sizeof units / sizeof *units; i++)
-            if (strlen(units[i].unit) == unit && strncmp(units[i].unit, s, unit) == 0)
-                return *x *= units[i].pixels, RG_OK;
-    return fail(r, n, "a length in units that are not known:", rg_xml_attribute(n, name));
+    if (!*s || pixels(s, x)) return RG_OK;
+    return rg_fail(RG_EFORMAT, r->why, rg_xml_line(n), "<%.20s>: %s is not a length in units that are known: \"%.60s\"",
+                   rg_xml_name(n), name, s);
 }
 
 /* ---------------------------------------------------------------------------------------------- transforms ---- */
 
-static matrix times(matrix p, matrix q)
-{
-    return (matrix){p.a * q.a + p.c * q.b, p.b * q.a + p.d * q.b, p.a * q.c + p.c * q.d, p.b * q.c + p.d * q.d,
-                    p.a * q.e + p.c * q.f + p.e, p.b * q.e + p.d * q.f + p.f};
-}
-
-static matrix shift(double x, double y) { return (matrix){1, 0, 0, 1, x, y}; }
-
 /* One of transform's functions from its numbers; 0: no such one, or not so many numbers. */
-static int function(const char *name, size_t n, const double *v, int count, matrix *m)
+static int function(const char *name, size_t n, const double *v, int count, rg_affine *m)
 {
     const double angle = count > 0 ? v[0] * RG_DEG : 0;
-    if (n == 6 && memcmp(name, "matrix", n) == 0 && count == 6) *m = (matrix){v[0], v[1], v[2], v[3], v[4], v[5]};
+    if (n == 6 && memcmp(name, "matrix", n) == 0 && count == 6) *m = (rg_affine){v[0], v[1], v[2], v[3], v[4], v[5]};
     else if (n == 9 && memcmp(name, "translate", n) == 0 && (count == 1 || count == 2))
-        *m = shift(v[0], count > 1 ? v[1] : 0);
+        *m = rg_affine_shift(v[0], count > 1 ? v[1] : 0);
     else if (n == 5 && memcmp(name, "scale", n) == 0 && (count == 1 || count == 2))
-        *m = (matrix){v[0], 0, 0, v[count - 1], 0, 0};
-    else if (n == 5 && memcmp(name, "skewX", n) == 0 && count == 1) *m = (matrix){1, 0, tan(angle), 1, 0, 0};
-    else if (n == 5 && memcmp(name, "skewY", n) == 0 && count == 1) *m = (matrix){1, tan(angle), 0, 1, 0, 0};
+        *m = rg_affine_scale(v[0], v[count - 1]);
+    else if (n == 5 && memcmp(name, "skewX", n) == 0 && count == 1) *m = (rg_affine){1, 0, tan(angle), 1, 0, 0};
+    else if (n == 5 && memcmp(name, "skewY", n) == 0 && count == 1) *m = (rg_affine){1, tan(angle), 0, 1, 0, 0};
     else if (n == 6 && memcmp(name, "rotate", n) == 0 && (count == 1 || count == 3)) {
-        const double quarter = v[0] / 90; /* exact where it can be */
-        double c = cos(angle), s = sin(angle);
-        if (quarter == floor(quarter)) {
-            const int turns = (int)fmod(fmod(quarter, 4) + 4, 4);
-            c = turns == 0 ? 1 : turns == 2 ? -1 : 0;
-            s = turns == 1 ? 1 : turns == 3 ? -1 : 0;
-        }
-        *m = (matrix){c, s, -s, c, 0, 0};
-        if (count == 3) *m = times(times(shift(v[1], v[2]), *m), shift(-v[1], -v[2]));
+        *m = rg_affine_turn(v[0]);
+        if (count == 3)
+            *m = rg_affine_mul(rg_affine_mul(rg_affine_shift(v[1], v[2]), *m), rg_affine_shift(-v[1], -v[2]));
     } else return 0;
     return 1;
 }
 
-static rg_status transform(const reader *r, const rg_xml_node *n, matrix *m)
+static rg_status transform(const reader *r, const rg_xml_node *n, rg_affine *m)
 {
     const char *all = rg_xml_attribute(n, "transform"), *s = skip(all);
     while (*s) {
@@ -110,13 +113,13 @@ static rg_status transform(const reader *r, const rg_xml_node *n, matrix *m)
         const size_t name_n = strcspn(s, "( \t\r\n");
         double v[6];
         int count = 0;
-        matrix one;
+        rg_affine one;
         s = skip(s + name_n);
         if (*s++ != '(') return fail(r, n, "transform", name);
         for (s = skip(s); *s && *s != ')'; s = skip(s))
             if (count == 6 || !next_number(&s, &v[count++])) return fail(r, n, "transform", name);
         if (*s != ')' || !function(name, name_n, v, count, &one)) return fail(r, n, "transform", name);
-        *m = times(*m, one);
+        *m = rg_affine_mul(*m, one);
         s = skip(s + 1);
     }
     return RG_OK;
@@ -156,13 +159,23 @@ static int repaint(const reader *r, const rg_xml_node *n, paint *p)
 
 /* -------------------------------------------------------------------------------------------------- shapes ---- */
 
-static rg_vec2 apply(matrix m, rg_vec2 x) { return (rg_vec2){m.a * x.x + m.c * x.y + m.e, m.b * x.x + m.d * x.y + m.f}; }
+/* What is repeated costs time and room that the size of the file does not bound. */
+static rg_status charge(reader *r, const rg_xml_node *n, size_t cost)
+{
+    if (!r->uses) return RG_OK;
+    r->repeated += (int64_t)cost;
+    if (r->repeated <= MOST_REPEATED) return RG_OK;
+    return rg_fail(RG_EFORMAT, r->why, rg_xml_line(r->uses->user), "<use>: the drawing is too large with all that it repeats (here <%.20s>)",
+                   rg_xml_name(n));
+}
 
 static rg_status segment(reader *r, const rg_xml_node *n, const paint *p, rg_vec2 a, rg_vec2 b)
 {
     const int32_t where = rg_xml_line(n);
-    a = apply(p->m, a);
-    b = apply(p->m, b);
+    const rg_status cost = charge(r, n, OF_SEGMENT);
+    if (cost != RG_OK) return cost;
+    a = rg_affine_point(p->m, a);
+    b = rg_affine_point(p->m, b);
     if (!isfinite(a.x) || !isfinite(a.y) || !isfinite(b.x) || !isfinite(b.y))
         return rg_lines_warn(r->out, where, "a line is dropped: a coordinate is not a finite number");
     const char assignment = p->known ? rg_colour_assignment(p->stroke) : RG_FLAT;
@@ -304,8 +317,6 @@ static rg_status ring(reader *r, const rg_xml_node *n, const paint *p)
 static rg_status shape(reader *r, const rg_xml_node *n, const paint *p)
 {
     const char *name = rg_xml_name(n);
-    if (is(name, "use") && !r->told_use++)
-        return rg_lines_warn(r->out, rg_xml_line(n), "<use> is not followed: what it repeats is missing");
     if (!p->stroked || p->hidden) return RG_OK;
     if (is(name, "line")) return line(r, n, p);
     if (is(name, "rect")) return rectangle(r, n, p);
@@ -316,28 +327,122 @@ static rg_status shape(reader *r, const rg_xml_node *n, const paint *p)
     return RG_OK;
 }
 
-/* The parser bounds the depth. */
-static rg_status group(reader *r, const rg_xml_node *n, paint p)
+/* ------------------------------------------------------------------------------------- viewports, repeats ---- */
+
+/* Width or height of a viewport: as the <use> that repeats it says, or it itself, or all that is around it. */
+static rg_status extent(const reader *r, const rg_xml_node *n, const rg_xml_node *user, const char *name, double *x)
 {
-    if (!repaint(r, n, &p)) return RG_OK;
-    rg_status s = transform(r, n, &p.m);
-    for (const rg_xml_node *c = rg_xml_child(n); s == RG_OK && c; c = rg_xml_next(c)) {
-        const char *name = rg_xml_name(c);
-        paint own = p;
-        if (is(name, "svg")) {
-            double x, y;
-            s = length(r, c, "x", &x);
-            if (s == RG_OK) s = length(r, c, "y", &y);
-            if (s == RG_OK) own.m = times(p.m, shift(x, y));
-        }
-        if (is(name, "g") || is(name, "a") || is(name, "svg") || is(name, "switch")) {
-            if (s == RG_OK) s = group(r, c, own);
-            continue;
-        }
-        if (!repaint(r, c, &own)) continue;
-        s = transform(r, c, &own.m);
-        if (s == RG_OK) s = shape(r, c, &own);
+    const rg_xml_node *says = user && *rg_xml_attribute(user, name) ? user : n;
+    const char *text = rg_xml_attribute(says, name);
+    if (!*text || is(text, "auto")) return RG_OK;
+    if (!strchr(text, '%')) return length(r, says, name, x);
+    double part;
+    if (!next_number(&text, &part)) return fail(r, says, name, rg_xml_attribute(says, name));
+    *x *= part / 100;
+    return RG_OK;
+}
+
+/* 0: there is none that can be used. */
+static int view_box(const rg_xml_node *n, double box[4])
+{
+    const char *s = rg_xml_attribute(n, "viewBox");
+    for (int i = 0; i < 4; i++)
+        if (!next_number(&s, &box[i])) return 0;
+    return box[2] > 0 && box[3] > 0;
+}
+
+/* Where what is `free` wide is put: at the beginning, in the middle, at the end. */
+static double align(const char *how, char axis, double free)
+{
+    const char *at = strchr(how, axis);
+    return at && strncmp(at + 1, "Min", 3) == 0 ? 0 : at && strncmp(at + 1, "Max", 3) == 0 ? free : free / 2;
+}
+
+/* The coordinates of a viewBox, fitted into the viewport, which then is the box. */
+static void fit(const rg_xml_node *n, const double box[4], paint *p)
+{
+    const char *how = rg_xml_attribute(n, "preserveAspectRatio");
+    const double w = isnan(p->w) ? box[2] : p->w, h = isnan(p->h) ? box[3] : p->h;
+    double x = w / box[2], y = h / box[3];
+    if (!strstr(how, "none")) x = y = strstr(how, "slice") ? fmax(x, y) : fmin(x, y);
+    p->m = rg_affine_mul(p->m, rg_affine_shift(align(how, 'x', w - x * box[2]), align(how, 'Y', h - y * box[3])));
+    p->m = rg_affine_mul(rg_affine_mul(p->m, rg_affine_scale(x, y)), rg_affine_shift(-box[0], -box[1]));
+}
+
+/* Into a <svg> or <symbol>. The outmost one is the drawing itself, whose units stay what they are. */
+static rg_status enter_viewport(const reader *r, const rg_xml_node *n, const rg_xml_node *user, paint *p)
+{
+    const int is_outmost = r->depth == 1;
+    double x = 0, y = 0, box[4];
+    rg_status s = RG_OK;
+    if (is_outmost) {
+        if (!pixels(rg_xml_attribute(n, "width"), &p->w)) p->w = NAN;
+        if (!pixels(rg_xml_attribute(n, "height"), &p->h)) p->h = NAN;
+    } else {
+        s = length(r, n, "x", &x);
+        if (s == RG_OK) s = length(r, n, "y", &y);
+        if (s == RG_OK) s = extent(r, n, user, "width", &p->w);
+        if (s == RG_OK) s = extent(r, n, user, "height", &p->h);
+        p->m = rg_affine_mul(p->m, rg_affine_shift(x, y));
     }
+    if (s != RG_OK || !view_box(n, box)) return s;
+    if (!is_outmost) fit(n, box, p);
+    p->w = box[2];
+    p->h = box[3];
+    return RG_OK;
+}
+
+static rg_status element(reader *r, const rg_xml_node *n, paint p, const rg_xml_node *user);
+
+/* <use>: draws what it names as if it stood here. */
+static rg_status repeat(reader *r, const rg_xml_node *n, paint p)
+{
+    const char *name = rg_xml_attribute(n, "href");
+    const rg_xml_node *target = *name == '#' ? rg_ids_find(&r->ids, name + 1) : NULL;
+    if (!target)
+        return rg_lines_warn(r->out, rg_xml_line(n), *name && *name != '#' ? "<use>: \"%.60s\" lies in another file and is missing"
+                                                                          : "<use>: there is no \"%.60s\"", name);
+    for (const chain *c = r->uses; c; c = c->out)
+        if (c->target == target) return fail(r, n, "it repeats itself:", name);
+    double x, y;
+    rg_status s = length(r, n, "x", &x);
+    if (s == RG_OK) s = length(r, n, "y", &y);
+    p.m = rg_affine_mul(p.m, rg_affine_shift(x, y));
+    const chain here = {n, target, r->uses};
+    r->uses = &here;
+    if (s == RG_OK) s = element(r, target, p, n);
+    r->uses = here.out;
+    return s;
+}
+
+/* ---------------------------------------------------------------------------------------------------- tree ---- */
+
+static int is_group(const rg_xml_node *n, const rg_xml_node *user)
+{
+    const char *name = rg_xml_name(n);
+    return is(name, "g") || is(name, "a") || is(name, "svg") || is(name, "switch") || (user && is(name, "symbol"));
+}
+
+static rg_status inside(reader *r, const rg_xml_node *n, const paint *p)
+{
+    rg_status s = RG_OK;
+    for (const rg_xml_node *c = rg_xml_child(n); s == RG_OK && c; c = rg_xml_next(c)) s = element(r, c, *p, NULL);
+    return s;
+}
+
+/* An element in what is around it; `user`: the <use> that names it. */
+static rg_status element(reader *r, const rg_xml_node *n, paint p, const rg_xml_node *user)
+{
+    const char *name = rg_xml_name(n);
+    rg_status s = charge(r, n, OF_ELEMENT + strlen(rg_xml_attribute(n, "d")) + strlen(rg_xml_attribute(n, "points")));
+    if (s != RG_OK || !repaint(r, n, &p)) return s;
+    if (r->depth == MOST_NESTED) return fail(r, n, "nested too deep:", name);
+    r->depth++;
+    const int is_viewport = is(name, "svg") || (user && is(name, "symbol"));
+    s = transform(r, n, &p.m);
+    if (s == RG_OK && is_viewport) s = enter_viewport(r, n, user, &p);
+    if (s == RG_OK) s = is(name, "use") ? repeat(r, n, p) : is_group(n, user) ? inside(r, n, &p) : shape(r, n, &p);
+    r->depth--;
     return s;
 }
 
@@ -385,13 +490,11 @@ static rg_status document(reader *r, const rg_xml_node *root)
 {
     if (!rg_xml_is(root, "svg"))
         return rg_fail(RG_EFORMAT, r->why, rg_xml_line(root), "the root is <%.40s>, not <svg>", rg_xml_name(root));
-    const paint plain = {.alpha = 1, .stroke_opacity = 1, .opacity = 1, .m = shift(0, 0)};
+    const paint plain = {.alpha = 1, .stroke_opacity = 1, .opacity = 1, .w = NAN, .h = NAN, .m = rg_affine_shift(0, 0)};
     rg_status s = metadata(r->out, root);
     if (s == RG_OK) s = styles(r, root);
-    if (s == RG_OK) {
-        paint p = plain;
-        s = group(r, root, p);
-    }
+    if (s == RG_OK) s = rg_ids_init(&r->ids, &r->out->mem, root);
+    if (s == RG_OK) s = element(r, root, plain, NULL);
     if (s == RG_OK && r->out->count == 0)
         s = rg_fail(RG_EFORMAT, r->why, rg_xml_line(root), "no lines: nothing in the drawing has a stroke");
     return s;
@@ -408,6 +511,7 @@ rg_status rg_svg_read(const void *bytes, size_t size, const rg_memory *mem, int 
     if (s == RG_OK) s = document(&r, rg_xml_root(doc));
     rg_xml_free(doc);
     rg_css_free(&r.css);
+    rg_ids_free(&r.ids);
     if (s != RG_OK) rg_lines_free(out);
     return s;
 }

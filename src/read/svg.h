@@ -1,10 +1,11 @@
 /* svg.h -- .svg: a drawing, with assignments by colour and fold angles by opacity.
- * Uses  xml.h css.h colour.h        Used by  read.c
+ * Uses  xml.h css.h colour.h ids.h affine.h        Used by  read.c
  *
- * line, polyline, polygon, rect and straight paths that are stroked, in g, a, switch and svg with any transforms;
- * styles as attributes, in style="" and in <style>. Curves are refused, as paper folds along straight lines only. An
- * opacity below 1 is a fold angle, as a part of 180 degrees. y points down in the file. Ends miss each other by more
- * than elsewhere, as drawing programs round to thousandths: rg_lines.merge says so. */
+ * line, polyline, polygon, rect and straight paths that are stroked, in g, a, switch and svg with any transforms, and
+ * what use repeats of them and of symbols; styles as attributes, in style="" and in <style>. Curves are refused, as
+ * paper folds along straight lines only, and so is a use that repeats itself. An opacity below 1 is a fold angle, as a
+ * part of 180 degrees. y points down in the file. Ends miss each other by more than elsewhere, as drawing programs round
+ * to thousandths: rg_lines.merge says so. */
 #ifndef RG_SVG_H
 #define RG_SVG_H
 
