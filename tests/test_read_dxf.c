@@ -1,4 +1,4 @@
-/* read/dxf.c: entities, layers before colours, and what is refused. */
+/* read/dxf.c: entities, layers before colours, blocks, and what is refused. */
 #include "reading.h"
 
 #define DXF(entities) "999\ncomment\n0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n70\n2\n0\nLAYER\n2\nred one\n70\n0\n62\n1\n0\nLAYER\n2\nhidden\n62\n-5\n" \
@@ -56,10 +56,71 @@ static void ends_of_lines_and_blanks(void **state)
     l = read_ok(DXF(LINE("0", "62\n1\n")), RG_FORMAT_AUTO, &s);
     is_line(&l, 0, 'M', 1.5, -2, 3, -4, NAN);
     rg_lines_free(&l);
-    /* Drawn on the back of its plane: x runs the other way, except in a LINE. */
-    l = read_ok(DXF("0\nLWPOLYLINE\n62\n1\n10\n1\n20\n2\n10\n3\n20\n4\n210\n0\n220\n0\n230\n-1\n"), RG_FORMAT_DXF, NULL);
+    /* Drawn on the back of its plane: x runs the other way, except in a LINE. That is said behind the corners. */
+    l = read_ok(DXF("0\nLWPOLYLINE\n10\n1\n20\n2\n10\n3\n20\n4\n10\n5\n20\n4\n210\n0\n220\n0\n230\n-1\n62\n1\n"), RG_FORMAT_DXF, NULL);
+    assert_int_equal(l.count, 2);
     is_line(&l, 0, 'M', -1, 2, -3, 4, NAN);
+    is_line(&l, 1, 'M', -3, 4, -5, 4, NAN);
     rg_lines_free(&l);
+}
+
+#define BLOCKS(blocks, entities) "0\nSECTION\n2\nBLOCKS\n" blocks "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" entities "0\nENDSEC\n0\nEOF\n"
+#define BLOCK(name, base, entities) "0\nBLOCK\n8\n0\n2\n" name "\n70\n0\n" base "3\n" name "\n" entities "0\nENDBLK\n8\n0\n"
+#define INSERT(name, more) "0\nINSERT\n2\n" name "\n" more
+#define FROM_1_2_TO_3_2(paint) "0\nLINE\n" paint "10\n1\n20\n2\n11\n3\n21\n2\n"
+
+/* A block goes where its INSERT says: base point, scale, rotation, rows and columns, block in block; and is painted so. */
+static void blocks(void **state)
+{
+    (void)state;
+    rg_lines l = read_ok(BLOCKS(BLOCK("unit", "10\n1\n20\n1\n", FROM_1_2_TO_3_2("8\n0\n62\n0\n") FROM_1_2_TO_3_2("8\nvalley\n62\n1\n"))
+                                BLOCK("two", "", INSERT("UNIT", "8\n0\n62\n0\n10\n100\n20\n0\n50\n90\n")
+                                                 "0\nLWPOLYLINE\n62\n5\n10\n0\n20\n0\n10\n7\n20\n0\n"),
+                                INSERT("unit", "8\n0\n62\n1\n10\n10\n20\n20\n41\n2\n42\n-3\n")
+                                INSERT("two", "8\nborder\n10\n5\n20\n0\n50\n180\n")
+                                INSERT("unit", "8\n0\n62\n5\n10\n0\n20\n0\n50\n90\n70\n2\n71\n2\n44\n10\n45\n100\n41\n2\n")
+                                INSERT("unit", "8\n0\n62\n1\n10\n10\n20\n0\n230\n-1\n")), RG_FORMAT_DXF, NULL);
+    const struct { char letter; double ax, ay, bx, by; } want[] = {
+        {'M', 10, 17, 14, 17}, {'V', 10, 17, 14, 17},                       /* 2 (x - 1) + 10, -3 (y - 1) + 20 */
+        {'B', -94, 0, -94, -2}, {'V', -94, 0, -94, -2}, {'V', 5, 0, -2, 0}, /* 100 - (y - 1), x - 1; then half a turn about 2.5 */
+        {'V', -1, 0, -1, 4}, {'V', -1, 0, -1, 4}, {'V', -1, 10, -1, 14}, {'V', -1, 10, -1, 14},
+        {'V', -101, 0, -101, 4}, {'V', -101, 0, -101, 4}, {'V', -101, 10, -101, 14}, {'V', -101, 10, -101, 14},
+        {'M', -10, 1, -12, 1}, {'V', -10, 1, -12, 1}};
+    assert_int_equal(l.count, sizeof want / sizeof *want);
+    assert_int_equal(l.warnings, 0);
+    for (int32_t i = 0; i < l.count; i++) is_line(&l, i, want[i].letter, want[i].ax, want[i].ay, want[i].bx, want[i].by, NAN);
+    rg_lines_free(&l);
+    l = read_ok(BLOCKS("", INSERT("unit", "") LINE("0", "62\n1\n") LINE("0", "67\n1\n")), RG_FORMAT_DXF, NULL);
+    assert_int_equal(l.count, 1);
+    assert_true(warned(&l, "no block \"unit\"") && warned(&l, "layout"));
+    assert_int_equal(l.warning[0].line, 12);
+    rg_lines_free(&l);
+    /* An array of no rows is one; what cannot be computed with is left out. */
+    l = read_ok(BLOCKS(BLOCK("b", "", FROM_1_2_TO_3_2("")), INSERT("b", "70\n0\n71\n-1\n") INSERT("b", "41\n1e308\n")), RG_FORMAT_DXF, NULL);
+    assert_int_equal(l.count, 1);
+    assert_true(warned(&l, "finite"));
+    rg_lines_free(&l);
+}
+
+/* Without end, or without end for all purposes. */
+static void blocks_that_do_not_end(void **state)
+{
+    (void)state;
+    refused(BLOCKS(BLOCK("a", "", INSERT("b", "")) BLOCK("b", "", INSERT("A", "")), INSERT("a", "")), RG_FORMAT_DXF, NULL, 34,
+            "\"A\" repeats itself");
+    refused(BLOCKS(BLOCK("a", "", ""), INSERT("a", "70\n1000000000\n71\n1000000000\n")), RG_FORMAT_DXF, NULL, 26, "too large");
+    refused(BLOCKS(BLOCK("a", "", "0\nARC\n"), INSERT("a", "")), RG_FORMAT_DXF, NULL, 16, "curve");
+    char text[20000];
+    for (int copies = 1; copies <= 2; copies++) {
+        size_t n = (size_t)sprintf(text, "0\nSECTION\n2\nBLOCKS\n" BLOCK("b0", "", FROM_1_2_TO_3_2("")));
+        for (int i = 1; i <= 100; i++) {
+            n += (size_t)sprintf(text + n, "0\nBLOCK\n2\nb%d\n", i);
+            for (int k = 0; k < copies; k++) n += (size_t)sprintf(text + n, INSERT("b%d", ""), i - 1);
+            n += (size_t)sprintf(text + n, "0\nENDBLK\n");
+        }
+        sprintf(text + n, "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nINSERT\n2\nb%d\n0\nENDSEC\n0\nEOF\n", copies == 1 ? 100 : 50);
+        refused(text, RG_FORMAT_DXF, NULL, -1, copies == 1 ? "nested too deep" : "too large with all that it repeats");
+    }
 }
 
 static void refusals(void **state)
@@ -86,14 +147,12 @@ static void refusals(void **state)
         assert_int_equal(read_text(whole, n, RG_FORMAT_DXF, NULL, &l, &why), RG_EFORMAT);
         assert_true(why.line > 0);
     }
-    rg_lines l = read_ok(DXF("0\nINSERT\n2\nblock\n" LINE("0", "")), RG_FORMAT_DXF, NULL);
-    assert_true(warned(&l, "INSERT"));
-    rg_lines_free(&l);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(entities), cmocka_unit_test(layers_and_colours),
-                                       cmocka_unit_test(ends_of_lines_and_blanks), cmocka_unit_test(refusals)};
+                                       cmocka_unit_test(ends_of_lines_and_blanks), cmocka_unit_test(refusals),
+                                       cmocka_unit_test(blocks), cmocka_unit_test(blocks_that_do_not_end)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

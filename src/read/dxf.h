@@ -1,8 +1,9 @@
-/* dxf.h -- .dxf: LINE, LWPOLYLINE and POLYLINE of AutoCAD's exchange format, as text.
- * Uses  colour.h        Used by  read.c
+/* dxf.h -- .dxf: LINE, LWPOLYLINE, POLYLINE and INSERT of AutoCAD's exchange format, as text.
+ * Uses  colour.h affine.h        Used by  read.c
  *
  * The assignment goes by the layer's name where that says it (mountain, valley, cut, border, aux ...), else by colour:
- * the line's own or its layer's. Curves are refused. y points up in the file. */
+ * the line's own or its layer's. In a block, colour 0 and layer 0 are those of the INSERT. Curves are refused, and so is a
+ * block that repeats itself; what is on the paper of a layout is left out. y points up in the file. */
 #ifndef RG_DXF_H
 #define RG_DXF_H
 

@@ -404,7 +404,7 @@ static rg_status repeat(reader *r, const rg_xml_node *n, paint p)
                                                                           : "<use>: there is no \"%.60s\"", name);
     for (const chain *c = r->uses; c; c = c->out)
         if (c->target == target) return fail(r, n, "it repeats itself:", name);
-    double x, y;
+    double x = 0, y = 0;
     rg_status s = length(r, n, "x", &x);
     if (s == RG_OK) s = length(r, n, "y", &y);
     p.m = rg_affine_mul(p.m, rg_affine_shift(x, y));
