@@ -41,7 +41,7 @@ cflags   := -std=c11 -fPIC -fvisibility=hidden -ffp-contract=off -Wall -Wextra -
 libs     := $(shell pkg-config --libs $(pkgs) 2>/dev/null) -lgif -lpthread -lm
 ifeq ($(GPL),1)
 cppflags += -DRG_GPL=1 -I/usr/include/suitesparse
-libs     := -lcholmod -lsuitesparseconfig -lgsl -lgslcblas $(libs)
+libs     := -lspqr -lcholmod -lsuitesparseconfig -lgsl -lgslcblas $(libs)
 endif
 ifeq ($(WERROR),1)
 cflags   += -Werror

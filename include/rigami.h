@@ -278,6 +278,9 @@ RG_API void rg_motion_get_sheet(const rg_motion *m, rg_sheet *sheet);
 RG_API rg_status rg_motion_pose(const rg_motion *m, int32_t frame, double (*xyz)[3]);
 /* Fold angles of a frame, [creases], radians; borrowed; NULL: no such frame. */
 RG_API const double *rg_motion_angles(const rg_motion *m, int32_t frame);
+/* How many ways the sheet could go from a frame to first order: creases less the rank of C, where N - 3M is only a guess (3.2).
+ * In flat and flat-folded frames more than it really can. RG_EARG: no such frame; RG_EABSENT: a build without SPQR; RG_ENOMEM. */
+RG_API rg_status rg_motion_mobility(const rg_motion *m, int32_t frame, int32_t *ways);
 /* The pattern of a frame, [vertices]: rg_sheet.flat unless creases were adjusted (3.3); borrowed; NULL: no such frame. */
 RG_API const double (*rg_motion_flat(const rg_motion *m, int32_t frame))[2];
 

@@ -91,8 +91,10 @@ static void say_short(const char *name, const rg_report *r)
     if (shown > 0) say("%s: what blocks: the %s at %s", name, r->blocking_vertex_count > 1 ? "vertices" : "vertex", places);
 }
 
-static void summarize(const char *name, const rg_report *r)
+static void summarize(const char *name, const rg_motion *m)
 {
+    const rg_report *r = rg_motion_report(m);
+    int32_t ways;
     printf("%s: %s, %.1f %% (least of any crease %.1f %%), %d frames in %.2f s\n", name,
            r->outcome == RG_FOLDED ? "folded" : "stopped short", r->folded_percent, r->least_folded_percent,
            (int)r->frame_count, r->seconds_total);
@@ -100,8 +102,10 @@ static void summarize(const char *name, const rg_report *r)
         printf("  states    %d of %d, %d of the ways through flat\n", (int)r->states_reached, (int)r->states, (int)r->by_flat_count);
     printf("  closure   %.1e rad at the worst vertex, edge strain %.1e, facet gap %.1e\n", r->max_closure_residual,
            r->max_edge_strain, r->max_facet_gap);
-    printf("  model     %d creases (%d added: %s), %d constraints\n", (int)r->unknowns, (int)r->added_creases,
+    printf("  model     %d creases (%d added: %s), %d constraints", (int)r->unknowns, (int)r->added_creases,
            r->why_triangulated, (int)r->constraints);
+    if (rg_motion_mobility(m, r->frame_count / 2, &ways) == RG_OK) printf(", mobility %d", (int)ways);
+    putchar('\n');
     printf("  method    %s, solver %s, %lld steps%s%s\n", r->method, r->solver, (long long)r->steps,
            r->strategy[0] ? ", " : "", r->strategy);
     if (r->adjust_gain > 0)
@@ -183,7 +187,7 @@ int cmd_fold(const options *o)
         const char *name = o->operand[r->states && r->states_reached < r->states ? r->states_reached : o->operands - 1];
         status = write_all(o, m, &bar);
         if (r->outcome != RG_FOLDED) say_short(name, r);
-        if (!o->quiet && !(o->report && strcmp(o->report, "-") == 0)) summarize(name, r);
+        if (!o->quiet && !(o->report && strcmp(o->report, "-") == 0)) summarize(name, m);
         if (status == ENDS_WELL && r->outcome != RG_FOLDED) status = ENDS_SHORT;
     }
     rg_motion_destroy(m);

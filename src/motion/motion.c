@@ -1,5 +1,6 @@
 #include "motion/motion.h"
 #include "base/status.h"
+#include "kinematics/mobility.h"
 #include "motion/diagnose.h"
 #include "motion/measure.h"
 #include "motion/strategy.h"
@@ -69,6 +70,12 @@ rg_status rg_motion_pose(const rg_motion *m, int32_t frame, double (*xyz)[3])
     return rg_motion_place(m, frame, (rg_vec3 *)xyz);
 }
 
+rg_status rg_motion_mobility(const rg_motion *m, int32_t frame, int32_t *ways)
+{
+    const double *rho = rg_motion_angles(m, frame);
+    return rho ? rg_mobility(&m->mesh, m->flat ? rg_motion_pattern(m, frame) : NULL, rho, ways) : RG_EARG;
+}
+
 /* A crease below the first has not left flat; within the second of half a turn it is at its limit. */
 static const double LOCKED = 1e-6, AT_LIMIT = 0.5 * RG_DEG;
 
@@ -87,7 +94,7 @@ static void explain(rg_motion *m, const rg_pattern *p)
     rg_report *r = &m->report;
     if (r->outcome != RG_STOPPED || !r->blocking_vertex_count) return;
     const double x = r->blocking_at[0][0], y = r->blocking_at[0][1];
-    int32_t creases = 0, closed = 0, locked, at_limit;
+    int32_t creases = 0, closed = 0, locked, at_limit, ways;
     for (int32_t i = 0; i < m->mesh.N - m->mesh.added; i++) {
         const int32_t *end = m->mesh.edge[m->mesh.crease_edge[i]];
         creases += end[0] == r->blocking_vertices[0] || end[1] == r->blocking_vertices[0];
@@ -98,7 +105,9 @@ static void explain(rg_motion *m, const rg_pattern *p)
     const char *help = m->settings.triangulate == RG_TRIANGULATE_NONE ? "added creases may help"
                        : m->settings.adjust == 0                      ? "adjusting creases may help"
                                                                       : "nothing known helps";
-    const size_t used = strlen(r->reason);
+    size_t used = strlen(r->reason);
+    if (rg_motion_mobility(m, r->frame_count - 1, &ways) == RG_OK)
+        used += (size_t)snprintf(r->reason + used, sizeof r->reason - used, "; ways it could go to first order: %d", (int)ways);
     snprintf(r->reason + used, sizeof r->reason - used,
              "; held most at (%.6g, %.6g), a %svertex of %d creases (%d free); creases locked flat: %d, at half a turn: %d; %s", x, y,
              closed ? "closed " : "", (int)creases, (int)(creases > 3 ? creases - 3 : 0), (int)locked, (int)at_limit, help);

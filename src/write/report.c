@@ -28,13 +28,23 @@ void rg_report_pattern(rg_json *j, const rg_pattern_info *info)
     rg_json_string(j, "author", info->author);
 }
 
-static void model(rg_json *j, const rg_report *r)
+/* null: not known in this build. */
+static void mobility(rg_json *j, const char *key, const rg_motion *m, int32_t frame)
 {
+    int32_t ways;
+    if (rg_motion_mobility(m, frame, &ways) == RG_OK) rg_json_integer(j, key, ways);
+    else rg_json_number(j, key, NAN);
+}
+
+static void model(rg_json *j, const rg_motion *m)
+{
+    const rg_report *r = &m->report;
     rg_json_open(j, "model", '{');
     rg_json_integer(j, "added_creases", r->added_creases);
     rg_json_integer(j, "unknowns", r->unknowns);
     rg_json_integer(j, "constraints", r->constraints);
     rg_json_integer(j, "components", r->components);
+    mobility(j, "mobility", m, r->frame_count / 2);
     rg_json_string(j, "triangulation", r->triangulation);
     rg_json_string(j, "why_triangulated", r->why_triangulated);
     rg_json_close(j);
@@ -69,8 +79,9 @@ static void blocking(rg_json *j, const rg_report *r)
     rg_json_integers(j, "blocking_creases", r->blocking_creases, r->blocking_crease_count);
 }
 
-static void result(rg_json *j, const rg_report *r)
+static void result(rg_json *j, const rg_motion *m)
 {
+    const rg_report *r = &m->report;
     rg_json_open(j, "result", '{');
     rg_json_string(j, "outcome", r->outcome == RG_FOLDED ? "folded" : "stopped");
     rg_json_string(j, "reason", r->reason);
@@ -83,6 +94,7 @@ static void result(rg_json *j, const rg_report *r)
     rg_json_number(j, "max_adjustment", r->max_adjustment);
     rg_json_number(j, "max_strain_from_original", r->max_strain_from_original);
     rg_json_integer(j, "wrong_side_creases", r->wrong_side_creases);
+    mobility(j, "mobility_at_end", m, r->frame_count - 1);
     blocking(j, r);
     rg_json_number(j, "first_contact_frame", NAN); /* null: contact of facets is not looked for */
     rg_json_close(j);
@@ -112,9 +124,9 @@ rg_status rg_report_write(const rg_motion *m, double seconds_writing, double pea
     rg_json_open(&j, "pattern", '{');
     rg_report_pattern(&j, &r->pattern);
     rg_json_close(&j);
-    model(&j, r);
+    model(&j, m);
     run(&j, r, seconds_writing, peak_bytes);
-    result(&j, r);
+    result(&j, m);
     states(&j, r);
     rg_json_open(&j, "frames", '[');
     for (int32_t k = 0; k < r->frame_count; k++) {
