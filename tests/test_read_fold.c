@@ -56,8 +56,8 @@ static void what_is_missing(void **state)
     is_line(&l, 4, 'B', 4, 4, 0, 4, NAN);
     rg_lines_free(&l);
     letters("{\"vertices_coords\":[[0,0],[4,0],[4,4],[0,4]],\"edges_vertices\":[]" FACES "}", "BUBBB");
-    refused("{\"vertices_coords\":[[0,0],[4,0]]}", RG_FORMAT_FOLD, NULL, 0, "edges_vertices");
-    refused("{\"edges_vertices\":[[0,1]]}", RG_FORMAT_FOLD, NULL, 0, "vertices_coords");
+    refused("{\"vertices_coords\":[[0,0],[4,0]]}", RG_FORMAT_FOLD, NULL, 1, "edges_vertices");
+    refused("{\"edges_vertices\":[[0,1]]}", RG_FORMAT_FOLD, NULL, 1, "vertices_coords");
 }
 
 #define ONE(letter, angle) "{" SQUARE ",\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\"," letter "],\"edges_foldAngle\":[0,0,0,0," angle "]}"
@@ -84,8 +84,8 @@ static void angles(void **state)
     is_line(&l, 4, 'M', 0, 0, 4, 4, -30);
     assert_true(warned(&l, "edges_foldAngle[4]"));
     rg_lines_free(&l);
-    refused(ONE("\"M\"", "\"30\""), RG_FORMAT_FOLD, NULL, 0, "edges_foldAngle[4]");
-    refused(ONE("\"M\"", "-200"), RG_FORMAT_FOLD, NULL, 0, "edges_foldAngle[4]");
+    refused(ONE("\"M\"", "\"30\""), RG_FORMAT_FOLD, NULL, 1, "edges_foldAngle[4]");
+    refused(ONE("\"M\"", "-200"), RG_FORMAT_FOLD, NULL, 1, "edges_foldAngle[4]");
 }
 
 static void radians(void **state)
@@ -158,9 +158,9 @@ static void planes_and_folded_forms(void **state)
     near(hypot(l.line[4].b.x - l.line[4].a.x, l.line[4].b.y - l.line[4].a.y), sqrt(14), 1e-12);
     near(rg_vec2_dot(rg_vec2_sub(l.line[0].b, l.line[0].a), rg_vec2_sub(l.line[3].a, l.line[3].b)), -2, 1e-12);
     rg_lines_free(&l);
-    refused("{\"vertices_coords\":[[0,0,0],[4,0,0],[4,4,0],[0,4,1]]," NO_COORDS "}", RG_FORMAT_FOLD, NULL, 0, "folded form");
+    refused("{\"vertices_coords\":[[0,0,0],[4,0,0],[4,4,0],[0,4,1]]," NO_COORDS "}", RG_FORMAT_FOLD, NULL, 1, "folded form");
     /* Folded flat along the diagonal: vertex 3 lies on vertex 1, and one face is turned over. */
-    refused("{\"vertices_coords\":[[0,0],[4,0],[4,4],[4,0]]," NO_COORDS "}", RG_FORMAT_FOLD, NULL, 0, "faces_vertices[1]: a folded form");
+    refused("{\"vertices_coords\":[[0,0],[4,0],[4,4],[4,0]]," NO_COORDS "}", RG_FORMAT_FOLD, NULL, 1, "faces_vertices[1]: a folded form");
 }
 
 #define CP "\"vertices_coords\":[[0,0],[4,0],[4,4],[0,4]]"
@@ -188,43 +188,43 @@ static void frames(void **state)
     assert_int_equal(l.count, 1); /* nothing is inherited that is not asked for */
     rg_lines_free(&l);
     s.file_frame = 0;
-    refused(text, RG_FORMAT_FOLD, &s, 0, "folded form");
+    refused(text, RG_FORMAT_FOLD, &s, 1, "folded form");
     s.file_frame = 4;
-    refused(text, RG_FORMAT_FOLD, &s, 0, "without end");
+    refused(text, RG_FORMAT_FOLD, &s, 1, "without end");
     s.file_frame = 5;
-    refused(text, RG_FORMAT_FOLD, &s, 0, "no frame 9");
+    refused(text, RG_FORMAT_FOLD, &s, 1, "no frame 9");
     s.file_frame = 6;
-    refused(text, RG_FORMAT_FOLD, &s, 0, "file_frames[5]");
+    refused(text, RG_FORMAT_FOLD, &s, 1, "file_frames[5]");
     s.file_frame = 7;
-    refused(text, RG_FORMAT_FOLD, &s, 0, "no frame 7");
+    refused(text, RG_FORMAT_FOLD, &s, 1, "no frame 7");
     l = read_fold("{\"file_spec\":1.1,\"file_frames\":[{\"frame_classes\":[\"creasePattern\"]," CP "," NO_COORDS "}]}");
     is_line(&l, 4, 'M', 0, 0, 4, 4, -60);
     rg_lines_free(&l);
     /* A drawing that is wrong is not passed over for a later one. */
-    refused("{" CP ",\"edges_vertices\":[[0,9]],\"file_frames\":[{" CP "," NO_COORDS "}]}", RG_FORMAT_FOLD, NULL, 0, "edges_vertices[0][1]");
-    refused("{\"file_frames\":[{\"frame_title\":\"x\"},{}]}", RG_FORMAT_FOLD, NULL, 0, "vertices_coords");
-    refused("{" SPACE "," NO_COORDS ",\"file_frames\":[{}]}", RG_FORMAT_FOLD, NULL, 0, "folded form");
+    refused("{" CP ",\"edges_vertices\":[[0,9]],\"file_frames\":[{" CP "," NO_COORDS "}]}", RG_FORMAT_FOLD, NULL, 1, "edges_vertices[0][1]");
+    refused("{\"file_frames\":[{\"frame_title\":\"x\"},{}]}", RG_FORMAT_FOLD, NULL, 1, "vertices_coords");
+    refused("{" SPACE "," NO_COORDS ",\"file_frames\":[{}]}", RG_FORMAT_FOLD, NULL, 1, "folded form");
 }
 
 static void places_of_errors(void **state)
 {
     (void)state;
     const struct { const char *text; int line; const char *words; } wrong[] = {
-        {"{" CP ",\"edges_vertices\":[[0,1],[1,4]]}", 0, "edges_vertices[1][1]: there is no vertex 4"},
-        {"{" CP ",\"edges_vertices\":[[0,-1]]}", 0, "edges_vertices[0][1]"},
-        {"{" CP ",\"edges_vertices\":[[0,1.5]]}", 0, "edges_vertices[0][1]: no vertex number"},
-        {"{" CP ",\"edges_vertices\":[[0,1,2]]}", 0, "edges_vertices[0]"},
-        {"{" CP ",\"edges_vertices\":{\"0\":[0,1]}}", 0, "edges_vertices: no list"},
-        {"{" CP ",\"edges_vertices\":[null]}", 0, "edges_vertices[0]"},
-        {"{\"vertices_coords\":[[0,0],[1]],\"edges_vertices\":[[0,1]]}", 0, "vertices_coords[1]"},
-        {"{\"vertices_coords\":[[0,0],[1,\"2\"]],\"edges_vertices\":[[0,1]]}", 0, "vertices_coords[1]"},
-        {"{\"vertices_coords\":[[0,0],[1,1e200]],\"edges_vertices\":[[0,1]]}", 0, "vertices_coords[1]: 1e+200"},
-        {"{" SQUARE ",\"edges_assignment\":[\"B\",\"B\",\"X\",\"B\",\"M\"]}", 0, "edges_assignment[2]"},
-        {"{" SQUARE ",\"edges_assignment\":[\"B\",\"\",\"B\",\"B\",\"M\"]}", 0, "edges_assignment[1]"},
-        {"{" SQUARE ",\"edges_assignment\":[\"B\",\"B\"]}", 0, "edges_assignment: 2 of them for 5 edges"},
-        {"{" SQUARE ",\"edges_foldAngle\":[0]}", 0, "edges_foldAngle: 1 of them"},
-        {"{" SQUARE ",\"faces_vertices\":[[0,1]]}", 0, "faces_vertices[0]"},
-        {"{" SQUARE ",\"faces_vertices\":[[0,1,2],[0,2,7]]}", 0, "faces_vertices[1][2]"},
+        {"{" CP ",\"edges_vertices\":[[0,1],[1,4]]}", 1, "edges_vertices[1][1]: there is no vertex 4"},
+        {"{" CP ",\"edges_vertices\":[[0,-1]]}", 1, "edges_vertices[0][1]"},
+        {"{" CP ",\"edges_vertices\":[[0,1.5]]}", 1, "edges_vertices[0][1]: no vertex number"},
+        {"{" CP ",\"edges_vertices\":[[0,1,2]]}", 1, "edges_vertices[0]"},
+        {"{" CP ",\"edges_vertices\":{\"0\":[0,1]}}", 1, "edges_vertices: no list"},
+        {"{" CP ",\"edges_vertices\":[null]}", 1, "edges_vertices[0]"},
+        {"{\"vertices_coords\":[[0,0],[1]],\"edges_vertices\":[[0,1]]}", 1, "vertices_coords[1]"},
+        {"{\"vertices_coords\":[[0,0],[1,\"2\"]],\"edges_vertices\":[[0,1]]}", 1, "vertices_coords[1]"},
+        {"{\"vertices_coords\":[[0,0],[1,1e200]],\"edges_vertices\":[[0,1]]}", 1, "vertices_coords[1]: 1e+200"},
+        {"{" SQUARE ",\"edges_assignment\":[\"B\",\"B\",\"X\",\"B\",\"M\"]}", 1, "edges_assignment[2]"},
+        {"{" SQUARE ",\"edges_assignment\":[\"B\",\"\",\"B\",\"B\",\"M\"]}", 1, "edges_assignment[1]"},
+        {"{" SQUARE ",\"edges_assignment\":[\"B\",\"B\"]}", 1, "edges_assignment: 2 of them for 5 edges"},
+        {"{" SQUARE ",\"edges_foldAngle\":[0]}", 1, "edges_foldAngle: 1 of them"},
+        {"{" SQUARE ",\"faces_vertices\":[[0,1]]}", 1, "faces_vertices[0]"},
+        {"{" SQUARE ",\"faces_vertices\":[[0,1,2],[0,2,7]]}", 1, "faces_vertices[1][2]"},
         {"{\n" SQUARE ",\n\"x\":NaN}", 3, "not well-formed JSON"},
         {"{\n" SQUARE ",\n\"vertices_coords\":[]}", 3, "duplicate"},
         {"{\"a\":1e400," SQUARE "}", 1, "overflow"},
@@ -234,6 +234,31 @@ static void places_of_errors(void **state)
         {"[]", 1, "no object"},
         {"{}x", 1, "not well-formed JSON"}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) refused(wrong[i].text, RG_FORMAT_FOLD, NULL, wrong[i].line, wrong[i].words);
+}
+
+/* Lines of errors, of warnings, and of what is read, whatever stands before them: texts with brackets, frames within. */
+static void lines_of_the_file(void **state)
+{
+    (void)state;
+    refused("{\n\"note\":\"] } \\\" [ {\", \"more\":{\"edges_vertices\":[1,\n{\"a\":[]}]},\n\"vertices_coords\":[[0,0],\n[1,0]],\n"
+            "\"edges_vertices\" :\n[ [0,1] ,\n[0,\n7]]}", RG_FORMAT_FOLD, NULL, 9, "edges_vertices[1][1]");
+    refused("{\"vertices_coords\":[[0,0],[1,0]],\n\"file_frames\":[{},\n{\"frame_parent\":1,\"frame_inherit\":true}]}", RG_FORMAT_FOLD, NULL, 1, "no");
+    rg_settings s = rg_settings_default();
+    s.file_frame = 2;
+    const char *inherits = "{\"file_frames\":[\n{\"vertices_coords\":[[0,0],\n[1,0]],\n\"edges_vertices\":[[0,1],\n[1,2]]},\n"
+                           "{\"frame_parent\":1,\"frame_inherit\":true,\n\"edges_assignment\":[\"M\"]}]}";
+    refused(inherits, RG_FORMAT_FOLD, &s, 5, "file_frames[0].edges_vertices[1][1]");
+    refused("{\"file_frames\":[{\"frame_parent\":8,\n\"frame_inherit\":true},\n{\"frame_parent\":1,\"frame_inherit\":true}]}", RG_FORMAT_FOLD, &s, 1,
+            "file_frames[0].frame_parent: there is no frame 8");
+    refused("{\"file_frames\":[{},\n7]}", RG_FORMAT_FOLD, &s, 2, "file_frames[1]");
+    rg_lines l = read_fold("{\"vertices_coords\":[[0,0],[4,0],[0,4]],\n\"edges_vertices\":[\n[0,1],[1,2],\n\n[2,0]],\"edges_assignment\":[\"B\",\"M\",\"B\"],\n"
+                           "\"edges_foldAngle\":[0,\n90,0]}");
+    const int32_t want[] = {3, 3, 5};
+    for (int i = 0; i < 3; i++) assert_int_equal(l.line[i].where, want[i]);
+    assert_int_equal(l.warnings, 1);
+    assert_true(warned(&l, "edges_foldAngle[1]"));
+    assert_int_equal(l.warning[0].line, 7);
+    rg_lines_free(&l);
 }
 
 static void depth_and_truncation(void **state)
@@ -261,6 +286,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(letters_of_all_kinds), cmocka_unit_test(what_is_missing), cmocka_unit_test(angles), cmocka_unit_test(radians),
         cmocka_unit_test(sides), cmocka_unit_test(planes_and_folded_forms), cmocka_unit_test(frames),
-        cmocka_unit_test(places_of_errors), cmocka_unit_test(depth_and_truncation)};
+        cmocka_unit_test(places_of_errors), cmocka_unit_test(lines_of_the_file), cmocka_unit_test(depth_and_truncation)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,13 +1,14 @@
 #include "read/fold.h"
 #include "base/memory.h"
 #include "base/status.h"
+#include "read/locate.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ELEMENTS = INT32_MAX / 16, MOST_INHERITED = 100, MOST_FRAMES_TRIED = 1000 };
+enum { MOST_ELEMENTS = INT32_MAX / 16, MOST_INHERITED = 100, MOST_FRAMES_TRIED = 1000, PATH_ROOM = 40 };
 /* Coordinates in space lie in a plane if they are off it by less than this part of their size: single precision does
  * so. */
 static const double FLATNESS = 1e-6;
@@ -24,9 +25,11 @@ typedef struct reader {
     rg_lines *out;
     rg_diag *why;
     const rg_settings *s;
+    const char *text;
+    size_t size;
     const rg_value *root;
     rg_value *frame; /* with what it inherits */
-    int32_t number;
+    int32_t part[MOST_INHERITED], parts; /* the frames that it is made of, itself first; 0: the key frame */
     int32_t nv, ne, nf, sides;
     rg_vec3 *space;
     rg_vec2 *X;
@@ -38,15 +41,54 @@ typedef struct reader {
     int is_folded; /* not flat, or turned over: why says which */
 } reader;
 
+/* A frame, 0 being the key frame. */
+static const rg_value *frame_at(const reader *r, int64_t number)
+{
+    return number == 0 ? r->root : rg_value_at(rg_value_get(r->root, "file_frames"), (size_t)number - 1);
+}
+
+/* What stands before the path that `text` begins with: the frame that has its key, among those that the frame is made of. */
+static void begin_path(const reader *r, const char *text, char path[PATH_ROOM])
+{
+    char key[40];
+    int32_t owner = r->parts > 0 ? r->part[0] : 0;
+    snprintf(key, sizeof key, "%.*s", (int)strcspn(text, "[:"), text);
+    for (int32_t i = r->parts - 1; i >= 0; i--)
+        if (rg_value_get(frame_at(r, r->part[i]), key)) owner = r->part[i];
+    path[0] = 0;
+    if (owner > 0) snprintf(path, PATH_ROOM, "file_frames[%d].", (int)owner - 1);
+}
+
+/* Both: text that begins with a path in the frame. Lines are looked up at the end, for what is told after all. */
 static rg_status bad(const reader *r, const char *format, ...)
 {
-    char text[200], frame[40] = "";
+    char text[200], path[PATH_ROOM];
     va_list args;
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    if (r->number > 0) snprintf(frame, sizeof frame, "file_frames[%d].", (int)r->number - 1);
-    return rg_fail(RG_EFORMAT, r->why, 0, "%s%s", frame, text);
+    begin_path(r, text, path);
+    return rg_fail(RG_EFORMAT, r->why, 0, "%s%s", path, text);
+}
+
+static rg_status warn(const reader *r, const char *format, ...)
+{
+    char text[200], path[PATH_ROOM];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    begin_path(r, text, path);
+    return rg_lines_warn(r->out, 0, "%s%s", path, text);
+}
+
+static void find_line(const reader *r, rg_diag *d)
+{
+    if (d->line) return;
+    const char *end = strstr(d->text, ": ");
+    char path[sizeof d->text];
+    snprintf(path, sizeof path, "%.*s", end ? (int)(end - d->text) : (int)sizeof path, d->text);
+    d->line = rg_locate_line(r->text, r->size, path);
 }
 
 static void forget(reader *r)
@@ -54,7 +96,7 @@ static void forget(reader *r)
     void *block[] = {r->space, r->X, r->E, r->letter, r->angle, r->face_start, r->face_vertex, r->side};
     for (int i = 0; i < 8; i++) rg_mem_free(&r->out->mem, block[i]);
     rg_value_free(r->frame);
-    *r = (reader){.out = r->out, .why = r->why, .s = r->s, .root = r->root};
+    *r = (reader){.out = r->out, .why = r->why, .s = r->s, .text = r->text, .size = r->size, .root = r->root};
 }
 
 /* -------------------------------------------------------------------------------------------------- arrays ---- */
@@ -196,7 +238,7 @@ static rg_status angles(reader *r)
     if (!(most > 0 && most <= RG_PI + RADIANS)) return RG_OK;
     const int radians = most >= RG_PI - RADIANS;
     for (int32_t i = 0; radians && i < n; i++) r->angle[i] /= RG_DEG;
-    return rg_lines_warn(r->out, 0, "%s: %s", key, radians ? "the largest is pi: taken for radians"
+    return warn(r, "%s: %s", key, radians ? "the largest is pi: taken for radians"
                                                            : "none is above pi: are these radians? read as degrees");
 }
 
@@ -300,7 +342,7 @@ static rg_status turn_faces(reader *r, int *turn)
                    (int)(p->turn == *turn ? q->face : p->face));
     }
     if (!left || !right) return RG_OK;
-    return rg_lines_warn(r->out, 0, "faces_vertices: %d faces run counter-clockwise and %d clockwise", (int)left, (int)right);
+    return warn(r, "faces_vertices: %d faces run counter-clockwise and %d clockwise", (int)left, (int)right);
 }
 
 /* Edges from the sides of faces. */
@@ -354,6 +396,20 @@ static int has_targets(const reader *r)
     return 0;
 }
 
+/* The line of the file for each line that was read. */
+static rg_status locate(reader *r)
+{
+    char path[PATH_ROOM + 20];
+    int32_t *line = rg_mem_array(&r->out->mem, (size_t)r->ne, sizeof *line);
+    if (!line) return RG_ENOMEM;
+    begin_path(r, "edges_vertices", path);
+    strcat(path, "edges_vertices");
+    rg_locate_lines(r->text, r->size, path, line, r->ne);
+    for (int32_t e = 0; e < r->ne; e++) r->out->line[e].where = line[e];
+    rg_mem_free(&r->out->mem, line);
+    return RG_OK;
+}
+
 static rg_status add_lines(reader *r, int turn)
 {
     const int targets = has_targets(r);
@@ -378,7 +434,7 @@ static rg_status add_lines(reader *r, int turn)
         if (!(angle == full)) r->out->line[r->out->count - 1].target = angle * RG_DEG;
     }
     if (!contrary) return RG_OK;
-    return rg_lines_warn(r->out, 0, "edges_foldAngle[%d]: the sign is not that of its assignment, which is kept (%d such)",
+    return warn(r, "edges_foldAngle[%d]: the sign is not that of its assignment, which is kept (%d such)",
                          (int)first, (int)contrary);
 }
 
@@ -415,32 +471,38 @@ static rg_status warn_folded(reader *r)
     for (size_t i = 0; r->nf == 0 && i < rg_value_count(classes); i++) {
         const char *one = rg_value_text(rg_value_at(classes, i));
         if (one && strcmp(one, "foldedForm") == 0)
-            return rg_lines_warn(r->out, 0, "frame_classes: a folded form, and no faces to tell: taken for a crease pattern");
+            return warn(r, "frame_classes: a folded form, and no faces to tell: taken for a crease pattern");
     }
     return RG_OK;
 }
 
 /* -------------------------------------------------------------------------------------------------- frames ---- */
 
+/* The frame that was looked at last, for what is wrong with it alone. */
+static reader *last_part(reader *r)
+{
+    r->part[0] = r->part[r->parts - 1];
+    r->parts = 1;
+    return r;
+}
+
 /* A frame with what it inherits, in r->frame. */
 static rg_status resolve(reader *r, int64_t number)
 {
-    const rg_value *frames = rg_value_get(r->root, "file_frames"), *chain[MOST_INHERITED];
-    int depth = 0;
-    r->number = (int32_t)number;
+    const size_t frames = rg_value_count(rg_value_get(r->root, "file_frames"));
     for (int64_t at = number;;) {
-        if (at < 0 || at > (int64_t)rg_value_count(frames))
-            return bad(r, "frame_parent: there is no frame %lld", (long long)at);
-        if (depth == MOST_INHERITED) return bad(r, "frame_parent: frames inherit from each other without end");
-        const rg_value *one = chain[depth++] = at == 0 ? r->root : rg_value_at(frames, (size_t)at - 1);
-        if (rg_value_kind(one) != RG_KIND_OBJECT) return bad(r, "the frame is no object");
+        if (at < 0 || at > (int64_t)frames) return bad(last_part(r), "frame_parent: there is no frame %lld", (long long)at);
+        if (r->parts == MOST_INHERITED) return bad(last_part(r), "frame_parent: frames inherit from each other without end");
+        const rg_value *one = frame_at(r, at);
+        r->part[r->parts++] = (int32_t)at;
+        if (rg_value_kind(one) != RG_KIND_OBJECT) return bad(last_part(r), "the frame is no object");
         if (at == 0 || !rg_value_is_true(rg_value_get(one, "frame_inherit"))) break;
         const rg_value *parent = rg_value_get(one, "frame_parent");
         at = 0;
-        if (parent && !rg_value_integer(parent, &at)) return bad(r, "frame_parent: no frame number");
+        if (parent && !rg_value_integer(parent, &at)) return bad(last_part(r), "frame_parent: no frame number");
     }
-    while (depth > 0) {
-        rg_value *over = rg_value_overlay(r->frame, chain[--depth]);
+    for (int32_t i = r->parts - 1; i >= 0; i--) {
+        rg_value *over = rg_value_overlay(r->frame, frame_at(r, r->part[i]));
         if (!over) return RG_ENOMEM;
         rg_value_free(r->frame);
         r->frame = over;
@@ -469,13 +531,14 @@ static rg_status read_frame(reader *r)
     if (s == RG_OK && !r->letter) {
         if (!(r->letter = rg_mem_array(&r->out->mem, (size_t)r->ne, 1))) return RG_ENOMEM;
         for (int32_t e = 0; e < r->ne; e++) r->letter[e] = guess(r, e);
-        s = rg_lines_warn(r->out, 0, "edges_assignment: there are none, they are taken from %s",
+        s = warn(r, "edges_assignment: there are none, they are taken from %s",
                           r->angle ? "the fold angles" : "the faces");
     }
     if (s == RG_OK && turn < 0)
-        s = rg_lines_warn(r->out, 0, "faces_vertices: they run clockwise, so this is the back: mountain and valley are exchanged");
+        s = warn(r, "faces_vertices: they run clockwise, so this is the back: mountain and valley are exchanged");
     if (s == RG_OK) s = warn_folded(r);
     if (s == RG_OK) s = add_lines(r, turn);
+    if (s == RG_OK) s = locate(r);
     return s == RG_OK ? metadata(r) : s;
 }
 
@@ -511,11 +574,13 @@ rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, con
     rg_status s = size ? rg_value_parse(bytes, size, &root, why) : rg_fail(RG_EFORMAT, why, 0, "the file is empty");
     if (s == RG_OK && rg_value_kind(root) != RG_KIND_OBJECT)
         s = rg_fail(RG_EFORMAT, why, 1, "JSON, but no FOLD: it is no object");
-    reader r = {.out = out, .why = why, .s = settings, .root = root};
+    reader r = {.out = out, .why = why, .s = settings, .text = bytes, .size = size, .root = root};
     if (s == RG_OK) s = choose(&r);
+    if (s == RG_EFORMAT && root && why) find_line(&r, why);
+    for (int32_t i = 0; s == RG_OK && i < out->warnings; i++) find_line(&r, &out->warning[i]);
     if (s == RG_OK && keep) {
         const char *const own[] = {"file_frames", "frame_parent", "frame_inherit"}; /* of a frame that is one of others */
-        for (int i = 0; r.number > 0 && i < 3; i++) rg_value_drop(r.frame, own[i]);
+        for (int i = 0; r.part[0] > 0 && i < 3; i++) rg_value_drop(r.frame, own[i]);
         out->vertex = r.E;
         out->frame = r.frame;
         r.E = NULL;

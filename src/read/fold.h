@@ -1,5 +1,5 @@
 /* fold.h -- FOLD 1.0 to 1.2: one frame of a file, flat, with assignments and fold angles.
- * Uses  value.h        Used by  read.c
+ * Uses  value.h locate.h        Used by  read.c
  *
  * Edges are taken from the faces where they are missing, assignments from the signs of the fold angles. Faces of the
  * file run counter-clockwise seen from the front: where they run clockwise, the drawing shows the back, and mountain
@@ -12,8 +12,8 @@
 #include "read/lines.h"
 
 /* s: file_frame, flip, targets. `keep` non-zero: also lines.frame and lines.vertex. *out is initialised here; on
- * failure it is left freed. RG_EFORMAT: why->text begins with the place in the file's tree, why->line is its line where
- * that is known. */
+ * failure it is left freed. RG_EFORMAT: why->text begins with the place in the file's tree, why->line is the line of
+ * that place, or of what it is missing in; so are warnings. */
 rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, const rg_settings *s, int keep, rg_lines *out,
                        rg_diag *why);
 

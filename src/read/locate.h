@@ -1,0 +1,15 @@
+/* locate.h -- the lines of a JSON text that its values stand in, for messages: a parser keeps none.
+ * Used by  fold.c */
+#ifndef RG_LOCATE_H
+#define RG_LOCATE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* The line of the value at a path like frames[3].edges[0], or of the last one on the way that there is. The text is JSON
+ * that a parser took; "" is its whole. */
+int32_t rg_locate_line(const char *text, size_t size, const char *path);
+/* Those of the first n elements of the list at that path; what is not there is left as it is. */
+void rg_locate_lines(const char *text, size_t size, const char *path, int32_t *line, int32_t n);
+
+#endif
