@@ -4,6 +4,8 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <locale.h>
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -89,6 +91,40 @@ static void numbers_come_back(void **state)
     assert_int_equal(strlen(rg_number_print(text, -1.2345678901234567e-300)) < RG_NUMBER_ROOM, 1);
 }
 
+/* As printf and strtod have it between them: of 15, 16 and 17 digits as few as come back. */
+static void is_shortest(double x)
+{
+    char text[RG_NUMBER_ROOM], want[RG_NUMBER_ROOM];
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(want, sizeof want, "%.*g", digits, x + 0.0); /* -0 is 0 */
+        if (strtod(want, NULL) == x) break;
+    }
+    assert_string_equal(rg_number_print(text, x), want);
+}
+
+/* Near powers of two, where numbers lie closer on one side, and of ten, where digits are carried; halves; all sizes. */
+static void numbers_are_short(void **state)
+{
+    (void)state;
+    unsigned seed = 5;
+    for (int e = -1074; e < 1024; e++) {
+        const double x = ldexp(1, e);
+        is_shortest(x);
+        is_shortest(-nextafter(x, 0));
+        is_shortest(nextafter(x, INFINITY));
+        is_shortest(ldexp(2 + noise(&seed), e < 1020 ? e : 1020));
+    }
+    for (int e = -60; e < 30; e++) {
+        double low = pow(10, e), high = low;
+        for (int k = 0; k < 60; k++, low = nextafter(low, 0), high = nextafter(high, INFINITY)) {
+            is_shortest(low);
+            is_shortest(-high);
+        }
+        for (int k = 0; k < 100; k++) is_shortest(floor(500 + 500 * noise(&seed)) * pow(10, e));
+    }
+    for (int k = 1; k < 2000; k++) is_shortest(k / 2048.0 + 1e12), is_shortest(k / 64.0), is_shortest(1e15 + k / 8.0);
+}
+
 static int has_comma(void) { return strcmp(localeconv()->decimal_point, ".") != 0; }
 
 /* A locale with a decimal comma: one of the machine's, else one made for the test where it can be. */
@@ -129,6 +165,7 @@ static void a_decimal_comma_changes_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(the_longest_number_is_read), cmocka_unit_test(whole_texts),
-                                       cmocka_unit_test(numbers_come_back), cmocka_unit_test(a_decimal_comma_changes_nothing)};
+                                       cmocka_unit_test(numbers_come_back),
+                                       cmocka_unit_test(numbers_are_short), cmocka_unit_test(a_decimal_comma_changes_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

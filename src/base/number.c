@@ -3,11 +3,15 @@
 #include <errno.h>
 #include <locale.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { LONGEST = 400, POINT_ROOM = 16 };
+/* Digits that every double keeps, and that tell any two doubles apart. */
+enum { FEWEST = 15, MOST = 17 };
+static const double WHOLE = 1e15; /* whole numbers below have no exponent and need no more than 15 digits */
 
 static size_t digits(const char *s, size_t n)
 {
@@ -88,11 +92,13 @@ int rg_number_whole(const char *s, size_t n, long *value)
     return 1;
 }
 
-const char *rg_number_print(char text[RG_NUMBER_ROOM], double value)
+/* ------------------------------------------------------------------------------------------------- print ---- */
+
+/* As many of 15 to 17 digits as it takes, by the library's own means. */
+static void print_any(char text[RG_NUMBER_ROOM], double value)
 {
-    value += 0.0; /* -0 becomes 0 */
     const char *sign = localeconv()->decimal_point;
-    for (int precision = 15; precision <= 17; precision++) {
+    for (int precision = FEWEST; precision <= MOST; precision++) {
         snprintf(text, RG_NUMBER_ROOM, "%.*g", precision, value);
         if (strtod(text, NULL) == value) break;
     }
@@ -102,5 +108,134 @@ const char *rg_number_print(char text[RG_NUMBER_ROOM], double value)
         *point = '.';
         memmove(point + 1, point + width, strlen(point + width) + 1);
     }
+}
+
+/* Digits before the first of which a point belongs behind place `exponent`. */
+typedef struct decimal { uint64_t digits; int exponent, precision; } decimal;
+
+#ifdef __SIZEOF_INT128__
+__extension__ typedef unsigned __int128 wide;
+
+static const uint64_t five[] = {
+    1, 5, 25, 125, 625, 3125, 15625, 78125, 390625, 1953125, 9765625, 48828125, 244140625, 1220703125, 6103515625,
+    30517578125, 152587890625, 762939453125, 3814697265625, 19073486328125, 95367431640625, 476837158203125,
+    2384185791015625, 11920928955078125, 59604644775390625, 298023223876953125, 1490116119384765625, 7450580596923828125};
+
+/* v = m 2^e is scaled to 17 digits before the point: v 10^q = whole + part / 2^s, without rounding. */
+typedef struct scaled { uint64_t m, whole; wide part, five; int q, s; } scaled;
+
+enum { LAST_FIVE = 27, MOST_SCALE = 48 }; /* 5^27 < 2^63; 5^48 < 2^112 leaves room for what is computed with it */
+
+/* 10^(17 - 1) <= whole < 10^17. 0: not with numbers of this width. */
+static int scale(double v, scaled *x)
+{
+    static const uint64_t limit = 100000000000000000; /* 10^17 */
+    int e;
+    x->m = (uint64_t)ldexp(frexp(v, &e), 53);
+    /* log10(2) = 0.30103 from below; one less than is wanted at times, never more */
+    x->q = MOST - 1 - (int)floor((e - 1) * 0.30102999);
+    for (e -= 53;; x->q--) {
+        x->s = -(e + x->q);
+        if (x->q < 1 || x->q > MOST_SCALE || x->s < 0) return 0;
+        x->five = x->q <= LAST_FIVE ? five[x->q] : (wide)five[LAST_FIVE] * five[x->q - LAST_FIVE];
+        const wide low = (wide)x->m * (uint64_t)x->five, high = (wide)x->m * (uint64_t)(x->five >> 64) + (low >> 64);
+        const int beyond = x->s - 64;
+        if (beyond >= 0) {
+            x->whole = (uint64_t)(high >> beyond);
+            x->part = (high & (((wide)1 << beyond) - 1)) << 64 | (uint64_t)low;
+        } else {
+            const wide all = high << 64 | (uint64_t)low;
+            x->whole = (uint64_t)(all >> x->s);
+            x->part = all & (((wide)1 << x->s) - 1);
+        }
+        if (x->whole < limit) return 1;
+    }
+}
+
+/* The nearest number of so many digits less than 17; of two that are as near, the even one. */
+static uint64_t round_off(const scaled *x, uint64_t unit)
+{
+    const uint64_t rest = x->whole % unit, digits = x->whole / unit;
+    const wide twice = ((wide)rest << x->s | x->part) << 1, one = (wide)unit << x->s;
+    return digits + (twice > one || (twice == one && digits % 2 == 1));
+}
+
+/* Whether v is the double nearest to a number of digits: no further off than half of the way to the next one. */
+static int comes_back(const scaled *x, uint64_t digits)
+{
+    const uint64_t power_of_two = (uint64_t)1 << 52;
+    const int above = digits > x->whole;
+    const wide off = above ? ((wide)(digits - x->whole) << x->s) - x->part : ((wide)(x->whole - digits) << x->s) + x->part;
+    if (x->m == power_of_two && !above) return off << 2 <= x->five; /* the next one down is half as far */
+    return off << 1 < x->five || (off << 1 == x->five && x->m % 2 == 0);
+}
+
+/* The shortest digits of v > 0; 0: not by this way. */
+static int shorten(double v, decimal *d)
+{
+    scaled x;
+    uint64_t unit = 100;
+    if (!scale(v, &x)) return 0;
+    for (d->precision = FEWEST; d->precision <= MOST; d->precision++, unit /= 10) {
+        d->digits = round_off(&x, unit);
+        if (unit == 1 || comes_back(&x, d->digits * unit)) break;
+    }
+    d->exponent = MOST - 1 - x.q;
+    return 1;
+}
+#else
+static int shorten(double v, decimal *d) { return (void)v, (void)d, 0; }
+#endif
+
+/* Returns the end. */
+static char *print_whole(char *to, uint64_t n)
+{
+    char digit[24], *at = digit + sizeof digit;
+    do *--at = (char)('0' + n % 10), n /= 10;
+    while (n);
+    const size_t length = (size_t)(digit + sizeof digit - at);
+    memcpy(to, at, length);
+    return to + length;
+}
+
+/* As printf's %g has it: with an exponent below 10^-4 and from 10^precision on, and no zeros at the end. */
+static void print_decimal(char *to, decimal d)
+{
+    char digit[24];
+    int n = (int)(print_whole(digit, d.digits) - digit);
+    const int exponent = d.exponent + n - d.precision; /* 99...9 may have been rounded to 100...0 */
+    while (n > 1 && digit[n - 1] == '0') n--;
+    const int is_small = exponent < -4, has_exponent = is_small || exponent >= d.precision;
+    const int before = has_exponent ? 1 : exponent + 1; /* digits before the point */
+    if (before <= 0) {
+        memcpy(to, "0.000", 5);
+        to += 2 - before;
+        memcpy(to, digit, (size_t)n);
+        to += n;
+    } else {
+        for (int i = 0; i < before || i < n; i++) {
+            if (i == before) *to++ = '.';
+            *to++ = i < n ? digit[i] : '0';
+        }
+    }
+    if (has_exponent) {
+        const int size = is_small ? -exponent : exponent;
+        *to++ = 'e';
+        *to++ = is_small ? '-' : '+';
+        if (size < 10) *to++ = '0';
+        to = print_whole(to, (uint64_t)size);
+    }
+    *to = 0;
+}
+
+const char *rg_number_print(char text[RG_NUMBER_ROOM], double value)
+{
+    decimal d;
+    char *to = text;
+    const double size = fabs(value);
+    if (value < 0) *to++ = '-'; /* and not where it is -0 */
+    if (size < WHOLE && size == floor(size)) *print_whole(to, (uint64_t)size) = 0;
+    else if (isfinite(value) && shorten(size, &d)) print_decimal(to, d);
+    else print_any(text, value);
     return text;
 }
