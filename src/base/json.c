@@ -23,18 +23,22 @@ static void new_line(rg_json *j)
 
 static void quoted(rg_json *j, const char *text)
 {
+    const unsigned char *plain = (const unsigned char *)text, *s = plain; /* from `plain` on nothing is to be escaped */
     put(j, "\"", 1);
-    for (const unsigned char *s = (const unsigned char *)text; *s;) {
+    while (*s) {
         const size_t n = rg_utf8_character(s);
-        char escape[8];
+        char escape[8] = "";
         if (n == 0) snprintf(escape, sizeof escape, "\\ufffd");
         else if (*s == '"' || *s == '\\') snprintf(escape, sizeof escape, "\\%c", *s);
         else if (*s < 0x20 || *s == '<') snprintf(escape, sizeof escape, "\\u%04x", *s);
-        else escape[0] = 0;
-        if (escape[0]) put_text(j, escape);
-        else put(j, (const char *)s, n);
+        if (escape[0]) {
+            put(j, (const char *)plain, (size_t)(s - plain));
+            put_text(j, escape);
+            plain = s + (n ? n : 1);
+        }
         s += n ? n : 1;
     }
+    put(j, (const char *)plain, (size_t)(s - plain));
     put(j, "\"", 1);
 }
 
