@@ -4,6 +4,8 @@
 #include <string.h>
 
 static const double SOLVE_TOLERANCE = 1e-10;
+/* Of a node where closing says nothing of where along its freedoms the sheet goes: what GOOD_SET_RIGHT below leaves is far more. */
+static const double FREE_SOLVE_TOLERANCE = 1e-7;
 static const int32_t CORRECTIONS = 8;
 /* The polynomial between nodes must close this much better than asked for. Where the sheet can go one way only its angles
  * are off by closure over the slowest mode, and could be exact: so much better there. */
@@ -46,7 +48,8 @@ double rg_integrate_tangent(rg_fold *f, const double *rho, double s, int near, d
         rg_project_renew(&f->P);
     }
     rg_drive_wish(&f->drive, rho, s, f->wish);
-    if (rg_project_tangent(&f->P, &f->K, f->wish, t, SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (9) */
+    const int free = f->smooth && !f->one_way && N > 3 * f->mesh.M;
+    if (rg_project_tangent(&f->P, &f->K, f->wish, t, free ? FREE_SOLVE_TOLERANCE : SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (9) */
     double along = rg_drive_progress(&f->drive, t);
     if (!(along > LEAST_EFFICIENCY)) return 0;
     for (int32_t i = 0; i < N; i++) t[i] /= along;
@@ -223,7 +226,7 @@ static int make_node_at_once(rg_fold *f, double s, double *far)
 {
     if (!(rg_integrate_tangent(f, f->trial, s, 0, f->t) > 0)) return 0;
     *far = f->moved = set_right(f, s);
-    return *far <= FARTHEST_SET_RIGHT && rg_newton_close(f, s, CORRECTIONS, 1);
+    return *far <= FARTHEST_SET_RIGHT && rg_newton_close(f, s, CORRECTIONS, 1, f->t);
 }
 
 /* A node at s from the prediction in f->trial, which closes to `error`. far: see set_right. Non-zero: it is made, in
@@ -233,7 +236,7 @@ static int make_node(rg_fold *f, double s, double error, double *far)
     const int32_t N = f->mesh.N;
     if (!f->one_way && N > 3 * f->mesh.M && error <= GOOD_PREDICTION && f->path.count >= RG_PATH_WINDOW)
         return make_node_at_once(f, s, far) && !(rg_limit_pull(&f->limit, f->trial, f->pull) > 0);
-    if (!rg_newton_close(f, s, CORRECTIONS, 0)) return 0;
+    if (!rg_newton_close(f, s, CORRECTIONS, 0, NULL)) return 0;
     if (!(rg_integrate_tangent(f, f->trial, s, 1, f->t) > 0)) return 0;
     *far = 0;
     if (!f->one_way || f->path.count < RG_PATH_WINDOW || f->nodes % ASK_AGAIN == 0) {
@@ -241,7 +244,7 @@ static int make_node(rg_fold *f, double s, double error, double *far)
         f->moved += *far;
         if (!(*far <= FARTHEST_SET_RIGHT)) return 0;
         if (*far > SET_RIGHT_FROM) {
-            if (!rg_newton_close(f, s, CORRECTIONS, 1)) return 0;
+            if (!rg_newton_close(f, s, CORRECTIONS, 1, NULL)) return 0;
             double moved = 0;
             for (int32_t i = 0; i < N; i++) moved = fmax(moved, fabs(f->trial[i] - f->k[0][i]));
             f->one_way = moved <= ONE_WAY * *far;
@@ -291,7 +294,7 @@ int rg_integrate_read_off(rg_fold *f, double s)
     rg_path_evaluate(p, first, n, s, f->trial, f->t);
     f->closure = rg_constraint_closure(&f->K, f->trial, NULL);
     if (f->closure <= close_enough(f)) return 1;
-    if (!rg_newton_close(f, s, CORRECTIONS, 0)) return 0;
+    if (!rg_newton_close(f, s, CORRECTIONS, 0, NULL)) return 0;
     if (rg_integrate_tangent(f, f->trial, s, 1, f->t) > 0) rg_path_insert(p, s, f->trial, f->t);
     f->nodes++;
     f->h *= 0.8;

@@ -10,22 +10,40 @@ static double larger(double most, double value)
     return value <= most || isnan(most) ? most : value;
 }
 
-/* Largest rotation angle of F over the interior vertices, for fold angles rho on the pattern X. */
-static double closure(const rg_mesh *m, const rg_vec2 *X, const double *rho)
+/* Room for one frame. */
+typedef struct gauge {
+    rg_turn *rho, *theta; /* [N], [corners] theirs is of the pattern `of` */
+    const rg_vec2 *of;
+    rg_place *place;      /* [nf] */
+    rg_vec3 *x;           /* [nv] */
+    int32_t *part;        /* [N] */
+} gauge;
+
+static void set_sectors(gauge *g, const rg_mesh *m, const rg_vec2 *X)
 {
-    double worst = 0;
+    if (g->of == X) return;
+    g->of = X;
     for (int32_t k = 0; k < m->M; k++) {
         const int32_t first = m->loop_start[k], last = m->loop_start[k + 1], v = m->inner_vertex[k];
-        rg_mat3 F = rg_mat3_identity();
         for (int32_t j = first; j < last; j++) {
             const int32_t *e = m->edge[m->crease_edge[m->loop_crease[j]]];
-            const int32_t *g = m->edge[m->crease_edge[m->loop_crease[j + 1 < last ? j + 1 : first]]];
-            const rg_vec2 a = rg_vec2_sub(X[e[e[0] == v]], X[v]), b = rg_vec2_sub(X[g[g[0] == v]], X[v]);
-            const double lengths = rg_vec2_length(a) * rg_vec2_length(b), angle = rho[m->loop_crease[j]];
-            F = rg_loop_advance(F, (rg_turn){cos(angle), sin(angle)},
-                                (rg_turn){rg_vec2_dot(a, b) / lengths, rg_vec2_cross(a, b) / lengths});
+            const int32_t *f = m->edge[m->crease_edge[m->loop_crease[j + 1 < last ? j + 1 : first]]];
+            const rg_vec2 a = rg_vec2_sub(X[e[e[0] == v]], X[v]), b = rg_vec2_sub(X[f[f[0] == v]], X[v]);
+            const double lengths = sqrt(rg_vec2_dot(a, a) * rg_vec2_dot(b, b));
+            g->theta[j] = (rg_turn){rg_vec2_dot(a, b) / lengths, rg_vec2_cross(a, b) / lengths};
         }
-        worst = larger(worst, rg_loop_angle(F));
+    }
+}
+
+/* Largest rotation angle of F over the interior vertices, for fold angles rho on the pattern X. */
+static double closure(gauge *g, const rg_mesh *m, const rg_vec2 *X, const double *rho)
+{
+    double worst = 0;
+    set_sectors(g, m, X);
+    for (int32_t i = 0; i < m->N; i++) g->rho[i] = (rg_turn){cos(rho[i]), sin(rho[i])};
+    for (int32_t k = 0; k < m->M; k++) {
+        const int32_t first = m->loop_start[k], n = m->loop_start[k + 1] - first;
+        worst = larger(worst, rg_loop_angle(rg_loop_walk(n, m->loop_crease + first, g->rho, g->theta + first, NULL)));
     }
     return worst;
 }
@@ -60,29 +78,40 @@ static double displacement(const rg_mesh *m, const rg_vec2 *X)
     return most;
 }
 
-rg_status rg_measure_frames(rg_motion *m)
+static int make_room(gauge *g, const rg_memory *mem, const rg_mesh *m)
+{
+    g->rho = rg_mem_array(mem, (size_t)m->N, sizeof *g->rho);
+    g->theta = rg_mem_array(mem, (size_t)m->loop_start[m->M], sizeof *g->theta);
+    g->place = rg_mem_array(mem, (size_t)m->nf, sizeof *g->place);
+    g->x = rg_mem_array(mem, (size_t)m->nv, sizeof *g->x);
+    g->part = rg_mem_array(mem, (size_t)m->N, sizeof *g->part);
+    return g->rho && g->theta && g->place && g->x && g->part;
+}
+
+static void measure_frame(rg_motion *m, int32_t k, gauge *g)
 {
     rg_report *r = &m->report;
-    int32_t *part = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *part);
-    rg_place *place = rg_mem_array(&m->mem, (size_t)m->mesh.nf, sizeof *place);
-    rg_vec3 *x = rg_mem_array(&m->mem, (size_t)m->mesh.nv, sizeof *x);
-    const rg_status s = part && place && x ? RG_OK : RG_ENOMEM;
-    if (s == RG_OK) r->components = rg_components_find(&m->mesh, part);
-    for (int32_t k = 0; s == RG_OK && k < r->frame_count; k++) {
-        const double *rho = rg_motion_angles(m, k);
-        const rg_vec2 *X = rg_motion_pattern(m, k);
-        measure_angles(m, k);
-        m->frame[k].closure_residual = closure(&m->mesh, X, rho);
-        r->max_closure_residual = larger(r->max_closure_residual, m->frame[k].closure_residual);
-        rg_pose_facets(&m->mesh, X, &m->tree, rho, place);
-        rg_pose_vertices(&m->mesh, X, &m->tree, place, x);
-        r->max_edge_strain = larger(r->max_edge_strain, rg_pose_strain(&m->mesh, X, x));
-        r->max_strain_from_original = larger(r->max_strain_from_original, rg_pose_strain(&m->mesh, m->mesh.X, x));
-        r->max_adjustment = larger(r->max_adjustment, displacement(&m->mesh, X));
-        r->max_facet_gap = larger(r->max_facet_gap, rg_pose_gap(&m->mesh, X, place) / m->mesh.size);
-    }
-    rg_mem_free(&m->mem, part);
-    rg_mem_free(&m->mem, place);
-    rg_mem_free(&m->mem, x);
-    return s;
+    const double *rho = rg_motion_angles(m, k);
+    const rg_vec2 *X = rg_motion_pattern(m, k);
+    measure_angles(m, k);
+    m->frame[k].closure_residual = closure(g, &m->mesh, X, rho);
+    r->max_closure_residual = larger(r->max_closure_residual, m->frame[k].closure_residual);
+    rg_pose_facets(&m->mesh, X, &m->tree, rho, g->place);
+    rg_pose_vertices(&m->mesh, X, &m->tree, g->place, g->x);
+    const double strain = rg_pose_strain(&m->mesh, X, g->x);
+    r->max_edge_strain = larger(r->max_edge_strain, strain);
+    r->max_strain_from_original = larger(r->max_strain_from_original, m->flat ? rg_pose_strain(&m->mesh, m->mesh.X, g->x) : strain);
+    if (m->flat) r->max_adjustment = larger(r->max_adjustment, displacement(&m->mesh, X));
+    r->max_facet_gap = larger(r->max_facet_gap, rg_pose_gap(X, &m->tree, g->place) / m->mesh.size);
+}
+
+rg_status rg_measure_frames(rg_motion *m)
+{
+    gauge g = {0};
+    const int ok = make_room(&g, &m->mem, &m->mesh);
+    if (ok) m->report.components = rg_components_find(&m->mesh, g.part);
+    for (int32_t k = 0; ok && k < m->report.frame_count; k++) measure_frame(m, k, &g);
+    void *block[] = {g.rho, g.theta, g.place, g.x, g.part};
+    for (int i = 0; i < 5; i++) rg_mem_free(&m->mem, block[i]);
+    return ok ? RG_OK : RG_ENOMEM;
 }

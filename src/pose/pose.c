@@ -37,6 +37,17 @@ static rg_hinge hinge_of(const rg_mesh *m, const rg_vec2 *X, int32_t f, int32_t 
     return (rg_hinge){f, m->edge_facet[via][left], m->edge_crease[via], u, rg_vec2_cross(u, a)};
 }
 
+/* A start that is one ahead of itself while it counts ends where it has to. */
+static void find_corners(const rg_mesh *m, int32_t facets, rg_tree *t)
+{
+    int32_t *start = t->corner_start + 1;
+    for (int32_t j = 0; j < m->facet_start[m->nf]; j++) start[m->facet_vertex[j] + 1]++;
+    for (int32_t v = 0; v < m->nv; v++) start[v + 1] += start[v];
+    for (int32_t at = 0; at < facets; at++)
+        for (int32_t f = t->order[at], j = m->facet_start[f]; j < m->facet_start[f + 1]; j++)
+            t->corner_facet[start[m->facet_vertex[j]]++] = f;
+}
+
 rg_status rg_tree_init(const rg_mesh *m, int32_t fixed_facet, rg_tree *t)
 {
     memset(t, 0, sizeof *t);
@@ -47,8 +58,9 @@ rg_status rg_tree_init(const rg_mesh *m, int32_t fixed_facet, rg_tree *t)
     t->via = rg_mem_array(&m->mem, (size_t)m->nf, sizeof *t->via);
     t->hinge = rg_mem_array(&m->mem, (size_t)m->nf, sizeof *t->hinge);
     t->nv = m->nv;
-    t->owner = rg_mem_array(&m->mem, (size_t)m->nv, sizeof *t->owner);
-    if (!t->order || !t->via || !t->hinge || !t->owner) {
+    t->corner_start = rg_mem_array(&m->mem, (size_t)m->nv + 2, sizeof *t->corner_start);
+    t->corner_facet = rg_mem_array(&m->mem, (size_t)m->facet_start[m->nf], sizeof *t->corner_facet);
+    if (!t->order || !t->via || !t->hinge || !t->corner_start || !t->corner_facet) {
         rg_tree_free(t);
         return RG_ENOMEM;
     }
@@ -68,10 +80,7 @@ rg_status rg_tree_init(const rg_mesh *m, int32_t fixed_facet, rg_tree *t)
         }
     }
     for (int32_t at = 0; at < count; at++) t->hinge[at] = hinge_of(m, m->X, t->order[at], t->via[t->order[at]]);
-    for (int32_t v = 0; v < m->nv; v++) t->owner[v] = -1;
-    for (int32_t at = 0; at < count; at++)
-        for (int32_t f = t->order[at], j = m->facet_start[f]; j < m->facet_start[f + 1]; j++)
-            if (t->owner[m->facet_vertex[j]] < 0) t->owner[m->facet_vertex[j]] = f;
+    find_corners(m, count, t);
     return RG_OK;
 }
 
@@ -81,7 +90,8 @@ void rg_tree_free(rg_tree *t)
     rg_mem_free(&t->mem, t->order);
     rg_mem_free(&t->mem, t->via);
     rg_mem_free(&t->mem, t->hinge);
-    rg_mem_free(&t->mem, t->owner);
+    rg_mem_free(&t->mem, t->corner_start);
+    rg_mem_free(&t->mem, t->corner_facet);
     memset(t, 0, sizeof *t);
 }
 
@@ -125,7 +135,7 @@ void rg_pose_facets(const rg_mesh *m, const rg_vec2 *X, const rg_tree *t, const 
 void rg_pose_vertices(const rg_mesh *m, const rg_vec2 *X, const rg_tree *t, const rg_place *place, rg_vec3 *x)
 {
     for (int32_t v = 0; v < m->nv; v++)
-        if (t->owner[v] >= 0) x[v] = put(&place[t->owner[v]], X[v]);
+        if (t->corner_start[v] < t->corner_start[v + 1]) x[v] = put(&place[t->corner_facet[t->corner_start[v]]], X[v]);
 }
 
 /* A new maximum, or NaN as soon as there is one. */
@@ -134,33 +144,26 @@ static double larger(double most, double value)
     return value <= most || isnan(most) ? most : value;
 }
 
-/* The place in the facet lists of the corner that comes after corner j, counter-clockwise, around its vertex: that of the facet
- * over the edge which arrives there; -1: outside. */
-static int32_t next_corner(const rg_mesh *m, int32_t f, int32_t j, int32_t *facet)
-{
-    const int32_t v = m->facet_vertex[j], e = m->facet_edge[j > m->facet_start[f] ? j - 1 : m->facet_start[f + 1] - 1];
-    const int32_t g = m->edge_facet[e][m->edge_facet[e][0] == f];
-    if (g < 0) return -1;
-    int32_t k = m->facet_start[g];
-    while (m->facet_vertex[k] != v) k++;
-    *facet = g;
-    return k;
-}
-
-/* Every pair of facets around a vertex, also those that meet in nothing else: small gaps between neighbours add up. */
-double rg_pose_gap(const rg_mesh *m, const rg_vec2 *X, const rg_place *place)
+/* Every pair of facets around a vertex, also those that meet in nothing else: small gaps between neighbours add up. Pairs are
+ * looked at only where the gaps to the first facet leave room for one that is larger than all so far. */
+double rg_pose_gap(const rg_vec2 *X, const rg_tree *t, const rg_place *place)
 {
     double gap = 0; /* squared */
-    for (int32_t f = 0; f < m->nf; f++)
-        for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) {
-            const rg_vec2 v = X[m->facet_vertex[j]];
-            const rg_vec3 x = put(&place[f], v);
-            int32_t g = f, k = next_corner(m, f, j, &g);
-            for (; k >= 0 && g != f; k = next_corner(m, g, k, &g)) {
-                const rg_vec3 d = rg_vec3_sub(x, put(&place[g], v));
+    for (int32_t v = 0; v < t->nv; v++) {
+        const int32_t *facet = t->corner_facet + t->corner_start[v], n = t->corner_start[v + 1] - t->corner_start[v];
+        double from_first = 0;
+        for (int32_t a = 1; a < n; a++) {
+            const rg_vec3 d = rg_vec3_sub(put(&place[facet[a]], X[v]), put(&place[facet[0]], X[v]));
+            from_first = larger(from_first, rg_vec3_dot(d, d));
+        }
+        if (4 * from_first <= gap) continue;
+        gap = larger(gap, from_first);
+        for (int32_t a = 1; a < n; a++)
+            for (int32_t b = 1; b < a; b++) {
+                const rg_vec3 d = rg_vec3_sub(put(&place[facet[a]], X[v]), put(&place[facet[b]], X[v]));
                 gap = larger(gap, rg_vec3_dot(d, d));
             }
-        }
+    }
     return sqrt(gap);
 }
 

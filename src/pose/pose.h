@@ -20,7 +20,7 @@ typedef struct rg_tree {
     int32_t *via;    /* [nf] edge over which facet f is reached, -1 for the fixed facet */
     rg_hinge *hinge; /* [nf] in that order */
     int32_t nv;
-    int32_t *owner;  /* [nv] of the facets at a vertex the one nearest the root, which places it; -1: none */
+    int32_t *corner_start, *corner_facet; /* [nv + 1]: the facets at each vertex, the one nearest the root first: it places it */
 } rg_tree;
 
 /* fixed_facet -1: the one nearest the centre of the sheet. RG_EARG: no such facet. */
@@ -35,7 +35,7 @@ void rg_pose_facets(const rg_mesh *m, const rg_vec2 *X, const rg_tree *t, const 
 /* x[nv]: out, vertex positions, each taken from the facet nearest the tree's root that has it. */
 void rg_pose_vertices(const rg_mesh *m, const rg_vec2 *X, const rg_tree *t, const rg_place *place, rg_vec3 *x);
 /* Largest distance between two placements of one vertex by different facets, file units. */
-double rg_pose_gap(const rg_mesh *m, const rg_vec2 *X, const rg_place *place);
+double rg_pose_gap(const rg_vec2 *X, const rg_tree *t, const rg_place *place);
 /* Largest | 3D length / pattern length - 1 | over the edges, with vertices as placed by x. */
 double rg_pose_strain(const rg_mesh *m, const rg_vec2 *X, const rg_vec3 *x);
 
