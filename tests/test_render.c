@@ -153,7 +153,7 @@ static void flat_miura_has_no_two_facets_in_one_place(void **state)
     rg_place *place = calloc((size_t)m->mesh.nf, sizeof *place);
     assert_non_null(place);
     rg_pose_facets(&m->mesh, m->mesh.X, &m->tree, rg_motion_angles(m, 20), place);
-    below(rg_pose_gap(&m->mesh, m->mesh.X, place), 1e-9); /* it is a motion */
+    below(rg_pose_gap(m->mesh.X, &m->tree, place), 1e-9); /* it is a motion */
     pile p = pile_after(m, 30);
     int overlaps = 0;
     for (int32_t f = 0; f < m->mesh.nf; f++) {
