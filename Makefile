@@ -164,7 +164,7 @@ bench:
 	@$(MAKE) --no-print-directory $(jobs) run-bench
 
 run-bench: $(bench_bin)
-	@for b in $(bench_bin); do $$b || exit 1; done
+	@for b in $(bench_bin); do $$b $(BENCH) || exit 1; done
 
 # ----------------------------------------------------------------------------------------------------- check
 

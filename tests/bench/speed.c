@@ -138,7 +138,8 @@ static units parts(void)
     return u;
 }
 
-static double run(const char *kind, int32_t n, rg_triangulation triangulate, double to, int32_t frames, int times, units u)
+static double run(const char *kind, int32_t n, rg_triangulation triangulate, double to, int32_t frames, int times, units u,
+                  double *creases)
 {
     rg_settings s = rg_settings_default();
     s.triangulate = triangulate;
@@ -161,32 +162,44 @@ static double run(const char *kind, int32_t n, rg_triangulation triangulate, dou
     }
     struct rusage use;
     getrusage(RUSAGE_SELF, &use);
-    printf("%s,%d,%s,%d,%.4g,%d,%s,%.4g,%.3g,%.3g,%d,%d,%.2g,%.2g,%.0f\n", kind, (int)n,
+    printf("%s,%d,%s,%d,%.4g,%d,%s,%.4g,%.3g,%.3g,%.3g,%d,%d,%.2g,%.2g,%.0f\n", kind, (int)n,
            triangulate == RG_TRIANGULATE_ALL ? "all" : "none", (int)r.unknowns, 100 * to, (int)frames, r.method, best,
-           best / u.factorization, frames / solving, (int)r.steps, (int)r.factorizations, r.max_closure_residual, r.max_edge_strain,
+           best / u.factorization, best / u.pass, frames / solving, (int)r.steps, (int)r.factorizations, r.max_closure_residual, r.max_edge_strain,
            (double)use.ru_maxrss / 1024);
     fflush(stdout);
     rg_pattern_destroy(p);
+    *creases = r.unknowns;
     return best;
 }
 
+/* Sheets of growing size, and the exponent that fits their times best. */
+static void growth(const char *kind, int32_t first, int32_t last, double to, units u)
+{
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0, creases;
+    for (int32_t size = first; size <= last; size *= 2) {
+        const double seconds = run(kind, size, RG_TRIANGULATE_NONE, to, 60, size <= 16 ? 9 : size <= 64 ? 3 : 1, u, &creases);
+        if (size < 16) continue; /* what does not grow would count */
+        n++, x += log(creases), y += log(seconds), xx += log(creases) * log(creases), xy += log(creases) * log(seconds);
+    }
+    printf("# %s from n = 16 to %d grows as N^%.2f\n", kind, (int)last, (n * xy - x * y) / (n * xx - x * x));
+    fflush(stdout);
+}
+
+/* small: a minute less; largest: a quarter of an hour more. */
 int main(int argc, char **argv)
 {
-    const int large = argc < 2 || strcmp(argv[1], "small") != 0;
+    const char *how = argc < 2 ? "" : argv[1];
+    const int large = strcmp(how, "small") != 0, largest = strcmp(how, "largest") == 0;
+    double creases;
     units u = parts();
-    printf("\npattern,n,triangulation,creases,to_percent,frames,method,seconds,factorizations_worth,frames_per_second_of_solving,"
-           "steps,factorizations,closure_rad,strain,peak_mib\n");
-    run("miura", 64, RG_TRIANGULATE_ALL, 0.95, 60, 5, u);
-    run("miura", 64, RG_TRIANGULATE_NONE, 170.0 / 180, 60, 5, u);
-    run("waterbomb", 8, RG_TRIANGULATE_NONE, 1, 60, 9, u);
-    run("waterbomb", 8, RG_TRIANGULATE_NONE, 1, 600, 3, u);
-    double seconds[4];
-    for (int k = 0; k < 4; k++) seconds[k] = run("miura", 16 << k, RG_TRIANGULATE_NONE, 170.0 / 180, 60, 5, u);
-    double creases[2] = {2 * 16 * 15, 2 * 128 * 127};
-    fprintf(stderr, "growth from n = 16 to 128: N^%.2f\n", log(seconds[3] / seconds[0]) / log(creases[1] / creases[0]));
-    for (int32_t n = 16; n <= 64; n *= 2) run("waterbomb", n, RG_TRIANGULATE_NONE, 0.9, 60, 1, u);
-    if (!large) return 0;
-    run("miura", 256, RG_TRIANGULATE_NONE, 0.9, 60, 1, u);
-    run("miura", 256, RG_TRIANGULATE_ALL, 0.9, 60, 1, u);
+    printf("\npattern,n,triangulation,creases,to_percent,frames,method,seconds,factorizations_worth,passes_worth,"
+           "frames_per_second_of_solving,steps,factorizations,closure_rad,strain,peak_mib\n");
+    run("miura", 64, RG_TRIANGULATE_ALL, 0.95, 60, 5, u, &creases);
+    run("miura", 64, RG_TRIANGULATE_NONE, 170.0 / 180, 60, 5, u, &creases);
+    run("waterbomb", 8, RG_TRIANGULATE_NONE, 1, 60, 9, u, &creases);
+    run("waterbomb", 8, RG_TRIANGULATE_NONE, 1, 600, 3, u, &creases);
+    growth("miura", 8, large ? 256 : 128, 0.9, u);
+    growth("waterbomb", 8, largest ? 256 : large ? 128 : 32, 0.9, u);
+    if (large) run("miura", 256, RG_TRIANGULATE_ALL, 0.9, 60, 1, u, &creases);
     return 0;
 }
