@@ -1,4 +1,5 @@
 #include "chart/model.h"
+#include "kinematics/mobility.h"
 
 #include <string.h>
 
@@ -158,9 +159,12 @@ rg_status rg_model_fold(rg_model *o, const rg_mesh *m, const rg_settings *s, int
     memset(o, 0, sizeof *o);
     o->unknowns = m->N;
     o->constraints = 3 * m->M;
+    o->ways = -1;
     rg_status status = rg_frames_init(&kept, &mem, m->N, s->frames);
     if (status == RG_OK) status = rg_run_make(&o->run, m, s, &way, NULL, &kept, why);
     if (status == RG_OK) status = rg_run_time(&o->run, m, s, PATIENCE, why);
+    if (status == RG_OK) status = rg_mobility(m, NULL, kept.rho + (size_t)(kept.count / 2) * (size_t)m->N, &o->ways);
+    if (status == RG_EABSENT) status = RG_OK;
     for (int32_t k = 0; status == RG_OK && k < kept.count; k++)
         for (int32_t i = 0; i < m->N; i++) {
             const double rho = kept.rho[(size_t)k * (size_t)m->N + (size_t)i];

@@ -17,6 +17,7 @@ rg_status rg_symmetry_find(rg_symmetry *y, const rg_memory *mem, const rg_mesh *
 /* One way to model a sheet. */
 typedef struct rg_model {
     int32_t unknowns, constraints;
+    int32_t ways;       /* that it can go half way, to first order; -1: not known */
     rg_run run;         /* by the default method; run.error: of the creases drawn */
     double bend;        /* the most an added crease folds in a frame, radians */
 } rg_model;

@@ -167,10 +167,11 @@ static void orders(const rg_chart *c, FILE *out)
     fputs("\n", out);
 }
 
-static void model(const rg_chart *c, const char *name, const rg_model *o, FILE *out)
+static void model(const char *name, const rg_model *o, FILE *out)
 {
-    fprintf(out, "| %s | %d | %d | %s | ", name, (int)o->unknowns, (int)o->constraints,
-            o->run.outcome == RG_FOLDED ? "reached" : "stopped");
+    fprintf(out, "| %s | %d | %d | ", name, (int)o->unknowns, (int)o->constraints);
+    brief(o->ways < 0 ? NAN : o->ways, out);
+    fprintf(out, " | %s | ", o->run.outcome == RG_FOLDED ? "reached" : "stopped");
     brief(o->run.error, out);
     fputs(" | ", out);
     brief(o->run.closure, out);
@@ -181,16 +182,15 @@ static void model(const rg_chart *c, const char *name, const rg_model *o, FILE *
     fputs(" | ", out);
     brief(o->run.passes, out);
     fputs(" |\n", out);
-    (void)c;
 }
 
 static void models(const rg_chart *c, FILE *out)
 {
-    fputs("| model | unknowns | constraints | outcome | path off, rad | closure, rad | facets bend, deg | ms | passes |\n"
-          "|---|---|---|---|---|---|---|---|---|\n", out);
-    model(c, "facets as drawn", &c->none, out);
-    model(c, "all triangles", &c->all, out);
-    fprintf(out, "| bars and hinges | %d | %d bars, %d hinges | | | | | | |\n\n", 3 * (int)c->nodes, (int)c->edges_all,
+    fputs("| model | unknowns | constraints | mobility | outcome | path off, rad | closure, rad | facets bend, deg | ms | passes |\n"
+          "|---|---|---|---|---|---|---|---|---|---|\n", out);
+    model("facets as drawn", &c->none, out);
+    model("all triangles", &c->all, out);
+    fprintf(out, "| bars and hinges | %d | %d bars, %d hinges | | | | | | | |\n\n", 3 * (int)c->nodes, (int)c->edges_all,
             (int)c->all.unknowns);
     fprintf(out, "Symmetries: %d; they leave %d of %d creases and %d of %d vertices to solve for.\n", (int)c->symmetry.order,
             (int)c->symmetry.creases, (int)c->none.unknowns, (int)c->symmetry.vertices, (int)c->none.constraints / 3);
