@@ -7,7 +7,7 @@
 #include <signal.h>
 #include <unistd.h>
 
-/* A thread's canvas takes about 100 MB. */
+/* More would mostly wait: OpenGL in software has its own threads, and layers are found by one thread at a time. */
 enum { MOST_THREADS = 8 };
 
 /* The motion's allocator, for one thread at a time. */

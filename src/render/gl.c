@@ -12,22 +12,22 @@ typedef struct context {
 
 static rg_status context_open(context *c, int32_t width, int32_t height, rg_diag *why)
 {
-    static const int wish[] = {OSMESA_FORMAT,  OSMESA_RGBA, OSMESA_DEPTH_BITS, 24, OSMESA_STENCIL_BITS, 8,
+    static const int wish[] = {OSMESA_FORMAT,  OSMESA_RGBA, OSMESA_DEPTH_BITS, 24,
                                OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, 0};
     (void)width, (void)height;
     c->handle = OSMesaCreateContextAttribs(wish, NULL);
     return c->handle ? RG_OK : rg_fail(RG_EABSENT, why, 0, "OSMesa gives no OpenGL context, so no pictures can be made");
 }
 
-static int context_begin(context *c, unsigned char *rgba, int32_t width, int32_t height)
+static int context_begin(context *c, uint32_t *rgba, int32_t width, int32_t height)
 {
     return OSMesaMakeCurrent(c->handle, rgba, GL_UNSIGNED_BYTE, width, height) == GL_TRUE;
 }
 
-/* OSMesa draws into the array itself. */
-static void context_fetch(unsigned char *rgba, int32_t width, int32_t height)
+/* OSMesa puts it into the array itself. */
+static void context_fetch(uint32_t *rgba, int32_t pitch, int32_t width, int32_t height)
 {
-    (void)rgba, (void)width, (void)height;
+    (void)rgba, (void)pitch, (void)width, (void)height;
     glFinish();
 }
 
@@ -66,7 +66,7 @@ static rg_status context_open(context *c, int32_t width, int32_t height, rg_diag
 {
     static const EGLint wish[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
                                   EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8, EGL_ALPHA_SIZE, 8,
-                                  EGL_DEPTH_SIZE, 24, EGL_STENCIL_SIZE, 8, EGL_NONE};
+                                  EGL_DEPTH_SIZE, 24, EGL_NONE};
     const EGLint size[] = {EGL_WIDTH, width, EGL_HEIGHT, height, EGL_NONE};
     const char *can = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!can || !strstr(can, "EGL_MESA_platform_surfaceless")) return absent("display without a screen", why);
@@ -82,15 +82,16 @@ static rg_status context_open(context *c, int32_t width, int32_t height, rg_diag
     return c->surface != EGL_NO_SURFACE ? RG_OK : absent("canvas", why);
 }
 
-static int context_begin(context *c, unsigned char *rgba, int32_t width, int32_t height)
+static int context_begin(context *c, uint32_t *rgba, int32_t width, int32_t height)
 {
     (void)rgba, (void)width, (void)height;
     return eglBindAPI(EGL_OPENGL_API) && eglMakeCurrent(c->display, c->surface, c->surface, c->handle);
 }
 
-static void context_fetch(unsigned char *rgba, int32_t width, int32_t height)
+static void context_fetch(uint32_t *rgba, int32_t pitch, int32_t width, int32_t height)
 {
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glPixelStorei(GL_PACK_ROW_LENGTH, pitch);
     glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
 }
 
@@ -114,7 +115,7 @@ struct rg_gl {
     rg_memory mem;
     context context;
     int32_t width, height;
-    unsigned char *rgba; /* [height][width][4] */
+    uint32_t *mark; /* [height][width] */
 };
 
 rg_status rg_gl_check(rg_diag *why)
@@ -130,21 +131,21 @@ rg_status rg_gl_create(const rg_memory *memory, int32_t width, int32_t height, r
     rg_gl *g = rg_mem_array(&mem, 1, sizeof *g);
     if (!g) return rg_fail(RG_ENOMEM, why, 0, "out of memory for the picture");
     *g = (rg_gl){.mem = mem, .width = width, .height = height};
-    g->rgba = rg_mem_array(&mem, (size_t)width * (size_t)height, 4);
-    rg_status s = g->rgba ? RG_OK : rg_fail(RG_ENOMEM, why, 0, "out of memory for the picture");
+    g->mark = rg_mem_array(&mem, (size_t)width * (size_t)height, sizeof *g->mark);
+    rg_status s = g->mark ? RG_OK : rg_fail(RG_ENOMEM, why, 0, "out of memory for the picture");
     if (s == RG_OK) s = context_open(&g->context, width, height, why);
-    if (s == RG_OK && !context_begin(&g->context, g->rgba, width, height))
+    if (s == RG_OK && !context_begin(&g->context, g->mark, width, height))
         s = rg_fail(RG_EABSENT, why, 0, "OpenGL cannot draw on %d x %d samples", (int)width, (int)height);
     if (s == RG_OK) {
-        GLint most[2] = {0, 0}, stencil = 0, depth = 0;
+        GLint most[2] = {0, 0}, depth = 0, alpha = 0;
         glGetIntegerv(GL_MAX_VIEWPORT_DIMS, most);
-        glGetIntegerv(GL_STENCIL_BITS, &stencil);
         glGetIntegerv(GL_DEPTH_BITS, &depth);
+        glGetIntegerv(GL_ALPHA_BITS, &alpha);
         if (most[0] < g->width) g->width = most[0];
         if (most[1] < g->height) g->height = most[1];
-        if (stencil < 8 || depth < 24 || g->width < 1 || g->height < 1)
-            s = rg_fail(RG_EABSENT, why, 0, "OpenGL has %d bits of depth and %d of stencil; 24 and 8 are needed",
-                        (int)depth, (int)stencil);
+        if (alpha < 8 || depth < 24 || g->width < 1 || g->height < 1)
+            s = rg_fail(RG_EABSENT, why, 0, "OpenGL has %d bits of depth and %d of alpha; 24 and 8 are needed",
+                        (int)depth, (int)alpha);
         context_end(&g->context);
     }
     if (s != RG_OK) {
@@ -161,34 +162,12 @@ void rg_gl_size(const rg_gl *g, int32_t *width, int32_t *height)
     *height = g->height;
 }
 
-/* Faces by depth, each leaving its mark in the stencil where it is on top; then its lines exactly there, whatever their
- * depth: a line can neither shine through a layer above nor sink into its own. 255 marks, then they start anew. */
-static void draw_pieces(const rg_gl_scene *scene)
-{
-    enum { MARKS = 255 };
-    glEnable(GL_STENCIL_TEST);
-    for (int32_t i = 0; i < scene->pieces; i++) {
-        const int32_t *at = scene->start + 2 * (size_t)i;
-        const GLint mark = 1 + i % MARKS;
-        if (mark == 1 && i > 0) glClear(GL_STENCIL_BUFFER_BIT);
-        glEnable(GL_DEPTH_TEST);
-        glStencilFunc(GL_ALWAYS, mark, 0xff);
-        glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-        glDrawArrays(GL_TRIANGLES, at[0], at[1] - at[0]);
-        if (at[2] == at[1]) continue;
-        glDisable(GL_DEPTH_TEST);
-        glStencilFunc(GL_EQUAL, mark, 0xff);
-        glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-        glDrawArrays(GL_TRIANGLES, at[1], at[2] - at[1]);
-    }
-}
-
+/* A mark goes through GL as the four bytes of a colour, which come back as they are. */
 rg_status rg_gl_draw(rg_gl *g, const rg_gl_scene *scene, int32_t x, int32_t y, int32_t width, int32_t height,
-                     const unsigned char **rgba, int32_t *pitch, rg_diag *why)
+                     uint32_t **mark, int32_t *pitch, rg_diag *why)
 {
-    if (!context_begin(&g->context, g->rgba, g->width, g->height))
+    if (!context_begin(&g->context, g->mark, g->width, g->height))
         return rg_fail(RG_EWRITE, why, 0, "OpenGL lost its canvas");
-    const unsigned char *b = scene->background;
     glViewport(0, 0, width, height);
     glMatrixMode(GL_PROJECTION);
     glLoadIdentity();
@@ -199,23 +178,21 @@ rg_status rg_gl_draw(rg_gl *g, const rg_gl_scene *scene, int32_t x, int32_t y, i
     glDisable(GL_DITHER);
     glDisable(GL_CULL_FACE);
     glShadeModel(GL_FLAT);
+    glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
-    glDepthMask(GL_TRUE);
-    glStencilMask(0xff);
-    glClearColor((float)b[0] / 255, (float)b[1] / 255, (float)b[2] / 255, 1);
+    glClearColor(0, 0, 0, 0);
     glClearDepth(1);
-    glClearStencil(0);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glEnableClientState(GL_VERTEX_ARRAY);
     glEnableClientState(GL_COLOR_ARRAY);
     glVertexPointer(3, GL_FLOAT, sizeof *scene->vertex, &scene->vertex->x);
-    glColorPointer(4, GL_UNSIGNED_BYTE, sizeof *scene->vertex, scene->vertex->rgba);
-    draw_pieces(scene);
-    context_fetch(g->rgba, g->width, g->height);
+    glColorPointer(4, GL_UNSIGNED_BYTE, sizeof *scene->vertex, &scene->vertex->mark);
+    glDrawElements(GL_TRIANGLES, scene->corners, GL_UNSIGNED_INT, scene->corner);
+    context_fetch(g->mark, g->width, width, height);
     const GLenum error = glGetError();
     context_end(&g->context);
     if (error != GL_NO_ERROR) return rg_fail(RG_EWRITE, why, 0, "OpenGL fails with error 0x%x", (unsigned)error);
-    *rgba = g->rgba;
+    *mark = g->mark;
     *pitch = g->width;
     return RG_OK;
 }
@@ -224,7 +201,7 @@ void rg_gl_destroy(rg_gl *g)
 {
     if (!g) return;
     context_close(&g->context);
-    rg_mem_free(&g->mem, g->rgba);
+    rg_mem_free(&g->mem, g->mark);
     rg_mem_free(&g->mem, g);
 }
 
@@ -248,9 +225,9 @@ void rg_gl_size(const rg_gl *gl, int32_t *width, int32_t *height)
 }
 
 rg_status rg_gl_draw(rg_gl *gl, const rg_gl_scene *scene, int32_t x, int32_t y, int32_t width, int32_t height,
-                     const unsigned char **rgba, int32_t *pitch, rg_diag *why)
+                     uint32_t **mark, int32_t *pitch, rg_diag *why)
 {
-    (void)gl, (void)scene, (void)x, (void)y, (void)width, (void)height, (void)rgba, (void)pitch;
+    (void)gl, (void)scene, (void)x, (void)y, (void)width, (void)height, (void)mark, (void)pitch;
     return rg_gl_check(why);
 }
 

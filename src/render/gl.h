@@ -1,4 +1,4 @@
-/* gl.h -- the one door to OpenGL: a context off the screen that fills flat pieces, nearest on top.
+/* gl.h -- the one door to OpenGL: a context off the screen that tells which triangle is nearest at each sample.
  * Paper    section 4        Uses  base        Used by  render.c
  *
  * Built for OSMesa, for EGL without a surface, or for neither (RG_GL_osmesa, RG_GL_egl, RG_GL_none). What GL keeps
@@ -11,17 +11,14 @@
 typedef struct rg_gl rg_gl;
 
 typedef struct rg_gl_vertex {
-    float x, y, z;         /* samples right, samples down, depth 0 (near) ... 1 (far) */
-    unsigned char rgba[4];
+    float x, y, z; /* samples right, samples down, depth 0 (near) ... 1 (far) */
+    uint32_t mark; /* of the triangle, the same at its three corners; above 0 */
 } rg_gl_vertex;
 
-/* Triangles in pieces. A piece has a face and, drawn only where that face is what one sees, its lines:
- * piece i is the face start[2i] ... start[2i+1] - 1 and the lines start[2i+1] ... start[2i+2] - 1. */
 typedef struct rg_gl_scene {
     const rg_gl_vertex *vertex;
-    const int32_t *start;  /* [2 pieces + 1], multiples of 3 */
-    int32_t pieces;
-    unsigned char background[3];
+    const uint32_t *corner; /* [corners] three vertices a triangle; what is first wins where depths are the same */
+    int32_t corners;
 } rg_gl_scene;
 
 /* RG_OK if this build makes pictures, else RG_EABSENT and a sentence. */
@@ -31,9 +28,10 @@ rg_status rg_gl_check(rg_diag *why);
 rg_status rg_gl_create(const rg_memory *mem, int32_t width, int32_t height, rg_gl **gl, rg_diag *why);
 void rg_gl_size(const rg_gl *gl, int32_t *width, int32_t *height);
 /* Draws the part of the scene whose upper left sample is (x, y), `width` x `height` samples, no larger than the canvas.
- * rgba: out, rows of *pitch samples, 4 bytes each, top row first; borrowed until the next call on this handle. */
+ * mark: out, rows of *pitch samples, top row first: the mark of what is seen there, 0: nothing. Lent until the next call
+ * on this handle; may be written on. */
 rg_status rg_gl_draw(rg_gl *gl, const rg_gl_scene *scene, int32_t x, int32_t y, int32_t width, int32_t height,
-                     const unsigned char **rgba, int32_t *pitch, rg_diag *why);
+                     uint32_t **mark, int32_t *pitch, rg_diag *why);
 void rg_gl_destroy(rg_gl *gl);
 
 #endif
