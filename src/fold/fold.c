@@ -20,8 +20,10 @@ static const double SOLVE_TOLERANCE = 1e-8;
 static const int32_t CORRECTIONS = 8;
 /* A correction this much longer than the step it corrects has left the branch. */
 static const double FARTHEST_CORRECTION = 0.5;
-/* How strongly a limit pulls, per step. */
+/* How strongly a limit pulls, per step; and how often again, where more than this is left. */
 static const double LIMIT_GAIN = 0.5;
+static const int32_t MOST_PULLS = 12;
+static const double LITTLE_PULL = 1e-3;
 /* Within this of its target every crease counts as arrived: the exit status's 1 %. */
 static const double ARRIVED = 0.01;
 
@@ -190,11 +192,11 @@ static void stop(rg_fold *f, const char *why)
 }
 
 /* Creases beyond their limits are pulled back, along what the constraint allows; f->trial is then corrected. */
-static int pull_back(rg_fold *f)
+static int pull_back(rg_fold *f, double least, double gain)
 {
     rg_cg_report rep;
-    if (rg_limit_pull(&f->limit, f->trial, f->pull) <= 0) return 0;
-    for (int32_t i = 0; i < f->mesh.N; i++) f->pull[i] *= LIMIT_GAIN;
+    if (!(rg_limit_pull(&f->limit, f->trial, f->pull) > least)) return 0;
+    for (int32_t i = 0; i < f->mesh.N; i++) f->pull[i] *= gain;
     if (rg_project_step(&f->P, &f->K, f->pull, 0, NULL, f->pull, SOLVE_TOLERANCE, &rep) != RG_OK) return 0;
     for (int32_t i = 0; i < f->mesh.N; i++) f->trial[i] += f->pull[i];
     return 1;
@@ -228,8 +230,10 @@ static int try_step(rg_fold *f, double ds)
                                                        : 0;
     if (higher && !(rg_limit_pull(&f->limit, f->trial, f->pull) > 0)) return 1;
     for (int32_t i = 0; i < f->mesh.N; i++) f->trial[i] = f->rho[i] + ds * f->t[i];
-    pull_back(f);
-    return rg_newton_correct(f, f->s + ds, CORRECTIONS);
+    pull_back(f, 0, LIMIT_GAIN);
+    int closed = rg_newton_correct(f, f->s + ds, CORRECTIONS);
+    for (int32_t n = 0; n < MOST_PULLS && closed && pull_back(f, LITTLE_PULL, 1); n++) closed = rg_newton_correct(f, f->s + ds, CORRECTIONS);
+    return closed;
 }
 
 static void step_newton(rg_fold *f)
