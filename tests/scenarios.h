@@ -30,7 +30,7 @@ typedef struct cell {
     double off;                              /* from where it should be, rad; NAN: not looked at */
     double seconds;
     double slenderness;                      /* the sheet's size over its shortest edge */
-    char note[160];
+    char note[400];
 } cell;
 
 typedef struct scenario {
@@ -160,7 +160,7 @@ static inline void of_motion(cell *c, const rg_motion *m)
     if (r->outcome == RG_FOLDED && r->max_adjustment > 0)
         snprintf(c->note, sizeof c->note, "%.90s: by %.1e of the sheet", r->strategy, r->max_adjustment);
     else
-        snprintf(c->note, sizeof c->note, "%.140s", r->outcome == RG_FOLDED ? r->strategy : r->reason);
+        snprintf(c->note, sizeof c->note, "%.380s", r->outcome == RG_FOLDED ? r->strategy : r->reason);
 }
 
 static inline void fold_with(rg_pattern *p, const rg_settings *s, cell *c)
