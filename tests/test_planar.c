@@ -566,6 +566,54 @@ static void doubles_by_rank(void **state)
     }
 }
 
+/* Lines nested in one line, slanting, the longest drawn last: as many pieces as there are ends to cut at, each of the line of
+ * highest rank over it. Cut at all ends one by one, these would be 800 million pieces. */
+static void lines_nested_in_one(void **state)
+{
+    (void)state;
+    enum { N = 20000 };
+    const double dx = 0.6, dy = 0.8;
+    rg_lines l = drawing();
+    rg_graph g;
+    rg_diag why = {0, ""};
+    for (int i = 0; i < N; i++) {
+        const double from = 1000.0 - i * 0.05, to = 1001.0 + i * 0.05, a = i % 2 ? from : to, b = i % 2 ? to : from;
+        draw(&l, i == N / 2 ? RG_BORDER : i == N / 4 ? RG_VALLEY : RG_UNASSIGNED, a * dx, a * dy, b * dx, b * dy);
+    }
+    assert_int_equal(rg_planar_from_all_lines(&l, 1e-9, &g, &why), RG_OK);
+    assert_int_equal(g.nv, 2 * N);
+    assert_int_equal(g.ne, 2 * N - 1);
+    int32_t border = 0, valley = 0;
+    double length = 0;
+    for (int32_t e = 0; e < g.ne; e++) {
+        const double one = rg_vec2_length(rg_vec2_sub(g.X[g.E[e].v[1]], g.X[g.E[e].v[0]]));
+        assert_true(one < 1.1);
+        border += g.E[e].assignment == RG_BORDER;
+        valley += g.E[e].assignment == RG_VALLEY;
+        length += one;
+    }
+    near(length, 1 + 0.1 * (N - 1), 1e-6);
+    assert_int_equal(border, 2 * (N / 2) + 1);
+    assert_int_equal(valley, 0); /* below the border */
+    rg_graph_free(&g);
+    rg_lines_free(&l);
+}
+
+/* A drawing made to cost hours, of lines that almost lie on each other, is refused. */
+static void too_many_in_one_place(void **state)
+{
+    (void)state;
+    rg_lines l = drawing();
+    rg_graph g;
+    rg_diag why = {0, ""};
+    unsigned seed = 3;
+    for (int i = 0; i < 25000; i++) draw(&l, RG_UNASSIGNED, -1, 1e-3 * noise(&seed), 1, 1e-3 * noise(&seed));
+    assert_int_equal(rg_planar_from_all_lines(&l, 1e-12, &g, &why), RG_EFORMAT);
+    assert_true(strstr(why.text, "too many") != NULL);
+    rg_graph_free(&g);
+    rg_lines_free(&l);
+}
+
 static void what_is_left_out_is_said(void **state)
 {
     (void)state;
@@ -664,6 +712,8 @@ int main(void)
         cmocka_unit_test(shaky_drawings_become_plane),
         cmocka_unit_test(counts_do_not_depend_on_place_turn_and_size),
         cmocka_unit_test(doubles_by_rank),
+        cmocka_unit_test(lines_nested_in_one),
+        cmocka_unit_test(too_many_in_one_place),
         cmocka_unit_test(what_is_left_out_is_said),
         cmocka_unit_test(faults_do_not_flood),
         cmocka_unit_test(no_lines_and_hopeless_ones),

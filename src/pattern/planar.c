@@ -1,5 +1,6 @@
 #include "pattern/planar.h"
 #include "base/status.h"
+#include "pattern/overlap.h"
 #include "pattern/points.h"
 
 #include <stdlib.h>
@@ -9,6 +10,9 @@
 enum { MOST_ROUNDS = 40 };
 /* Warnings of one kind before the rest is counted only. */
 enum { MOST_WARNINGS = 20 };
+/* Cuts, and pairs of edges in one cell, of one round: more than any drawing has that is not made to cost hours. */
+enum { MOST_CUTS = 1 << 24 };
+static const int64_t MOST_PAIRS = (int64_t)1 << 34;
 /* Cells of the search grid, side by side: memory, and what one long line crosses, stay small. */
 static const double MOST_SIDE = 1024;
 
@@ -22,6 +26,7 @@ typedef struct splitter {
     size_t room;
     cut *cuts;
     size_t cut_count, cut_room;
+    int too_many; /* cuts or pairs: RG_EFORMAT */
     /* search grid: edges of cell c are in[start[c]] ... in[start[c + 1] - 1] */
     rg_vec2 origin;
     double cell;
@@ -94,6 +99,7 @@ static rg_status build_grid(splitter *s, rg_vec2 low, rg_vec2 high)
 static rg_status add_cut(splitter *s, int32_t e, int32_t v)
 {
     if (s->E[e].v[0] == v || s->E[e].v[1] == v) return RG_OK;
+    if (s->cut_count == MOST_CUTS) return s->too_many = 1, RG_EFORMAT;
     rg_status status = rg_mem_grow(&s->mem, (void **)&s->cuts, &s->cut_room, s->cut_count + 1, sizeof *s->cuts);
     if (status != RG_OK) return status;
     rg_vec2 a = s->points.X[s->E[e].v[0]], d = rg_vec2_sub(s->points.X[s->E[e].v[1]], a);
@@ -106,7 +112,6 @@ static rg_status add_cut(splitter *s, int32_t e, int32_t v)
 static rg_status cross(splitter *s, int32_t e, int32_t f, int32_t c)
 {
     const int32_t *p = s->E[e].v, *q = s->E[f].v;
-    if (p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1]) return RG_OK;
     const rg_vec2 *X = s->points.X, a = X[p[0]], b = X[p[1]], u = X[q[0]], v = X[q[1]];
     const double au = rg_vec2_turn(u, v, a), bu = rg_vec2_turn(u, v, b), ua = rg_vec2_turn(a, b, u), va = rg_vec2_turn(a, b, v);
     if (!((au < 0) != (bu < 0) && (ua < 0) != (va < 0))) return RG_OK;
@@ -121,20 +126,32 @@ static rg_status cross(splitter *s, int32_t e, int32_t f, int32_t c)
     return status;
 }
 
-static int apart(const splitter *s, int32_t e, int32_t f)
+static int beside(double a, double b, double u, double v)
 {
-    const rg_vec2 *X = s->points.X, a = X[s->E[e].v[0]], b = X[s->E[e].v[1]], u = X[s->E[f].v[0]], v = X[s->E[f].v[1]];
-    return fmax(a.x, b.x) < fmin(u.x, v.x) || fmax(u.x, v.x) < fmin(a.x, b.x) || fmax(a.y, b.y) < fmin(u.y, v.y) ||
-           fmax(u.y, v.y) < fmin(a.y, b.y);
+    return (a < b ? b : a) < (u < v ? u : v) || (u < v ? v : u) < (a < b ? a : b);
+}
+
+/* Two edges that are not worth a closer look: they share a vertex, or their boxes are apart. */
+static int apart(const splitter *s, const int32_t *p, const int32_t *q)
+{
+    if (p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1]) return 1;
+    const rg_vec2 a = s->points.X[p[0]], b = s->points.X[p[1]], u = s->points.X[q[0]], v = s->points.X[q[1]];
+    return beside(a.x, b.x, u.x, v.x) || beside(a.y, b.y, u.y, v.y);
 }
 
 static rg_status find_crossings(splitter *s)
 {
     const int32_t cells = s->side[0] * s->side[1];
+    int64_t pairs = 0;
+    for (int32_t c = 0; c < cells; c++) {
+        const int64_t n = s->start[c + 1] - s->start[c];
+        pairs += n * (n - 1) / 2;
+    }
+    if (pairs > MOST_PAIRS) return s->too_many = 1, RG_EFORMAT;
     for (int32_t c = 0; c < cells; c++)
         for (int32_t i = s->start[c]; i < s->start[c + 1]; i++)
             for (int32_t j = i + 1; j < s->start[c + 1]; j++) {
-                if (apart(s, s->in[i], s->in[j])) continue;
+                if (apart(s, s->E[s->in[i]].v, s->E[s->in[j]].v)) continue;
                 rg_status status = cross(s, s->in[i], s->in[j], c);
                 if (status != RG_OK) return status;
             }
@@ -212,11 +229,6 @@ static rg_status apply_cuts(splitter *s)
 
 /* ------------------------------------------------------------------------------------------------ doubles */
 
-static int rank(char assignment)
-{
-    return assignment == RG_BORDER ? 0 : assignment == RG_MOUNTAIN || assignment == RG_VALLEY ? 1 : 2;
-}
-
 typedef struct keyed { int32_t low, high, e; int rank; } keyed;
 
 static int by_ends(const void *a, const void *b)
@@ -228,8 +240,7 @@ static int by_ends(const void *a, const void *b)
     return p->e < q->e ? -1 : p->e > q->e;
 }
 
-/* Of edges with the same ends the first of the highest rank stays: border, then mountain and valley, then the rest.
- * clash: out, by the edge that stays, whether mountain met valley there. */
+/* Of edges with the same ends the first of the highest rank stays: border, then mountain and valley, then the rest. */
 static rg_status merge_doubles(splitter *s, rg_lines *lines)
 {
     keyed *key = rg_mem_array(&s->mem, (size_t)s->ne, sizeof *key);
@@ -237,7 +248,7 @@ static rg_status merge_doubles(splitter *s, rg_lines *lines)
     rg_status status = key && drop ? RG_OK : RG_ENOMEM;
     for (int32_t e = 0; status == RG_OK && e < s->ne; e++) {
         const int32_t *v = s->E[e].v, low = v[0] < v[1] ? v[0] : v[1];
-        key[e] = (keyed){low, v[0] + v[1] - low, e, rank(s->E[e].assignment)};
+        key[e] = (keyed){low, v[0] + v[1] - low, e, rg_overlap_rank(s->E[e].assignment)};
     }
     if (status == RG_OK) qsort(key, (size_t)s->ne, sizeof *key, by_ends);
     int told = 0;
@@ -246,15 +257,10 @@ static rg_status merge_doubles(splitter *s, rg_lines *lines)
             first = i;
             continue;
         }
-        const rg_edge *keep = &s->E[key[first].e], *other = &s->E[key[i].e];
         drop[key[i].e] = 1;
-        if (rank(keep->assignment) != 1 || rank(other->assignment) != 1 || keep->assignment == other->assignment) continue;
-        if (told++ >= MOST_WARNINGS) continue;
-        rg_vec2 at = s->points.X[keep->v[0]];
-        status = rg_lines_warn(lines, other->where, "mountain and valley drawn on one line from (%.6g, %.6g): the first one stays", at.x, at.y);
+        status = rg_overlap_warn(lines, s->points.X, &s->E[key[first].e], &s->E[key[i].e], &told);
     }
-    if (status == RG_OK && told > MOST_WARNINGS)
-        status = rg_lines_warn(lines, 0, "%d more lines are drawn as mountain and as valley", told - MOST_WARNINGS);
+    if (status == RG_OK) status = rg_overlap_warn_more(lines, told);
     if (status == RG_OK) {
         int32_t n = 0;
         for (int32_t e = 0; e < s->ne; e++)
@@ -396,7 +402,8 @@ static rg_status add_lines(splitter *s, rg_lines *lines, const rg_settings *sett
 
 static rg_status planarise(splitter *s, rg_lines *lines, rg_vec2 low, rg_vec2 high, rg_diag *why)
 {
-    rg_status status = merge_doubles(s, lines);
+    rg_status status = rg_overlap_resolve(lines, s->points.X, s->points.tol, fmax(high.x - low.x, high.y - low.y), &s->E, &s->ne, &s->room);
+    if (status == RG_OK) status = merge_doubles(s, lines);
     for (int round = 0; status == RG_OK && s->ne > 0; round++) {
         if (round == MOST_ROUNDS)
             return rg_fail(RG_EFORMAT, why, 0, "lines lie too close together to tell crossings apart: try another --merge");
@@ -408,6 +415,7 @@ static rg_status planarise(splitter *s, rg_lines *lines, rg_vec2 low, rg_vec2 hi
         status = apply_cuts(s);
         if (status == RG_OK) status = merge_doubles(s, lines);
     }
+    if (s->too_many) return rg_fail(RG_EFORMAT, why, 0, "too many lines lie over each other or in one place");
     return status;
 }
 
