@@ -32,8 +32,8 @@ rg_status rg_stack_init(rg_stack *s, const rg_memory *mem, const rg_mesh *m, con
 void rg_stack_free(rg_stack *s)
 {
     if (!s->mem.resize) return;
-    void *block[] = {s->sample, s->pair, s->below, s->start, s->upper, s->queue, s->height, s->count};
-    for (int i = 0; i < 8; i++) rg_mem_free(&s->mem, block[i]);
+    void *block[] = {s->sample, s->sorted, s->place, s->pair, s->below, s->start, s->upper, s->queue, s->height, s->count};
+    for (int i = 0; i < 10; i++) rg_mem_free(&s->mem, block[i]);
     memset(s, 0, sizeof *s);
 }
 
@@ -45,16 +45,17 @@ static axes axes_of(rg_vec3 base, rg_vec3 up)
     return (axes){base, u, rg_vec3_cross(up, u), up};
 }
 
-/* Columns first ... last are the grid points of a row that are inside of triangle p, p counter-clockwise. */
-static void span(const rg_vec2 p[3], double v, double spacing, double *first, double *last)
+typedef struct side { rg_vec2 from, d; double inset; } side; /* of a triangle that is counter-clockwise */
+
+/* Columns first ... last are the grid points of a row that are inside of all three. */
+static void span(const side e[3], double v, double spacing, double *first, double *last)
 {
     *first = -INFINITY, *last = INFINITY;
     for (int i = 0; i < 3; i++) {
-        const rg_vec2 a = p[i], d = rg_vec2_sub(p[(i + 1) % 3], a);
-        /* inside: d.x (v - a.y) - d.y (u - a.x) >= inset |d| */
-        const double rest = d.x * (v - a.y) - INSET * spacing * rg_vec2_length(d);
-        if (d.y > 0) *last = fmin(*last, a.x + rest / d.y);
-        else if (d.y < 0) *first = fmax(*first, a.x + rest / d.y);
+        /* inside: d.x (v - from.y) - d.y (u - from.x) >= inset */
+        const double rest = e[i].d.x * (v - e[i].from.y) - e[i].inset;
+        if (e[i].d.y > 0) *last = fmin(*last, e[i].from.x + rest / e[i].d.y);
+        else if (e[i].d.y < 0) *first = fmax(*first, e[i].from.x + rest / e[i].d.y);
         else if (!(rest >= 0)) *last = -INFINITY;
     }
     *first = ceil(*first / spacing), *last = floor(*last / spacing);
@@ -63,9 +64,14 @@ static void span(const rg_vec2 p[3], double v, double spacing, double *first, do
 static rg_status add_triangle(rg_stack *s, int32_t f, const rg_vec2 p[3])
 {
     const double low = fmin(p[0].y, fmin(p[1].y, p[2].y)), high = fmax(p[0].y, fmax(p[1].y, p[2].y));
+    side e[3];
+    for (int i = 0; i < 3; i++) {
+        const rg_vec2 d = rg_vec2_sub(p[(i + 1) % 3], p[i]);
+        e[i] = (side){p[i], d, INSET * s->spacing * rg_vec2_length(d)};
+    }
     for (double row = ceil(low / s->spacing); row <= floor(high / s->spacing); row++) {
         double first, last;
-        span(p, row * s->spacing, s->spacing, &first, &last);
+        span(e, row * s->spacing, s->spacing, &first, &last);
         if (!(last >= first)) continue;
         const size_t need = (size_t)s->samples + (size_t)(last - first) + 1;
         if (need > INT32_MAX) return RG_ENOMEM;
@@ -96,12 +102,37 @@ static rg_status add_facet(rg_stack *s, int32_t f, const axes *A, const rg_vec3 
     return ok;
 }
 
-static int by_point(const void *a, const void *b)
+/* By column or by row, those of the same one in the order that they were in. */
+static rg_status sort_along(rg_stack *s, int rows)
 {
-    const rg_stack_sample *p = a, *q = b;
-    if (p->row != q->row) return p->row < q->row ? -1 : 1;
-    if (p->column != q->column) return p->column < q->column ? -1 : 1;
-    return p->facet < q->facet ? -1 : p->facet > q->facet;
+    int32_t low = INT32_MAX, high = INT32_MIN;
+    for (int32_t i = 0; i < s->samples; i++) {
+        const int32_t at = rows ? s->sample[i].row : s->sample[i].column;
+        if (at < low) low = at;
+        if (at > high) high = at;
+    }
+    const size_t lines = (size_t)((int64_t)high - low) + 1;
+    rg_status ok = rg_mem_grow(&s->mem, (void **)&s->place, &s->place_room, lines + 1, sizeof *s->place);
+    if (ok == RG_OK) ok = rg_mem_grow(&s->mem, (void **)&s->sorted, &s->sorted_room, s->sample_room, sizeof *s->sorted);
+    if (ok != RG_OK) return ok;
+    memset(s->place, 0, (lines + 1) * sizeof *s->place);
+    for (int32_t i = 0; i < s->samples; i++) s->place[(rows ? s->sample[i].row : s->sample[i].column) - low + 1]++;
+    for (size_t k = 0; k < lines; k++) s->place[k + 1] += s->place[k];
+    for (int32_t i = 0; i < s->samples; i++)
+        s->sorted[s->place[(rows ? s->sample[i].row : s->sample[i].column) - low]++] = s->sample[i];
+    rg_stack_sample *swap = s->sample;
+    const size_t room = s->sample_room;
+    s->sample = s->sorted, s->sample_room = s->sorted_room;
+    s->sorted = swap, s->sorted_room = room;
+    return RG_OK;
+}
+
+/* By point, and there by facet, as they were made. */
+static rg_status sort_by_point(rg_stack *s)
+{
+    if (s->samples == 0) return RG_OK;
+    const rg_status ok = sort_along(s, 0);
+    return ok == RG_OK ? sort_along(s, 1) : ok;
 }
 
 static int by_height(const void *a, const void *b)
@@ -111,10 +142,10 @@ static int by_height(const void *a, const void *b)
     return p->facet < q->facet ? -1 : p->facet > q->facet;
 }
 
-/* One pile: the same point of the plane on every facet over it, followed back to where these were apart, and compared
- * along the direction that was up for them in the mean. */
-static rg_status sort_pile(rg_stack *s, rg_stack_sample *pile, int32_t n, const axes *A, const rg_vec3 *x,
-                           const rg_place *back)
+/* A pile is all samples of a point. How high they lay: that point of every facet over it, followed back to where these
+ * were apart, and compared along the direction that was up for them in the mean. */
+static void measure_pile(rg_stack *s, rg_stack_sample *pile, int32_t n, const axes *A, const rg_vec3 *x,
+                         const rg_place *back)
 {
     const rg_mesh *m = s->mesh;
     rg_vec3 up = {0, 0, 0};
@@ -131,24 +162,56 @@ static rg_status sort_pile(rg_stack *s, rg_stack_sample *pile, int32_t n, const 
         s->height[f] += rg_vec3_dot(A->up, was);
         s->count[f]++;
     }
-    qsort(pile, (size_t)n, sizeof *pile, by_height);
+}
+
+/* Sorts a pile, lowest first, and notes who lies right above whom. */
+static rg_status pair_up(rg_stack *s, rg_stack_sample *pile, int32_t n)
+{
     const size_t need = (size_t)s->pairs + (size_t)n;
     const rg_status ok = rg_mem_grow(&s->mem, (void **)&s->pair, &s->pair_room, need, sizeof *s->pair);
-    for (int32_t i = 0; ok == RG_OK && i + 1 < n; i++) {
+    if (ok != RG_OK) return ok;
+    qsort(pile, (size_t)n, sizeof *pile, by_height);
+    for (int32_t i = 0; i + 1 < n; i++) {
         const int32_t a = pile[i].facet, b = pile[i + 1].facet;
         if (a != b) s->pair[s->pairs++] = a < b ? (rg_stack_pair){a, b, 1} : (rg_stack_pair){b, a, -1};
     }
+    return RG_OK;
+}
+
+static int32_t pile_end(const rg_stack *s, int32_t i)
+{
+    int32_t j = i + 1;
+    while (j < s->samples && s->sample[j].row == s->sample[i].row && s->sample[j].column == s->sample[i].column) j++;
+    return j;
+}
+
+static rg_status compare(rg_stack *s, const int32_t *facet, int32_t n, const axes *A, const rg_vec3 *x,
+                         const rg_place *back)
+{
+    rg_status ok = RG_OK;
+    s->pairs = 0;
+    for (int32_t i = 0; i < n; i++) s->height[facet[i]] = 0, s->count[facet[i]] = 0;
+    for (int32_t i = 0, j; ok == RG_OK && i < s->samples; i = j) {
+        j = pile_end(s, i);
+        if (j - i < 2) continue;
+        measure_pile(s, s->sample + i, j - i, A, x, back);
+        ok = pair_up(s, s->sample + i, j - i);
+    }
+    for (int32_t i = 0; i < n; i++)
+        if (s->count[facet[i]] > 0) s->height[facet[i]] /= s->count[facet[i]];
     return ok;
 }
 
-static rg_status compare(rg_stack *s, const axes *A, const rg_vec3 *x, const rg_place *back)
+/* The same with heights that are the facets' own: in what order they had their turns. */
+static rg_status compare_turns(rg_stack *s, int32_t n)
 {
     rg_status ok = RG_OK;
-    if (s->samples > 0) qsort(s->sample, (size_t)s->samples, sizeof *s->sample, by_point);
+    s->pairs = 0;
+    for (int32_t i = 0; i < n; i++) s->height[s->queue[i]] = i;
     for (int32_t i = 0, j; ok == RG_OK && i < s->samples; i = j) {
-        for (j = i + 1; j < s->samples && s->sample[j].row == s->sample[i].row
-                        && s->sample[j].column == s->sample[i].column; j++) continue;
-        if (j - i > 1) ok = sort_pile(s, s->sample + i, j - i, A, x, back);
+        j = pile_end(s, i);
+        for (int32_t k = i; k < j; k++) s->sample[k].height = s->height[s->sample[k].facet];
+        if (j - i > 1) ok = pair_up(s, s->sample + i, j - i);
     }
     return ok;
 }
@@ -160,17 +223,21 @@ static int by_ends(const void *a, const void *b)
     return p->b < q->b ? -1 : p->b > q->b;
 }
 
-/* Each two facets once, on top the one that most points say is on top. */
-static void settle_pairs(rg_stack *s)
+/* Each two facets once, on top the one that most points say is on top. Returns whether all points agree. */
+static int settle_pairs(rg_stack *s)
 {
-    int32_t kept = 0;
+    int32_t kept = 0, agree = 1;
     if (s->pairs > 0) qsort(s->pair, (size_t)s->pairs, sizeof *s->pair, by_ends);
     for (int32_t i = 0, j; i < s->pairs; i = j) {
         rg_stack_pair p = s->pair[i];
-        for (j = i + 1; j < s->pairs && by_ends(&s->pair[i], &s->pair[j]) == 0; j++) p.above += s->pair[j].above;
+        for (j = i + 1; j < s->pairs && by_ends(&s->pair[i], &s->pair[j]) == 0; j++) {
+            agree &= s->pair[j].above == s->pair[i].above;
+            p.above += s->pair[j].above;
+        }
         s->pair[kept++] = p;
     }
     s->pairs = kept;
+    return agree;
 }
 
 static rg_status link_pairs(rg_stack *s, const int32_t *facet, int32_t n)
@@ -199,10 +266,11 @@ static int32_t lowest(const rg_stack *s, const int32_t *facet, int32_t n)
     return best;
 }
 
-/* Level by level from the bottom: a facet's turn comes when all right under it have had theirs. */
-static void climb(rg_stack *s, const int32_t *facet, int32_t n, int32_t *level, int32_t *levels)
+/* Level by level from the bottom: a facet's turn comes when all right under it have had theirs. Returns how many circles
+ * were cut. */
+static int32_t climb(rg_stack *s, const int32_t *facet, int32_t n, int32_t *level, int32_t *levels)
 {
-    int32_t head = 0, tail = 0, top = 0;
+    int32_t head = 0, tail = 0, top = 0, cuts = 0;
     for (int32_t i = 0; i < n; i++) {
         level[facet[i]] = 0;
         if (s->below[facet[i]] == 0) s->queue[tail++] = facet[i];
@@ -212,6 +280,7 @@ static void climb(rg_stack *s, const int32_t *facet, int32_t n, int32_t *level, 
             const int32_t f = lowest(s, facet, n);
             s->below[f] = 0;
             s->queue[tail++] = f;
+            cuts++;
         }
         const int32_t f = s->queue[head];
         if (level[f] > top) top = level[f];
@@ -223,6 +292,7 @@ static void climb(rg_stack *s, const int32_t *facet, int32_t n, int32_t *level, 
         }
     }
     *levels = top + 1;
+    return cuts;
 }
 
 rg_status rg_stack_order(rg_stack *s, const int32_t *facet, int32_t n, rg_vec3 base, rg_vec3 up, const rg_vec3 *x,
@@ -230,15 +300,20 @@ rg_status rg_stack_order(rg_stack *s, const int32_t *facet, int32_t n, rg_vec3 b
 {
     const axes A = axes_of(base, up);
     rg_status ok = RG_OK;
-    s->samples = s->pairs = 0;
-    for (int32_t i = 0; i < n; i++) s->height[facet[i]] = 0, s->count[facet[i]] = 0;
+    s->samples = 0;
     for (int32_t i = 0; ok == RG_OK && i < n; i++) ok = add_facet(s, facet[i], &A, x);
-    if (ok == RG_OK) ok = compare(s, &A, x, back);
-    if (ok == RG_OK) settle_pairs(s);
-    if (ok == RG_OK) ok = link_pairs(s, facet, n);
+    if (ok == RG_OK) ok = sort_by_point(s);
+    if (ok == RG_OK) ok = compare(s, facet, n, &A, x, back);
     if (ok != RG_OK) return ok;
-    for (int32_t i = 0; i < n; i++)
-        if (s->count[facet[i]] > 0) s->height[facet[i]] /= s->count[facet[i]];
-    climb(s, facet, n, level, levels);
-    return RG_OK;
+    const int agree = settle_pairs(s);
+    ok = link_pairs(s, facet, n);
+    if (ok != RG_OK || (climb(s, facet, n, level, levels) == 0 && agree)) return ok;
+    /* Somewhere the order is not the one found there: two facets may have come to one level. All turns are taken for
+     * the order, and no two facets of a pile are then alike. */
+    ok = compare_turns(s, n);
+    if (ok != RG_OK) return ok;
+    settle_pairs(s);
+    ok = link_pairs(s, facet, n);
+    if (ok == RG_OK) climb(s, facet, n, level, levels);
+    return ok;
 }

@@ -14,10 +14,11 @@ typedef struct rg_stack {
     const rg_mesh *mesh;
     const rg_triangles *triangles;
     double spacing;           /* of the grid on which facets are compared */
-    rg_stack_sample *sample;  /* facets over each grid point */
+    rg_stack_sample *sample, *sorted; /* facets over each grid point; to sort them */
+    int32_t *place;           /* of the next sample of each row or column */
     rg_stack_pair *pair;      /* neighbours in a pile */
     int32_t samples, pairs;
-    size_t sample_room, pair_room;
+    size_t sample_room, sorted_room, place_room, pair_room;
     int32_t *below;           /* [nf] facets right under each that have no level yet */
     int32_t *start, *upper;   /* [nf + 1], [upper_room] those right above each */
     size_t upper_room;
@@ -34,7 +35,8 @@ rg_status rg_stack_init(rg_stack *s, const rg_memory *mem, const rg_mesh *m, con
  *   level[nf]  out, for these facets only: 0 the lowest; every facet is above all that it lies upon
  *   levels     out, how many levels there are; 1: no facet lies on another
  * Facets are compared on a grid of about 40 000 + 16 nf points for all of the sheet: overlaps that no point falls on are
- * not seen. Where the order runs in a circle (as the flaps of a closed box do), it is cut at the facet that lay lowest.
+ * not seen. Where the order runs in a circle (as the flaps of a closed box do), it is cut at the facet that lay lowest;
+ * also then no two facets that lie on each other have the same level.
  * RG_ENOMEM. */
 rg_status rg_stack_order(rg_stack *s, const int32_t *facet, int32_t n, rg_vec3 base, rg_vec3 up, const rg_vec3 *x,
                          const rg_place *back, int32_t *level, int32_t *levels);
