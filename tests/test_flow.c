@@ -11,6 +11,7 @@
 
 #include "near.h"
 
+#include "corpus.h"
 #include "counted.h"
 #include "folded.h"
 #include "fold/flow.h"
@@ -102,7 +103,7 @@ static void is_proper(run *r, const double *rho, const double *u)
     rg_freedom_move(&r->F.freedom, u, r->X);
     below(unclosed(&r->m, r->X, rho), 4 * r->s.tol);
     for (int32_t f = 0; f < r->m.nf; f++) assert_true(facet_area(&r->m, f, r->X) > 0.05 * facet_area(&r->m, f, r->m.X));
-    for (int32_t i = 0; i < r->m.N - r->m.added; i++) r->beyond = fmax(r->beyond, fabs(rho[i]) - RG_PI);
+    for (int32_t i = 0; i < r->m.N; i++) r->beyond = fmax(r->beyond, fabs(rho[i]) - RG_PI);
 }
 
 /* Mean of rho over target. */
@@ -338,6 +339,59 @@ static void states_between(void **state)
     end(&r);
 }
 
+/* The most that a crease is beyond half a turn between the states of a flow that begins at the folded end; takes p. */
+static double beyond_from_the_end(rg_pattern *p)
+{
+    run r;
+    rg_flow back;
+    int found = 0;
+    begin(&r, p, 1, &GIVING, NULL);
+    double *folded = calloc((size_t)r.m.N, sizeof *folded), *flat = calloc((size_t)r.m.N, sizeof *flat);
+    assert_true(folded && flat);
+    for (int32_t i = 0; i < r.m.N; i++) {
+        folded[i] = isnan(r.target[i]) ? 0 : r.target[i];
+        flat[i] = isnan(r.target[i]) ? NAN : 0;
+    }
+    assert_int_equal(rg_flow_init(&back, &r.m, &r.s, &GIVING, folded, flat), RG_OK);
+    for (int n = 0; back.outcome == RG_RUNNING && n < 200; n++) {
+        rg_flow_step(&back);
+        for (int part = 1; back.proper && part < 8 && back.s < 0.3; part++) {
+            if (!rg_flow_at(&back, back.old_s + part * (back.s - back.old_s) / 8)) continue;
+            is_proper(&r, back.trial, back.trial_u);
+            found++;
+        }
+    }
+    assert_true(found > 20);
+    rg_flow_free(&back);
+    free(folded);
+    free(flat);
+    const double beyond = r.beyond;
+    end(&r);
+    return beyond;
+}
+
+static void no_crease_goes_past_half_a_turn(void **state)
+{
+    (void)state;
+    below(beyond_from_the_end(generated("frog", 0)), 0.06 * RG_DEG);
+    below(beyond_from_the_end(generated("four-crane", 0)), 0.06 * RG_DEG);
+}
+
+/* These did by up to 0.6 degrees: closing the chord from the folded end, where every crease is at its limit, to the first
+ * state took some past it. */
+static void nor_does_one_of_a_crane(void **state)
+{
+    (void)state;
+    static const char *const cranes[] = {"opx/by-nc-sa/crane_final_mitani.opx", "foldability/226-brown-4x4-c85.fold"};
+    for (int k = 0; k < 2; k++) {
+        char path[4096];
+        rg_pattern *p;
+        rg_settings s = rg_settings_default();
+        assert_int_equal(rg_pattern_read(corpus(cranes[k], path, sizeof path), &s, &p, NULL), RG_OK);
+        below(beyond_from_the_end(p), 0.06 * RG_DEG);
+    }
+}
+
 static void as_far_as_asked_for(void **state)
 {
     (void)state;
@@ -430,6 +484,7 @@ int main(void)
         cmocka_unit_test(a_miura_has_one_way_to_fold), cmocka_unit_test(a_sheet_folded_in_four),
         cmocka_unit_test(rings_of_closed_vertices_are_locked), cmocka_unit_test(splitting_frees_the_one_and_adjusting_the_other),
         cmocka_unit_test(four_mountains_never_fold), cmocka_unit_test(kept_flat_foldable), cmocka_unit_test(states_between),
+        cmocka_unit_test(no_crease_goes_past_half_a_turn), cmocka_unit_test(nor_does_one_of_a_crane),
         cmocka_unit_test(as_far_as_asked_for), cmocka_unit_test(unfolding), cmocka_unit_test(the_same_bits_twice),
         cmocka_unit_test(memory),
     };

@@ -31,8 +31,11 @@ static const double BETTER_MEAN = 0.002, BETTER_LEAST = 0.01;
 static const double JUDGED_AT = 0.2, LOUDER = 1.6;
 /* Arrived: every crease within this part of its way, the pattern within that part of its reach. */
 static const double ARRIVED = 0.007, RETURNED = 0.05;
-/* Exactness of the progress of a state that is asked for. */
+/* Exactness of the progress of a state that is asked for, and how often it is looked for. */
 static const double SAME_PROGRESS = 1e-5;
+static const int32_t SECANTS = 5;
+/* Part of the tolerance that it is closed to. */
+static const double CLOSE_ENOUGH = 0.01;
 
 /* Ways of the pattern that count as none; and how far from where it should be a crease may end for the pattern to close. */
 static const double FIXED = 1e-12, END_OFF = 1 * RG_DEG;
@@ -40,7 +43,7 @@ static const double FIXED = 1e-12, END_OFF = 1 * RG_DEG;
 static double way(const rg_flow *F, int32_t i) { return F->target[i] - F->from[i]; }
 static int is_driven(const rg_flow *F, int32_t i) { return way(F, i) != 0 && !isnan(F->target[i]); }
 
-static int correct(rg_flow *F, double *rho, double *u, double tol);
+static int correct(rg_flow *F, double *rho, double *u);
 static void stop(rg_flow *F, const char *why);
 
 /* rho, which should close on the pattern given, closed on it: a drawing's rounding is made up for by the creases, a
@@ -52,7 +55,7 @@ static int close_on_pattern(rg_flow *F, double *rho)
     if (rg_joint_assemble(&F->J, rho, F->trial_u, NULL) <= F->tol) return 1;
     for (int32_t i = 0; i < F->N; i++) F->scale[i] = 1;
     for (int32_t i = 0; i < F->U; i++) F->scale[F->N + i] *= FIXED;
-    int closed = correct(F, F->trial, F->trial_u, F->tol);
+    int closed = correct(F, F->trial, F->trial_u);
     for (int32_t i = 0; i < F->U; i++) F->scale[F->N + i] /= FIXED;
     memset(F->trial_u, 0, (size_t)F->U * sizeof *F->trial_u);
     closed = closed && rg_joint_assemble(&F->J, F->trial, F->trial_u, NULL) <= F->tol;
@@ -143,8 +146,17 @@ static void renew(rg_flow *F)
     rg_joint_renew(&F->J, F->scale);
 }
 
-/* Works off r and r' at rho, u: eqs. (14), (19) with no wish. Non-zero: closed. */
-static int correct(rg_flow *F, double *rho, double *u, double tol)
+/* Works off r and r' as assembled, to first order: eqs. (14), (19) with no wish. */
+static void correct_once(rg_flow *F, double *rho, double *u)
+{
+    renew(F);
+    rg_step_solve(&F->J.A, F->J.r, F->dz); /* eqs. (14), (15), (19) */
+    for (int32_t i = 0; i < F->N; i++) rho[i] -= F->scale[i] * F->dz[i];
+    for (int32_t i = 0; i < F->U; i++) u[i] -= F->scale[F->N + i] * F->dz[F->N + i];
+}
+
+/* The same until it closes. Zero: it does not. */
+static int correct(rg_flow *F, double *rho, double *u)
 {
     double before = INFINITY;
     int poor = 0;
@@ -152,16 +164,31 @@ static int correct(rg_flow *F, double *rho, double *u, double tol)
         double off;
         F->closure = rg_joint_assemble(&F->J, rho, u, &off);
         F->assemblies++;
-        if (F->closure <= tol && off <= tol) return 1;
+        if (F->closure <= F->tol && off <= F->tol) return 1;
         if (n >= CORRECTIONS || !(F->closure <= 2.5)) return 0;
-        poor = F->closure > 0.7 * before && F->closure > 100 * tol ? poor + 1 : 0;
+        poor = F->closure > 0.7 * before && F->closure > 100 * F->tol ? poor + 1 : 0;
         if (poor >= 3) return 0;
         before = F->closure;
-        renew(F);
-        rg_step_solve(&F->J.A, F->J.r, F->dz); /* eqs. (14), (15), (19) */
-        for (int32_t i = 0; i < F->N; i++) rho[i] -= F->scale[i] * F->dz[i];
-        for (int32_t i = 0; i < F->U; i++) u[i] -= F->scale[F->N + i] * F->dz[F->N + i];
+        correct_once(F, rho, u);
     }
+}
+
+/* Once more, for F->trial, which closes, to close better; taken back where it does not: near singular states more
+ * corrections chase rounding. */
+static void polish(rg_flow *F)
+{
+    const double before = F->closure;
+    double *spare = F->wish, *spare_u = F->wish + F->N;
+    if (before <= CLOSE_ENOUGH * F->tol) return;
+    memcpy(spare, F->trial, (size_t)F->N * sizeof *spare);
+    memcpy(spare_u, F->trial_u, (size_t)F->U * sizeof *spare);
+    correct_once(F, F->trial, F->trial_u);
+    F->closure = rg_joint_assemble(&F->J, F->trial, F->trial_u, NULL);
+    F->assemblies++;
+    if (F->closure < before) return;
+    memcpy(F->trial, spare, (size_t)F->N * sizeof *spare);
+    memcpy(F->trial_u, spare_u, (size_t)F->U * sizeof *spare);
+    F->closure = rg_joint_assemble(&F->J, F->trial, F->trial_u, NULL);
 }
 
 static int is_limited(const rg_flow *F) { return F->s >= FREE_UNTIL; }
@@ -205,7 +232,7 @@ static void hold(rg_flow *F, int32_t i)
 static int32_t hold_what_overfolds(rg_flow *F, const double *dz, double beyond)
 {
     int32_t more = 0;
-    for (int32_t i = 0; i < F->limit.first_added && is_limited(F); i++) {
+    for (int32_t i = 0; i < F->N && is_limited(F); i++) {
         const double then = dz ? F->rho[i] + dz[i] : F->trial[i];
         if (F->held[i] || !(fabs(then) > RG_PI + beyond)) continue;
         hold(F, i);
@@ -232,10 +259,18 @@ static int try_step(rg_flow *F, double f, double longest)
 {
     for (int32_t i = 0; i < F->N; i++) F->trial[i] = F->rho[i] + f * F->z[i];
     for (int32_t i = 0; i < F->U; i++) F->trial_u[i] = F->u[i] + f * F->z[F->N + i];
-    if (!correct(F, F->trial, F->trial_u, F->tol) || !rg_freedom_is_proper(&F->freedom, F->J.X, LEAST_AREA)) return 0;
+    if (!correct(F, F->trial, F->trial_u) || !rg_freedom_is_proper(&F->freedom, F->J.X, LEAST_AREA)) return 0;
     double far = 0;
     for (int32_t i = 0; i < F->N; i++) far = fmax(far, fabs(F->trial[i] - F->rho[i] - f * F->z[i]));
     return far <= FARTHEST_CORRECTION * f * longest + LITTLE;
+}
+
+/* Does F->trial go past half a turn farther than F->rho does? */
+static int goes_beyond(const rg_flow *F)
+{
+    for (int32_t i = 0; i < F->N && is_limited(F); i++)
+        if (!(fabs(F->trial[i]) <= fmax(RG_PI + BEYOND, fabs(F->rho[i])))) return 1;
+    return 0;
 }
 
 static int has_returned(const rg_flow *F)
@@ -321,8 +356,8 @@ static int land(rg_flow *F, double least)
  * as what closes near flat and near folded paper is homogeneous in the distance. */
 static int is_proper(const rg_flow *F)
 {
-    for (int32_t i = 0; i < F->limit.first_added; i++)
-        if (!isnan(F->target[i]) && !(fabs(F->trial[i]) <= RG_PI + BEYOND)) return 0;
+    for (int32_t i = 0; i < F->N; i++)
+        if (!(fabs(F->trial[i]) <= RG_PI + BEYOND)) return 0;
     return is_limited(F);
 }
 
@@ -362,9 +397,10 @@ static int advance(rg_flow *F)
     F->assemblies++;
     make_wish(F);
     for (int32_t round = 0; round < ROUNDS; round++) {
+        const int is_last = round + 1 == ROUNDS;
         if (round) rg_joint_assemble(&F->J, F->rho, F->u, NULL);
         project(F);
-        if (round + 1 < ROUNDS && hold_what_overfolds(F, F->dz, BEYOND / 10)) continue;
+        if (!is_last && hold_what_overfolds(F, F->dz, BEYOND / 10)) continue;
         double longest = 0;
         memcpy(F->z, F->dz, (size_t)(F->N + F->U) * sizeof *F->z);
         for (int32_t i = 0; i < F->N; i++) longest = fmax(longest, fabs(F->z[i]));
@@ -372,11 +408,11 @@ static int advance(rg_flow *F)
         const double most = 1.5 * F->step * F->h;
         double f = longest > most ? most / longest : 1;
         int32_t halving = 0;
-        while (!try_step(F, f, longest)) {
+        while (!try_step(F, f, longest) || (is_last && goes_beyond(F))) {
             if (++halving > HALVINGS) return 0;
             f /= 2;
         }
-        if (round + 1 < ROUNDS && hold_what_overfolds(F, NULL, BEYOND)) continue;
+        if (!is_last && hold_what_overfolds(F, NULL, BEYOND)) continue;
         F->h = fmax(LEAST_H, fmin(1, 1.3 * F->h * sqrt(f)));
         return 1;
     }
@@ -414,16 +450,24 @@ static int close_within_half_turns(rg_flow *F)
 {
     for (int32_t round = 0; round < ROUNDS; round++) {
         int32_t held = 0;
-        if (!correct(F, F->trial, F->trial_u, 0.01 * F->tol) && !(F->closure <= F->tol)) return 0;
-        for (int32_t i = 0; i < F->limit.first_added && is_limited(F); i++) {
-            if (isnan(F->target[i]) || !(fabs(F->trial[i]) > RG_PI + BEYOND / 10)) continue;
+        if (!correct(F, F->trial, F->trial_u)) return 0;
+        for (int32_t i = 0; i < F->N && is_limited(F); i++) {
+            if (!(fabs(F->trial[i]) > RG_PI + BEYOND / 10)) continue;
             F->trial[i] = copysign(RG_PI, F->trial[i]);
             F->scale[i] = HELD_GIVES;
             held++;
         }
         if (!held) return 1;
     }
-    return correct(F, F->trial, F->trial_u, 0.01 * F->tol) || F->closure <= F->tol;
+    return correct(F, F->trial, F->trial_u);
+}
+
+/* The state at part t of the chord from the state before, closed; zero: it does not close. */
+static int close_chord(rg_flow *F, double t)
+{
+    for (int32_t i = 0; i < F->N; i++) F->trial[i] = (1 - t) * F->old_rho[i] + t * F->rho[i];
+    for (int32_t i = 0; i < F->U; i++) F->trial_u[i] = (1 - t) * F->old_u[i] + t * F->u[i];
+    return close_within_half_turns(F);
 }
 
 int rg_flow_at(rg_flow *F, double s)
@@ -435,18 +479,19 @@ int rg_flow_at(rg_flow *F, double s)
         return 1;
     }
     /* Secants on the progress of what closing makes of the chord's points. */
-    double t0 = 0, s0 = F->old_s, t1 = 1, s1 = F->s, least;
-    int found = 0;
-    for (int32_t n = 0; n < 5; n++) {
+    double t0 = 0, s0 = F->old_s, t1 = 1, s1 = F->s, good = -1, least;
+    for (int32_t n = 0; n < SECANTS; n++) {
         const double t = fabs(s1 - s0) > 1e-14 ? fmin(1, fmax(0, t0 + (t1 - t0) * (s - s0) / (s1 - s0))) : t1;
-        for (int32_t i = 0; i < F->N; i++) F->trial[i] = (1 - t) * F->old_rho[i] + t * F->rho[i];
-        for (int32_t i = 0; i < F->U; i++) F->trial_u[i] = (1 - t) * F->old_u[i] + t * F->u[i];
-        if (!close_within_half_turns(F)) return found;
-        found = 1;
+        if (!close_chord(F, t)) {
+            if (good < 0 || !close_chord(F, good)) return 0;
+            break;
+        }
+        good = t;
         const double is = progress(F, F->trial, &least);
         if (fabs(is - s) <= SAME_PROGRESS || t == 1) break;
         if (is > s) t1 = t, s1 = is;
         else t0 = t, s0 = is;
     }
-    return found;
+    polish(F);
+    return 1;
 }

@@ -56,9 +56,8 @@ static void measure_angles(rg_motion *m, int32_t k)
     int32_t driven = 0, wrong = 0;
     for (int32_t i = 0; i < m->mesh.N; i++) {
         const double way = m->target[i] - m->from[i];
-        if (isnan(m->target[i])) continue;
         r->max_overfold_deg = larger(r->max_overfold_deg, (fabs(rho[i]) - RG_PI) / RG_DEG);
-        if (way == 0) continue;
+        if (isnan(way) || way == 0) continue;
         const double part = 100 * fabs(rho[i] - m->from[i]) / fabs(way);
         sum += part;
         least = fmin(least, part);

@@ -18,6 +18,7 @@ static const rg_flow_law LAWS[] = {
     {0.1, 1, 0, 0, 0.3, 10},
     {0.1, 1, 1, 0, 0.3, 0},
     {0.1, 3, 0, 1, 0.3, 0},
+    {0.1, 0.5, 0, 0, 0.15, 0},
 };
 enum { LAW_COUNT = sizeof LAWS / sizeof *LAWS };
 /* Laws that are tried, and work that is spent in all and on one, by effort. */
@@ -59,20 +60,27 @@ static void add_cost(rg_cost *sum, const rg_cost *c)
     sum->seconds += c->seconds;
 }
 
-/* Beyond half a turn, facets at a crease pass through each other: a try that does so by more is second best. */
+/* Beyond half a turn, facets at a crease pass through each other: a try that does so by more is second best; and so is one
+ * that goes as far as was asked for with some creases left behind, as it need not be on the way to the folded state. */
 static const double OVERFOLD = 0.1 * RG_DEG;
 
-static int rank(const rg_take *t) { return t->outcome != RG_FOLDED ? 0 : t->overfold > OVERFOLD ? 1 : 2; }
+static int rank(const rg_take *t) { return t->outcome != RG_FOLDED ? 0 : t->overfold > OVERFOLD || t->strays > 0 ? 1 : 2; }
+
+static int is_better(const rg_take *t, const rg_take *old)
+{
+    const int mine = rank(t), its = old->mem.resize ? rank(old) : -1;
+    if (mine != its) return mine > its;
+    return mine == 2 ? t->moved < old->moved : mine == 1 ? t->strays < old->strays : t->score > old->score;
+}
 
 /* Keeps the better of what is kept and *t; takes *t over. Of two that fold the one that moves the pattern less is better.
  * Non-zero: *t folds, and was kept. */
 static int consider(rg_choice *c, rg_take *t, const char *triangulation, const char *why, const char *strategy)
 {
     add_cost(&c->cost, &t->cost);
-    const int old = c->take.mem.resize ? rank(&c->take) : -1, new = rank(t);
-    const int better = new > old || (new == old && (new == 2 ? t->moved < c->take.moved : t->score > c->take.score));
+    const int folds = rank(t) == 2;
     c->tries++;
-    if (!better) {
+    if (!is_better(t, &c->take)) {
         rg_take_free(t);
         return 0;
     }
@@ -82,7 +90,7 @@ static int consider(rg_choice *c, rg_take *t, const char *triangulation, const c
     c->triangulation = triangulation;
     c->why_triangulated = why;
     snprintf(c->strategy, sizeof c->strategy, "%s", strategy);
-    return new == 2;
+    return folds;
 }
 
 static rg_status straight(rg_choice *c, const rg_mesh *none, const rg_settings *s, int all, const char *why_all,
@@ -240,7 +248,7 @@ static rg_status flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, i
             const int shorter = k / 2;
             w.back = k % 2;
             w.how = !all ? AS_DRAWN : shorter ? SHORT : SPLITTING;
-            if (w.back && !(law.give > 0 && fabs(s->to) == 1)) continue;
+            if (w.back && !(law.give > 0 && s->to != 0)) continue;
             if (shorter && (!all || law.gain == 0)) continue;
             if (!(w.left > 0) || watch->cancelled) return RG_OK;
             status = try_flow(c, none, s, &law, &w, work, watch, why, &folds);

@@ -6,6 +6,11 @@
 #include <string.h>
 #include <time.h>
 
+/* A crease that did less than this part of its way has not left flat. */
+static const double LEFT_FLAT = 1e-6;
+/* What was asked for is there within 1 %. */
+static const double OFF_THE_MEAN = 0.01;
+
 static double seconds(void)
 {
     struct timespec t;
@@ -53,8 +58,30 @@ static double overfold(const rg_take *t)
     double most = 0;
     for (int32_t k = 0; k < t->count; k++)
         for (int32_t i = 0; i < t->mesh.N; i++)
-            if (!isnan(t->target[i])) most = fmax(most, fabs(t->rho[(size_t)k * (size_t)t->mesh.N + (size_t)i]) - RG_PI);
+            most = fmax(most, fabs(t->rho[(size_t)k * (size_t)t->mesh.N + (size_t)i]) - RG_PI);
     return most;
+}
+
+/* Short of the whole way, a mean is what is asked for: is it one of creases that are all on their way? Those on the wrong
+ * side of flat count in it by what they are, and may make more of it than was asked for. */
+static void judge(rg_take *t)
+{
+    const double to = fabs(t->to);
+    const double *rho = t->rho + (size_t)(t->count - 1) * (size_t)t->mesh.N;
+    double mean = 0;
+    int32_t driven = 0;
+    if (t->outcome != RG_FOLDED || to == 0 || to == 1) return;
+    for (int32_t i = 0; i < t->mesh.N; i++) {
+        const double way = t->target[i] - t->from[i], part = (rho[i] - t->from[i]) / way;
+        if (isnan(way) || way == 0) continue;
+        t->strays += !(part > LEFT_FLAT);
+        mean += fabs(part);
+        driven++;
+    }
+    if (driven == 0) return;
+    const int as_asked = fabs(mean / driven - to) <= OFF_THE_MEAN;
+    t->outcome = as_asked ? RG_FOLDED : RG_STOPPED;
+    snprintf(t->reason, sizeof t->reason, "as far as was asked for%s", as_asked ? "" : ", but with creases on the wrong side of flat");
 }
 
 static double moved(const rg_take *t)
@@ -86,6 +113,7 @@ rg_status rg_take_straight(rg_take *t, rg_mesh *m, const rg_settings *settings, 
     rg_step_info info = {0};
     memset(t, 0, sizeof *t);
     t->mem = rg_mem_default(settings->memory);
+    t->to = settings->to;
     rg_status s = rg_fold_from_mesh(m, settings, &f, why);
     if (s != RG_OK) return s;
     s = make_room(t, &f->mesh, settings->frames, 0);
@@ -115,6 +143,7 @@ rg_status rg_take_straight(rg_take *t, rg_mesh *m, const rg_settings *settings, 
         memset(&f->mesh, 0, sizeof f->mesh);
         t->score = score(t, f->rho);
         t->overfold = overfold(t);
+        judge(t);
     }
     rg_fold_destroy(f);
     if (s != RG_OK) {
@@ -125,11 +154,11 @@ rg_status rg_take_straight(rg_take *t, rg_mesh *m, const rg_settings *settings, 
     return RG_OK;
 }
 
-/* The frames that the last step went past. frame: the next one due. */
-static void keep_passed(rg_take *t, rg_flow *F, int32_t frames, int32_t *frame)
+/* The frames that the last step went past: the first of them is due at progress `first`. frame: the next one due. */
+static void keep_passed(rg_take *t, rg_flow *F, double first, int32_t frames, int32_t *frame)
 {
     for (; *frame < frames; ++*frame) {
-        const double due = F->s_end * *frame / (frames - 1);
+        const double due = first + (F->s_end - first) * *frame / (frames - 1);
         if (!(F->s >= due) && !(F->landed && *frame < frames)) break;
         if (!rg_flow_at(F, fmin(due, F->s))) break;
         keep(t, F->trial, F->J.X);
@@ -140,15 +169,21 @@ rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, cons
                        const double *target, double budget, rg_watch *watch, rg_diag *why)
 {
     const double begun = seconds();
+    /* From folded, the way is the whole of it, of which the last part is asked for. */
+    const double first = from ? 1 - fabs(settings->to) : 0;
+    const int32_t given = first > 0 ? 0 : 1;
+    rg_settings mine = *settings;
     rg_flow F;
-    int32_t frame = 1, attempt = 0;
+    int32_t frame = given, attempt = 0;
+    if (from) mine.to = copysign(1, settings->to);
     memset(t, 0, sizeof *t);
     t->mem = rg_mem_default(settings->memory);
+    t->to = settings->to;
     t->mesh = *m;
     memset(m, 0, sizeof *m);
     t->law = *law;
     rg_status s = make_room(t, &t->mesh, settings->frames, law->gain > 0 || law->give > 0);
-    if (s == RG_OK) s = rg_flow_init(&F, &t->mesh, settings, law, from, target);
+    if (s == RG_OK) s = rg_flow_init(&F, &t->mesh, &mine, law, from, target);
     if (s != RG_OK) {
         rg_take_free(t);
         return rg_fail(s, why, 0, "%s", rg_status_text(s));
@@ -156,14 +191,14 @@ rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, cons
     F.budget = budget;
     memcpy(t->target, target, (size_t)F.N * sizeof *target);
     memcpy(t->from, F.from, (size_t)F.N * sizeof *target);
-    keep(t, F.rho, F.J.X);
+    if (given) keep(t, F.rho, F.J.X);
     while (F.outcome == RG_RUNNING) {
         rg_flow_step(&F);
         if (F.attempt != attempt) {
             attempt = F.attempt;
-            frame = t->count = 1;
+            frame = t->count = given;
         }
-        if (F.proper || F.landed) keep_passed(t, &F, settings->frames, &frame);
+        if (F.proper || F.landed) keep_passed(t, &F, first, settings->frames, &frame);
         if (is_cancelled(watch, F.s_end > 0 ? F.s / F.s_end : 1)) break;
     }
     if (s == RG_OK) {
@@ -181,6 +216,7 @@ rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, cons
         }
         t->overfold = overfold(t);
         t->moved = moved(t);
+        if (!from) judge(t);
         if (t->outcome == RG_STOPPED) s = rg_diagnose_flow(&F, t->vertex, &t->vertices, t->crease, &t->creases);
         t->work = F.work;
         t->method = "joint";
@@ -219,4 +255,6 @@ void rg_take_turn_round(rg_take *t, const double *target)
     }
     memcpy(t->target, target, N * sizeof *target);
     memset(t->from, 0, N * sizeof *t->from);
+    judge(t);
+    t->strays = 0; /* what is left behind comes after: this way is known to go on to the end */
 }

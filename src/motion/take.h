@@ -18,7 +18,10 @@ typedef struct rg_take {
     rg_outcome outcome;
     char reason[200];
     double score;             /* to compare takes by: how far it came */
-    double overfold;          /* the most a driven crease was beyond half a turn in a frame, radians */
+    double overfold;          /* the most a crease was beyond half a turn in a frame, radians */
+    double to;                /* of the settings */
+    int32_t strays;           /* driven creases that are flat or on its wrong side in the last frame of a part of the way that
+                               * is not known to go on to the end */
     double moved;             /* the farthest a vertex of the pattern went, over frames, lengths */
     const char *method, *solver;
     rg_flow_law law;          /* of a flow */
