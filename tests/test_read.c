@@ -15,9 +15,15 @@ static const char OPX[] = "<java class=\"java.beans.XMLDecoder\"><object class=\
     "<void property=\"x0\"><double>1.5</double></void></object></void></array></void></object></java>";
 static const char DXF[] = "999\nhello\n0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nMountain\n10\n0\n20\n0\n11\n4\n21\n4\n0\nLWPOLYLINE\n62\n5\n70\n1\n"
     "10\n0\n20\n0\n10\n1\n20\n1\n10\n2\n20\n5\n0\nENDSEC\n0\nEOF\n";
+/* Drawings that repeat their parts. */
+static const char USE[] = "<svg><symbol id='s' viewBox='0 0 2 2'><path id='p' stroke='red' d='M0 0L1 1'/></symbol><g id='g' stroke='#00f'><path d='M0 0H2'/>"
+    "<use href='#s' width='4' height='4' x='1'/></g><use href='#g' transform='rotate(45)'/>\n<use xlink:href='#p' y='2'/><use href='#nothing'/></svg>";
+static const char INSERT[] = "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nunit\n10\n1\n20\n1\n0\nLINE\n8\n0\n62\n0\n10\n0\n20\n0\n11\n4\n21\n4\n0\nENDBLK\n"
+    "0\nBLOCK\n2\nrow\n0\nINSERT\n2\nunit\n70\n3\n44\n2.5\n50\n90\n0\nENDBLK\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nINSERT\n2\nrow\n62\n1\n"
+    "41\n2\n42\n-2\n10\n7\n20\n0\n0\nINSERT\n2\nnothing\n0\nENDSEC\n0\nEOF\n";
 static const struct { const char *text; rg_format format; const char *name; } samples[] = {
     {CP, RG_FORMAT_CP, "x.cp"}, {FOLD, RG_FORMAT_FOLD, "x.fold"}, {SVG, RG_FORMAT_SVG, "x.svg"}, {OPX, RG_FORMAT_OPX, "x.opx"},
-    {DXF, RG_FORMAT_DXF, "x.dxf"}};
+    {DXF, RG_FORMAT_DXF, "x.dxf"}, {USE, RG_FORMAT_SVG, "x.svg"}, {INSERT, RG_FORMAT_DXF, "x.dxf"}};
 enum { SAMPLES = sizeof samples / sizeof *samples };
 
 static rg_format format_of(const char *text, size_t n, const char *path, rg_diag *why)
