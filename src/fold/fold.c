@@ -13,7 +13,7 @@ static const double FIRST_ANGLE = 0.01;
 static const double SMALLEST_STEP = 1e-6;
 static const int32_t MOST_STEPS = 20000;
 /* So many steps must reach a frame, or gain this much of the way, or, with steps that are small by order, this part of what
- * they could: a motion that only creeps is over. */
+ * they could, or of what lies behind or before them: a motion that only creeps is over. */
 static const int32_t MOST_IDLE = 60;
 static const double LEAST_GAIN = 1e-3, LEAST_PART = 0.01;
 static const double SOLVE_TOLERANCE = 1e-8;
@@ -339,7 +339,7 @@ static int creeps(rg_fold *f)
 {
     const double s = f->smooth && f->path.count > 0 ? f->path.node[f->path.count - 1].s : f->s;
     const double could = MOST_IDLE * f->settings.step / RG_PI;
-    if (s - f->idle_s >= fmin(LEAST_GAIN, LEAST_PART * could)) f->idle = 0, f->idle_s = s;
+    if (s - f->idle_s >= fmin(LEAST_GAIN, LEAST_PART * fmin(could, fmin(s, 1 - s)))) f->idle = 0, f->idle_s = s;
     return f->idle++ >= MOST_IDLE;
 }
 

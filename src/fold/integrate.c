@@ -5,7 +5,7 @@
 
 static const double SOLVE_TOLERANCE = 1e-10;
 /* Of a node where closing says nothing of where along its freedoms the sheet goes: what GOOD_SET_RIGHT below leaves is far more. */
-static const double FREE_SOLVE_TOLERANCE = 1e-7;
+static const double FREE_SOLVE_TOLERANCE = 1e-5;
 static const int32_t CORRECTIONS = 8;
 /* The polynomial between nodes must close this much better than asked for. Where the sheet can go one way only its angles
  * are off by closure over the slowest mode, and could be exact: so much better there. */
