@@ -651,31 +651,40 @@ static void check_page(int adjusted)
     assert_int_equal(occurrences(text, end, "</script"), 2);
     assert_int_equal(occurrences(text, end, "@DATA@"), 0);
     json_t *j = page_data(text), *frames = get(j, "frames");
-    char *pose = calloc(1, 28 * (size_t)mesh->nf + 12 * (size_t)mesh->nv), *flat = calloc(1, 8 * (size_t)mesh->facet_start[mesh->nf]);
+    char *points = calloc(1, 12 * (size_t)mesh->nv), *flat = calloc(1, 8 * (size_t)mesh->facet_start[mesh->nf]);
     assert_int_equal(json_array_size(frames), FRAMES);
     assert_int_equal(json_array_size(get(j, "corners")), mesh->nf);
     assert_int_equal(json_array_size(get(j, "edges")), mesh->facet_start[mesh->nf]);
     assert_int_equal(json_array_size(get(j, "triangles")), 3 * (mesh->facet_start[mesh->nf] - 2 * mesh->nf));
     assert_int_equal(json_is_true(get(j, "rigid")), !adjusted);
     if (!adjusted) assert_int_equal(decode(json_string_value(get(j, "flat")), flat), 8 * mesh->facet_start[mesh->nf]);
+    /* Facets as they are in the pattern, about their centres: the page turns these. */
+    for (int32_t f = 0; !adjusted && f < mesh->nf; f++) {
+        const int32_t from = mesh->facet_start[f], n = mesh->facet_start[f + 1] - from;
+        double x = 0, y = 0;
+        for (int32_t i = from; i < from + n; i++) {
+            x += f32(flat + 8 * i) / n;
+            y += f32(flat + 8 * i + 4) / n;
+            const rg_vec2 side = rg_vec2_sub(mesh->X[mesh->facet_vertex[i]], mesh->X[mesh->facet_vertex[from]]);
+            near(f32(flat + 8 * i) - f32(flat + 8 * from), side.x, 1e-6 * mesh->size);
+            near(f32(flat + 8 * i + 4) - f32(flat + 8 * from + 4), side.y, 1e-6 * mesh->size);
+        }
+        near(x, 0, 1e-6 * mesh->size);
+        near(y, 0, 1e-6 * mesh->size);
+    }
     for (int32_t k = 0; k < FRAMES; k++) {
         const json_t *frame = json_array_get(frames, (size_t)k);
         rg_vec3 *x = positions(m, k);
         near(json_number_value(get(frame, "percent")), m->frame[k].percent, 0);
-        assert_int_equal(decode(json_string_value(get(frame, "pose")), pose), adjusted ? 12 * mesh->nv : 28 * mesh->nf);
-        for (int32_t f = 0; f < mesh->nf; f++)
-            for (int32_t i = mesh->facet_start[f]; i < mesh->facet_start[f + 1]; i++) {
-                const int32_t v = mesh->facet_vertex[i];
-                rg_vec3 there = f32_vector(pose + (adjusted ? 12 * v : 28 * f + 16));
-                if (!adjusted) {
-                    const double q[] = {f32(pose + 28 * f), f32(pose + 28 * f + 4), f32(pose + 28 * f + 8), f32(pose + 28 * f + 12)};
-                    there = rg_vec3_add(there, turned(q, (rg_vec3){f32(flat + 8 * i), f32(flat + 8 * i + 4), 0}));
-                }
-                below(distance(there, x[v]), 1e-6 * mesh->size);
-            }
+        assert_int_equal(decode(json_string_value(get(frame, "points")), points), 12 * mesh->nv);
+        for (int32_t i = 0; i < mesh->facet_start[mesh->nf]; i++) {
+            const int64_t v = json_integer_value(json_array_get(get(j, "vertex"), (size_t)i));
+            assert_int_equal(v, mesh->facet_vertex[i]);
+            below(distance(f32_vector(points + 12 * v), x[v]), 1e-6 * mesh->size);
+        }
         free(x);
     }
-    free(pose);
+    free(points);
     free(flat);
     json_decref(j);
     free(text);

@@ -2,7 +2,6 @@
 #include "base/base64.h"
 #include "base/bytes.h"
 #include "base/json.h"
-#include "pose/turn.h"
 #include "render/layers.h"
 
 #include <string.h>
@@ -18,10 +17,7 @@ typedef struct book {
     const rg_mesh *mesh;
     rg_triangles t;
     rg_layers *layers;
-    int rigid;           /* facets keep their shape: turns and shifts; else positions of vertices */
-    rg_vec2 *centre;     /* [nf] */
-    rg_place *place;     /* [nf] */
-    rg_turn *turn;       /* [nf] of the frame before */
+    int rigid;           /* facets keep their shape: the page finds their turns; else it moves the vertices alone */
     rg_vec3 *x, *lift;   /* [nv], [nf] */
     unsigned char *bytes; /* room for one frame */
 } book;
@@ -53,9 +49,9 @@ static rg_status flat(rg_json *j, book *b)
             sum.x += m->X[m->facet_vertex[i]].x;
             sum.y += m->X[m->facet_vertex[i]].y;
         }
-        b->centre[f] = (rg_vec2){sum.x / (end - from), sum.y / (end - from)};
+        const rg_vec2 centre = {sum.x / (end - from), sum.y / (end - from)};
         for (int32_t i = from; i < end; i++) {
-            const rg_vec2 x = rg_vec2_sub(m->X[m->facet_vertex[i]], b->centre[f]);
+            const rg_vec2 x = rg_vec2_sub(m->X[m->facet_vertex[i]], centre);
             to = rg_bytes_f32(rg_bytes_f32(to, x.x), x.y);
         }
     }
@@ -81,23 +77,9 @@ static rg_status sheet(rg_json *j, book *b)
             rg_json_integer(j, NULL, corner - m->facet_start[f]);
         }
     rg_json_close(j);
-    rg_json_bool(j, "rigid", b->rigid);
-    if (b->rigid) return flat(j, b);
     rg_json_integers(j, "vertex", m->facet_vertex, m->facet_start[m->nf]);
-    return RG_OK;
-}
-
-static unsigned char *turns_and_shifts(book *b, int32_t k)
-{
-    unsigned char *to = b->bytes;
-    rg_pose_facets(b->mesh, b->mesh->X, &b->m->tree, rg_motion_angles(b->m, k), b->place);
-    for (int32_t f = 0; f < b->mesh->nf; f++) {
-        const rg_vec3 centre = {b->centre[f].x, b->centre[f].y, 0};
-        const rg_turn q = b->turn[f] = rg_turn_from_matrix(&b->place[f].R, b->turn[f]);
-        to = rg_bytes_f32(vector(to, (rg_vec3){q.x, q.y, q.z}), q.w);
-        to = vector(to, rg_vec3_add(rg_mat3_mul_vec(b->place[f].R, centre), b->place[f].t));
-    }
-    return to;
+    rg_json_bool(j, "rigid", b->rigid);
+    return b->rigid ? flat(j, b) : RG_OK;
 }
 
 static rg_status one_frame(rg_json *j, book *b, int32_t k)
@@ -108,10 +90,8 @@ static rg_status one_frame(rg_json *j, book *b, int32_t k)
     int lifted = 0;
     rg_json_open_line(j, NULL, '{');
     rg_json_number(j, "percent", b->m->frame[k].percent);
-    if (b->rigid) to = turns_and_shifts(b, k);
-    else
-        for (int32_t v = 0; v < b->mesh->nv; v++) to = vector(to, b->x[v]);
-    s = bytes(j, b, "pose", to);
+    for (int32_t v = 0; v < b->mesh->nv; v++) to = vector(to, b->x[v]);
+    s = bytes(j, b, "points", to);
     to = b->bytes;
     for (int32_t f = 0; f < b->mesh->nf; f++) {
         to = vector(to, b->lift[f]);
@@ -163,18 +143,15 @@ static rg_status book_init(book *b, const rg_motion *m)
     rg_status s = rg_triangles_init(mem, &m->mesh, &b->t);
     if (s == RG_OK) s = rg_layers_create(mem, m, &b->t, &b->layers);
     if (s != RG_OK) return s;
-    b->centre = rg_mem_array(mem, nf, sizeof *b->centre);
-    b->place = rg_mem_array(mem, nf, sizeof *b->place);
-    b->turn = rg_mem_array(mem, nf, sizeof *b->turn);
     b->x = rg_mem_array(mem, nv, sizeof *b->x);
     b->lift = rg_mem_array(mem, nf, sizeof *b->lift);
-    b->bytes = rg_mem_array(mem, 28 * nf + 12 * nv + 8 * corners, 1);
-    return b->centre && b->place && b->turn && b->x && b->lift && b->bytes ? RG_OK : RG_ENOMEM;
+    b->bytes = rg_mem_array(mem, 12 * nf + 12 * nv + 8 * corners, 1);
+    return b->x && b->lift && b->bytes ? RG_OK : RG_ENOMEM;
 }
 
 static void book_free(book *b)
 {
-    void *block[] = {b->centre, b->place, b->turn, b->x, b->lift, b->bytes};
+    void *block[] = {b->x, b->lift, b->bytes};
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&b->m->mem, block[i]);
     rg_layers_destroy(b->layers);
     rg_triangles_free(&b->t);

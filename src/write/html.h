@@ -1,8 +1,9 @@
 /* html.h -- the motion as one page: turn it, fold and unfold it, without a network.
- * Uses  motion.h pose/turn.h render/layers.h write/page.html        Used by  output.c
+ * Uses  motion.h render/layers.h write/page.html        Used by  output.c
  *
- * The page poses facets by the turns and shifts of the frames, between frames by turning on; where creases were adjusted
- * facets change shape, and it has the positions of vertices instead. Facets that lie on each other are drawn apart. */
+ * Frames are the positions of vertices in single precision. The page finds from them how each facet turns and shifts, and
+ * between frames turns it on, so that it stays rigid; where creases were adjusted facets change shape, and vertices move
+ * straight. Facets that lie on each other are drawn apart. */
 #ifndef RG_HTML_H
 #define RG_HTML_H
 
