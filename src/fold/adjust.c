@@ -1,14 +1,12 @@
 #include "fold/adjust.h"
+#include "pattern/closed.h"
 
 #include <string.h>
 
-/* Two sector angles of a drawing are equal when they differ by no more. */
-static const double EQUAL = 0.01 * RG_DEG;
 /* Directions that add up to less cancel each other. */
 static const double CANCELLED = 1e-9;
 
 static char assignment(const rg_mesh *m, int32_t crease) { return m->assignment[m->crease_edge[crease]]; }
-static int folds(char a) { return a == 'M' || a == 'V'; }
 
 static rg_vec2 spoke(const rg_mesh *m, int32_t v, int32_t crease)
 {
@@ -39,11 +37,10 @@ static int closed(const rg_mesh *m, int32_t k, int32_t *drawn, rg_vec2 *directio
         if (m->loop_crease[j] < m->N - m->added) drawn[n++] = m->loop_crease[j];
     for (int32_t i = 0; n >= 3 && i < n; i++) {
         const int32_t a = drawn[i], c = drawn[(i + 1) % n], b = drawn[(i + 2) % n];
-        const char at_a = assignment(m, a), at_c = assignment(m, c), at_b = assignment(m, b);
-        if (!folds(at_a) || !folds(at_c) || !folds(at_b) || at_a == at_b) continue;
         const rg_vec2 xa = spoke(m, v, a), xc = spoke(m, v, c), xb = spoke(m, v, b);
-        if (!(fabs(sector(xa, xc) - sector(xc, xb)) <= EQUAL)) continue;
-        const rg_vec2 grows = at_a != at_c ? growth(xa, xc) : growth(xc, xb);
+        const int inside = rg_closed_inside(assignment(m, a), assignment(m, c), assignment(m, b), sector(xa, xc), sector(xc, xb));
+        if (!inside) continue;
+        const rg_vec2 grows = inside == 1 ? growth(xa, xc) : growth(xc, xb);
         const double length = rg_vec2_length(grows);
         sum = (rg_vec2){sum.x - grows.x / length, sum.y - grows.y / length};
         found++;

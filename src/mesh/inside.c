@@ -1,7 +1,5 @@
 #include "mesh/inside.h"
-
-/* Two sector angles of a drawing are equal when they differ by no more. */
-static const double EQUAL = 0.01 * RG_DEG;
+#include "pattern/closed.h"
 
 /* The creases around a vertex as drawn: added ones left out, the angle to the next one, and whether that sector is whole. */
 typedef struct spoke { int32_t crease; double theta; int whole; } spoke;
@@ -19,7 +17,7 @@ static int32_t drawn_spokes(const rg_mesh *m, int32_t k, spoke *s)
     return n;
 }
 
-static int folds(char assignment) { return assignment == RG_MOUNTAIN || assignment == RG_VALLEY; }
+static char assignment(const rg_mesh *m, spoke s) { return m->assignment[m->crease_edge[s.crease]]; }
 
 /* Flags the corner at v that lies counter-clockwise of a crease. */
 static void flag_corner(const rg_mesh *m, int32_t v, int32_t crease, unsigned char *flag)
@@ -37,12 +35,9 @@ rg_status rg_inside_find(const rg_mesh *m, unsigned char *flag)
         const int32_t n = drawn_spokes(m, k, s);
         for (int32_t i = 0; n >= 3 && i < n; i++) {
             const spoke a = s[i], c = s[(i + 1) % n], b = s[(i + 2) % n];
-            const char at_a = m->assignment[m->crease_edge[a.crease]], at_b = m->assignment[m->crease_edge[b.crease]];
-            const char at_c = m->assignment[m->crease_edge[c.crease]];
-            if (!folds(at_a) || !folds(at_c) || !folds(at_b) || at_a == at_b) continue;
-            if (!(fabs(a.theta - c.theta) <= EQUAL)) continue;
-            const spoke inside = at_a != at_c ? a : c;
-            if (inside.whole) flag_corner(m, m->inner_vertex[k], inside.crease, flag);
+            const int which = rg_closed_inside(assignment(m, a), assignment(m, c), assignment(m, b), a.theta, c.theta);
+            const spoke inside = which == 1 ? a : c;
+            if (which && inside.whole) flag_corner(m, m->inner_vertex[k], inside.crease, flag);
         }
     }
     rg_mem_free(&m->mem, s);

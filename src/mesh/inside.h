@@ -1,5 +1,5 @@
 /* inside.h -- which corners of facets are inside angles of closed vertices.
- * Paper    sections 3.1, 3.2, Fig. 5        Uses  mesh.h        Used by  triangulate.c */
+ * Paper    sections 3.1, 3.2, Fig. 5        Uses  mesh.h closed.h        Used by  triangulate.c */
 #ifndef RG_INSIDE_H
 #define RG_INSIDE_H
 

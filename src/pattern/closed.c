@@ -6,6 +6,12 @@ static const double EQUAL = 0.01 * RG_DEG;
 
 static int folds(char assignment) { return assignment == RG_MOUNTAIN || assignment == RG_VALLEY; }
 
+int rg_closed_inside(char a, char c, char b, double ac, double cb)
+{
+    if (!folds(a) || !folds(c) || !folds(b) || a == b || !(fabs(ac - cb) <= EQUAL)) return 0;
+    return a != c ? 1 : 2;
+}
+
 static void far_end(const struct rg_pattern *p, int32_t v, int32_t e, double x[2])
 {
     const rg_vec2 at = p->X[p->E[e].v[p->E[e].v[0] == v]];
@@ -26,13 +32,12 @@ rg_status rg_closed_find(struct rg_pattern *p)
         int found = 0;
         for (int32_t i = 0; s == RG_OK && i < n; i++) {
             const int32_t next = (i + 1) % n, a = star[i], c = star[next], b = star[(i + 2) % n];
-            const char at_a = p->E[a].assignment, at_c = p->E[c].assignment, at_b = p->E[b].assignment;
-            if (!folds(at_a) || !folds(at_c) || !folds(at_b) || at_a == at_b) continue;
-            if (!(fabs(theta[i] - theta[next]) <= EQUAL)) continue;
+            const int inside = rg_closed_inside(p->E[a].assignment, p->E[c].assignment, p->E[b].assignment, theta[i], theta[next]);
+            if (!inside) continue;
             s = rg_mem_grow(&p->mem, (void **)&p->closed, &room, (size_t)p->closed_triples + 1, sizeof *p->closed);
             if (s != RG_OK) break;
             rg_closed *closed = &p->closed[p->closed_triples++];
-            *closed = (rg_closed){.vertex = v, .x = p->X[v].x, .y = p->X[v].y, .inside_angle = at_a != at_c ? theta[i] : theta[next]};
+            *closed = (rg_closed){.vertex = v, .x = p->X[v].x, .y = p->X[v].y, .inside_angle = inside == 1 ? theta[i] : theta[next]};
             far_end(p, v, a, closed->a);
             far_end(p, v, c, closed->c);
             far_end(p, v, b, closed->b);
