@@ -1,5 +1,6 @@
 /* What is known of a pattern before it is folded, as JSON and for people. */
 #include "base/file.h"
+#include "pattern/alike.h"
 #include "pattern/pattern.h"
 #include "write/report.h"
 
@@ -67,17 +68,30 @@ static void warning(rg_json *j, const rg_diag *w)
     rg_json_close(j);
 }
 
+static void symmetry(rg_json *j, const rg_alike *a)
+{
+    rg_json_open_line(j, "symmetry", '{');
+    rg_json_integer(j, "turns", a->same.turns);
+    rg_json_numbers(j, "mirrors_deg", a->same.mirror, a->same.mirrors);
+    rg_json_integer(j, "exchanging_turns", a->exchanged.turns);
+    rg_json_numbers(j, "exchanging_mirrors_deg", a->exchanged.mirror, a->exchanged.mirrors);
+    rg_json_close(j);
+}
+
 rg_status rg_info_write(const rg_pattern *p, const char *file, rg_diag *why)
 {
     rg_json j;
     rg_file out;
-    rg_status s = rg_file_begin(&out, &p->mem, file, why);
+    rg_alike alike;
+    rg_status s = rg_alike_find(p, &alike);
+    if (s == RG_OK) s = rg_file_begin(&out, &p->mem, file, why);
     if (s != RG_OK) return s;
     rg_json_begin(&j, out.stream);
     rg_json_open(&j, NULL, '{');
     rg_json_string(&j, "rigami", RG_VERSION);
     rg_report_pattern(&j, &p->info);
     if (p->info.is_disk) rg_json_integer(&j, "triangulating_adds", triangulating_adds(&p->info));
+    symmetry(&j, &alike);
     rg_json_open(&j, "closed", '[');
     for (int32_t k = 0; k < p->closed_triples; k++) closed(&j, &p->closed[k]);
     rg_json_close(&j);
@@ -117,6 +131,31 @@ static void counts(const rg_pattern_info *i, FILE *out)
         fprintf(out, "            cut into triangles: %d more %s, %d degrees of freedom\n", (int)triangulating_adds(i),
                 plural(triangulating_adds(i), "crease", "creases"), (int)i->boundary_edges - 3);
     fprintf(out, "drawing     largest gap closed %.3g, smallest distance kept %.3g\n", i->merged_max, i->kept_min);
+}
+
+/* "turns by 90 degrees, mirrors at 0, 45 degrees"; all: how many turns there are with the one by nothing. */
+static void likeness(const rg_likeness *l, int32_t all, FILE *out)
+{
+    if (l->turns && all > 1) fprintf(out, "turns by %.6g degrees", 360.0 / all);
+    if (l->turns && all > 1 && l->mirrors) fprintf(out, ", ");
+    for (int32_t i = 0; i < l->mirrors; i++)
+        fprintf(out, "%s%.4g", i ? ", " : plural(l->mirrors, "mirror at ", "mirrors at "), round(1e4 * l->mirror[i]) / 1e4);
+    if (l->mirrors) fprintf(out, " degrees");
+}
+
+static void symmetries(const rg_alike *a, FILE *out)
+{
+    const rg_likeness *same = &a->same, *other = &a->exchanged;
+    const int is_same = same->turns > 1 || same->mirrors, is_other = other->turns || other->mirrors;
+    fprintf(out, "symmetry    ");
+    if (!is_same && !is_other) fprintf(out, "none");
+    if (is_same) likeness(same, same->turns, out);
+    if (is_same && is_other) fprintf(out, "\n            ");
+    if (is_other) {
+        fprintf(out, "mountain for valley: ");
+        likeness(other, other->turns + same->turns, out);
+    }
+    fputc('\n', out);
 }
 
 static void broken_theorem(const rg_unfoldable *u, FILE *out)
@@ -183,13 +222,16 @@ rg_status rg_info_text(const rg_pattern *p, const char *file, rg_diag *why)
     const rg_pattern_info *i = &p->info;
     const int32_t bad = unfoldable_vertices(p);
     rg_file f;
-    rg_status s = rg_file_begin(&f, &p->mem, file, why);
+    rg_alike alike;
+    rg_status s = rg_alike_find(p, &alike);
+    if (s == RG_OK) s = rg_file_begin(&f, &p->mem, file, why);
     if (s != RG_OK) return s;
     FILE *out = f.stream;
     title(i, out);
     counts(i, out);
     if (i->is_disk) fprintf(out, "sheet       one, without holes\n");
     else fprintf(out, "sheet       not one without holes: %s\n", i->not_disk);
+    symmetries(&alike, out);
     vertices(p, bad, out);
     closed_vertices(p, out);
     warnings(p, out);
