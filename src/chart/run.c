@@ -108,6 +108,15 @@ static void grade(rg_fold *f, double part)
     }
 }
 
+/* Is it where it was to go, or was it only to go part of the way? */
+static int has_landed(const rg_fold *f)
+{
+    int landed = 1;
+    for (int32_t i = 0; i < f->mesh.N && f->s_end >= 1; i++)
+        if (rg_drive_is_driven(&f->drive, i)) landed &= f->rho[i] == f->drive.target[i];
+    return landed;
+}
+
 rg_status rg_run_make(rg_run *r, const rg_mesh *m, const rg_settings *settings, const rg_way *way, const rg_frames *with,
                       rg_frames *keep, rg_diag *why)
 {
@@ -128,8 +137,8 @@ rg_status rg_run_make(rg_run *r, const rg_mesh *m, const rg_settings *settings, 
     while (status == RG_OK && info.outcome == RG_RUNNING) {
         if (way->grade > 0) grade(f, way->grade);
         status = rg_fold_step(f, &info);
-        /* Within 1 % of the end and no way on: that is the last frame, but not one to measure others by. */
-        const int last = info.outcome == RG_FOLDED && info.frame < 0 && r->frames == s.frames - 1;
+        /* Within 1 % of the end and no way on, or crept up to it beside it: that is the last frame, but not one to measure others by. */
+        const int last = info.outcome == RG_FOLDED && r->frames == s.frames - 1 && (info.frame < 0 || !has_landed(f));
         if (info.frame < 0 && !last) continue;
         const double from = rg_run_seconds();
         frame(r, f, with, last ? NULL : keep);

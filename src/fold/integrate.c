@@ -4,8 +4,8 @@
 #include <string.h>
 
 static const double SOLVE_TOLERANCE = 1e-10;
-/* Of a node where closing says nothing of where along its freedoms the sheet goes: what GOOD_SET_RIGHT below leaves is far more. */
-static const double FREE_SOLVE_TOLERANCE = 1e-5;
+/* Of a node where closing says nothing of where along its freedoms the sheet goes: this part of what it is set right by. */
+static const double FREE_SOLVE_PART = 0.1;
 static const int32_t CORRECTIONS = 8;
 /* The polynomial between nodes must close this much better than asked for. Where the sheet can go one way only its angles
  * are off by closure over the slowest mode, and could be exact: so much better there. */
@@ -26,10 +26,11 @@ static const double ONE_WAY = 1e-2;
 static const double SET_RIGHT_FROM = 1e-13;
 /* And this far it may move along the paper's motions without the direction being asked for again. */
 static const double SAME_DIRECTION = 1e-7;
-/* What it should move, radians, for the motion to be true to some tenth of that. */
-static const double GOOD_SET_RIGHT = 1e-4;
-/* More than this is no correction: the step was too long. */
-static const double FARTHEST_SET_RIGHT = 1e-3;
+/* What it should move, radians, for the motion to be true to some tenth of that: so many times the root of the tolerance, as the
+ * tolerance is one of closure, and most who ask for little there do not ask for another motion. */
+static const double GOOD_SET_RIGHT = 10, MOST_SET_RIGHT = 5e-4;
+/* More than so many times that is no correction: the step was too long. */
+static const double FARTHEST_SET_RIGHT = 10;
 /* t's in Adams's formula at the most, the new one among them. */
 static const int32_t ADAMS_NODES = 8;
 /* How far from the folded state, radians, the prediction of it may be. */
@@ -37,6 +38,11 @@ static const double LANDING = 0.01;
 /* The part of the wish that the constraint must leave over for the motion to count as going on. */
 static const double LEAST_EFFICIENCY = 1e-5;
 
+
+static double good_set_right(const rg_fold *f)
+{
+    return fmin(GOOD_SET_RIGHT * sqrt(f->settings.tol), MOST_SET_RIGHT);
+}
 
 double rg_integrate_tangent(rg_fold *f, const double *rho, double s, int near, double *t)
 {
@@ -49,7 +55,7 @@ double rg_integrate_tangent(rg_fold *f, const double *rho, double s, int near, d
     }
     rg_drive_wish(&f->drive, rho, s, f->wish);
     const int free = f->smooth && !f->one_way && N > 3 * f->mesh.M;
-    if (rg_project_tangent(&f->P, &f->K, f->wish, t, free ? FREE_SOLVE_TOLERANCE : SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (9) */
+    if (rg_project_tangent(&f->P, &f->K, f->wish, t, free ? FREE_SOLVE_PART * good_set_right(f) : SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (9) */
     double along = rg_drive_progress(&f->drive, t);
     if (!(along > LEAST_EFFICIENCY)) return 0;
     for (int32_t i = 0; i < N; i++) t[i] /= along;
@@ -206,7 +212,7 @@ static double next_step(rg_fold *f, double h, double rate, double far)
         between *= scale(rg_constraint_closure(&f->K, f->k[0], NULL), goal, 12);
         longest = fmin(longest, between < 1.5 * spacing ? spacing : between); /* a node at each frame needs no more */
     }
-    if (!f->one_way) longest = fmin(longest, h * scale(far, GOOD_SET_RIGHT, f->order + 1));
+    if (!f->one_way) longest = fmin(longest, h * scale(far, good_set_right(f), f->order + 1));
     double x = longest;
     while (x > LARGEST_CUT * h && rate * reach(f, last + x) > GOOD_PREDICTION) x *= 0.95;
     return fmax(x, LARGEST_CUT * h);
@@ -226,7 +232,7 @@ static int make_node_at_once(rg_fold *f, double s, double *far)
 {
     if (!(rg_integrate_tangent(f, f->trial, s, 0, f->t) > 0)) return 0;
     *far = f->moved = set_right(f, s);
-    return *far <= FARTHEST_SET_RIGHT && rg_newton_close(f, s, CORRECTIONS, 1, f->t);
+    return *far <= FARTHEST_SET_RIGHT * good_set_right(f) && rg_newton_close(f, s, CORRECTIONS, 1, f->t);
 }
 
 /* A node at s from the prediction in f->trial, which closes to `error`. far: see set_right. Non-zero: it is made, in
@@ -242,7 +248,7 @@ static int make_node(rg_fold *f, double s, double error, double *far)
     if (!f->one_way || f->path.count < RG_PATH_WINDOW || f->nodes % ASK_AGAIN == 0) {
         *far = set_right(f, s);
         f->moved += *far;
-        if (!(*far <= FARTHEST_SET_RIGHT)) return 0;
+        if (!(*far <= FARTHEST_SET_RIGHT * good_set_right(f))) return 0;
         if (*far > SET_RIGHT_FROM) {
             if (!rg_newton_close(f, s, CORRECTIONS, 1, NULL)) return 0;
             double moved = 0;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 /* Each correction gains this factor at the least where Newton's own rate does not gain more. */
-static const double SOLVE_TOLERANCE = 1e-4;
+static const double SOLVE_TOLERANCE = 1e-5, NEAR_SOLVE_TOLERANCE = 1e-4;
 /* Progress is held to this; a frame's percent is then exact to 1e-8. */
 static const double PROGRESS_TOLERANCE = 1e-10;
 /* A correction that leaves more than this part of the residual is not converging; three in a row end the attempt. */
@@ -21,18 +21,18 @@ static const double ROUNDING = 1e-13;
 
 /* Eq. (14) with the wish for what progress is off. It is held to the letter: without that, an over-constrained sheet, whose C
  * has one more rank off the path than on it, would trade progress for closure and creep. */
-static int correct_held(rg_fold *f, double off)
+static int correct_held(rg_fold *f, double off, double tol)
 {
     rg_cg_report rep;
     for (int32_t i = 0; i < f->mesh.N; i++) f->wish[i] = off / f->drive.steepness * f->drive.along[i];
-    return rg_project_step(&f->P, &f->K, f->wish, 1, f->drive.along, f->wish, SOLVE_TOLERANCE, &rep) == RG_OK; /* eq. (14) */
+    return rg_project_step(&f->P, &f->K, f->wish, 1, f->drive.along, f->wish, tol, &rep) == RG_OK; /* eq. (14) */
 }
 
 /* Eq. (14) without a wish; what progress is off after that is made good along t, a motion that the facets allow. */
-static int correct_along(rg_fold *f, double off, const double *t)
+static int correct_along(rg_fold *f, double off, double tol, const double *t)
 {
     rg_cg_report rep;
-    if (rg_project_step(&f->P, &f->K, NULL, 1, NULL, f->wish, SOLVE_TOLERANCE, &rep) != RG_OK) return 0;
+    if (rg_project_step(&f->P, &f->K, NULL, 1, NULL, f->wish, tol, &rep) != RG_OK) return 0;
     off -= rg_drive_progress(&f->drive, f->wish);
     for (int32_t i = 0; i < f->mesh.N; i++) f->wish[i] += off * t[i];
     return 1;
@@ -41,7 +41,7 @@ static int correct_along(rg_fold *f, double off, const double *t)
 int rg_newton_close(rg_fold *f, double s, int32_t most_corrections, int near, const double *t)
 {
     const int32_t N = f->mesh.N;
-    const double tol = f->settings.tol;
+    const double tol = f->settings.tol, solve_tol = near ? NEAR_SOLVE_TOLERANCE : SOLVE_TOLERANCE;
     const double far = f->mesh.N <= 3 * f->mesh.M ? NEAR_OVERCONSTRAINED : NEAR;
     double before = INFINITY;
     int poor = 0;
@@ -60,7 +60,7 @@ int rg_newton_close(rg_fold *f, double s, int32_t most_corrections, int near, co
         before = f->closure;
 
         memset(f->P.y, 0, 3 * (size_t)f->mesh.M * sizeof *f->P.y); /* the last answer has nothing to do with this one */
-        if (!(t ? correct_along(f, off, t) : correct_held(f, off))) return 0;
+        if (!(t ? correct_along(f, off, solve_tol, t) : correct_held(f, off, solve_tol))) return 0;
         double most = 0;
         for (int32_t i = 0; i < N; i++) {
             f->trial[i] += f->wish[i];
