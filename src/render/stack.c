@@ -22,8 +22,8 @@ rg_status rg_stack_init(rg_stack *s, const rg_memory *mem, const rg_mesh *m, con
     for (int32_t i = 0; i < t->start[m->nf]; i++)
         area += 0.5 * rg_vec2_turn(m->X[t->v[i][0]], m->X[t->v[i][1]], m->X[t->v[i][2]]);
     s->spacing = sqrt(area / (POINTS + POINTS_A_FACET * m->nf));
-    int32_t **array[] = {&s->below, &s->start, &s->queue, &s->count};
-    for (int i = 0; i < 4; i++)
+    int32_t **array[] = {&s->below, &s->rank, &s->start, &s->queue, &s->count};
+    for (int i = 0; i < 5; i++)
         if (!(*array[i] = rg_mem_array(mem, nf + 1, sizeof **array[i]))) return RG_ENOMEM;
     s->height = rg_mem_array(mem, nf, sizeof *s->height);
     return s->height ? RG_OK : RG_ENOMEM;
@@ -32,8 +32,9 @@ rg_status rg_stack_init(rg_stack *s, const rg_memory *mem, const rg_mesh *m, con
 void rg_stack_free(rg_stack *s)
 {
     if (!s->mem.resize) return;
-    void *block[] = {s->sample, s->sorted, s->place, s->pair, s->below, s->start, s->upper, s->queue, s->height, s->count};
-    for (int i = 0; i < 10; i++) rg_mem_free(&s->mem, block[i]);
+    void *block[] = {s->sample, s->sorted, s->place, s->pair, s->below, s->rank,
+                     s->start, s->upper, s->queue, s->height, s->count};
+    for (int i = 0; i < 11; i++) rg_mem_free(&s->mem, block[i]);
     memset(s, 0, sizeof *s);
 }
 
@@ -240,18 +241,20 @@ static int settle_pairs(rg_stack *s)
     return agree;
 }
 
+static int32_t lower(const rg_stack_pair *p) { return p->above >= 0 ? p->a : p->b; }
+
 static rg_status link_pairs(rg_stack *s, const int32_t *facet, int32_t n)
 {
     const rg_status ok = rg_mem_grow(&s->mem, (void **)&s->upper, &s->upper_room, (size_t)s->pairs, sizeof *s->upper);
     if (ok != RG_OK) return ok;
-    for (int32_t i = 0; i < n; i++) s->below[facet[i]] = 0;
-    memset(s->start, 0, ((size_t)s->mesh->nf + 1) * sizeof *s->start);
-    for (int32_t i = 0; i < s->pairs; i++) s->start[s->pair[i].above >= 0 ? s->pair[i].a : s->pair[i].b]++;
-    for (int32_t f = 0, at = 0; f <= s->mesh->nf; f++) at += s->start[f], s->start[f] = at;
+    for (int32_t i = 0; i < n; i++) s->below[facet[i]] = 0, s->rank[facet[i]] = i;
+    memset(s->start, 0, ((size_t)n + 1) * sizeof *s->start);
+    for (int32_t i = 0; i < s->pairs; i++) s->start[s->rank[lower(&s->pair[i])]]++;
+    for (int32_t k = 0, at = 0; k <= n; k++) at += s->start[k], s->start[k] = at;
     for (int32_t i = s->pairs - 1; i >= 0; i--) {
         const rg_stack_pair *p = &s->pair[i];
-        const int32_t low = p->above >= 0 ? p->a : p->b, high = p->above >= 0 ? p->b : p->a;
-        s->upper[--s->start[low]] = high;
+        const int32_t low = lower(p), high = low == p->a ? p->b : p->a;
+        s->upper[--s->start[s->rank[low]]] = high;
         s->below[high]++;
     }
     return RG_OK;
@@ -284,7 +287,7 @@ static int32_t climb(rg_stack *s, const int32_t *facet, int32_t n, int32_t *leve
         }
         const int32_t f = s->queue[head];
         if (level[f] > top) top = level[f];
-        for (int32_t i = s->start[f]; i < s->start[f + 1]; i++) {
+        for (int32_t i = s->start[s->rank[f]]; i < s->start[s->rank[f] + 1]; i++) {
             const int32_t u = s->upper[i];
             if (s->below[u] == 0) continue; /* has had its turn where a circle was cut */
             if (level[u] <= level[f]) level[u] = level[f] + 1;
@@ -304,7 +307,9 @@ rg_status rg_stack_order(rg_stack *s, const int32_t *facet, int32_t n, rg_vec3 b
     for (int32_t i = 0; ok == RG_OK && i < n; i++) ok = add_facet(s, facet[i], &A, x);
     if (ok == RG_OK) ok = sort_by_point(s);
     if (ok == RG_OK) ok = compare(s, facet, n, &A, x, back);
-    if (ok != RG_OK) return ok;
+    *levels = 1;
+    for (int32_t i = 0; i < n; i++) level[facet[i]] = 0;
+    if (ok != RG_OK || s->pairs == 0) return ok;
     const int agree = settle_pairs(s);
     ok = link_pairs(s, facet, n);
     if (ok != RG_OK || (climb(s, facet, n, level, levels) == 0 && agree)) return ok;

@@ -20,7 +20,8 @@ typedef struct rg_stack {
     int32_t samples, pairs;
     size_t sample_room, sorted_room, place_room, pair_room;
     int32_t *below;           /* [nf] facets right under each that have no level yet */
-    int32_t *start, *upper;   /* [nf + 1], [upper_room] those right above each */
+    int32_t *rank;            /* [nf] of each in its group */
+    int32_t *start, *upper;   /* [group + 1] by rank, [upper_room] those right above each */
     size_t upper_room;
     int32_t *queue;           /* [nf] */
     double *height;           /* [nf] mean height of each before, to cut a circle where it is lowest */
