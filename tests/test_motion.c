@@ -11,6 +11,8 @@
 
 #include "near.h"
 
+#include "corpus.h"
+
 #include "folded.h"
 #include "generate/generate.h"
 #include "motion/motion.h"
@@ -199,6 +201,43 @@ static void closed_vertices_that_splitting_frees(void **state)
     folds(motion_of(generated("closed-split", 0), &s), -1, 0);
     s = with(RG_ADJUST_AUTO, RG_TRIANGULATE_AUTO);
     folds(motion_of(generated("closed-split", 0), &s), -1, 0);
+}
+
+/* No more creases are added than have to be: facets stay whole, and with as few cuts it still folds; none stops short. */
+static void no_more_cuts_than_have_to_be(void **state)
+{
+    (void)state;
+    static const struct { const char *kind; int32_t all, most; } cut[] = {{"tatou", 9, 4}, {"closed-split", 6, 4}, {"open-sink", 6, 5}};
+    for (int k = 0; k < 3; k++) {
+        rg_settings s = with(0, RG_TRIANGULATE_ALL);
+        folds(motion_of(generated(cut[k].kind, 0), &s), cut[k].all, 0);
+        s = with(0, RG_TRIANGULATE_AUTO);
+        rg_motion *m = motion_of(generated(cut[k].kind, 0), &s);
+        assert_string_equal(rg_motion_report(m)->triangulation, "some");
+        assert_true(m->mesh.added > 0 && m->mesh.added <= cut[k].most);
+        folds(m, -1, 0);
+    }
+}
+
+/* The same straight on: around the vertices that block, or all but those that bend least. */
+static void straight_on_with_fewer_cuts(void **state)
+{
+    (void)state;
+    static const char *const files[] = {"opx/by-nc-sa/damashibune.opx", "opx/by-nc-sa/fibonacci.opx"};
+    for (int k = 0; k < 2; k++) {
+        char path[4096];
+        int32_t all = 0;
+        for (int some = 0; some < 2; some++) {
+            const rg_settings s = with(RG_ADJUST_AUTO, some ? RG_TRIANGULATE_AUTO : RG_TRIANGULATE_ALL);
+            rg_pattern *p;
+            assert_int_equal(rg_pattern_read(corpus(files[k], path, sizeof path), &s, &p, NULL), RG_OK);
+            rg_motion *m = motion_of(p, &s);
+            assert_string_equal(rg_motion_report(m)->strategy, "straight on, triangulated");
+            if (some) assert_true(m->mesh.added > 0 && 3 * m->mesh.added <= 2 * all);
+            all = m->mesh.added;
+            folds(m, -1, 0);
+        }
+    }
 }
 
 static void closed_vertices_that_adjusting_frees(void **state)
@@ -412,7 +451,7 @@ int main(void)
         cmocka_unit_test(plain_ways_come_first), cmocka_unit_test(closed_vertices_that_splitting_frees),
         cmocka_unit_test(closed_vertices_that_adjusting_frees), cmocka_unit_test(more_that_fold_adjusted),
         cmocka_unit_test(switched_off_nothing_moves), cmocka_unit_test(what_cannot_fold_is_told), cmocka_unit_test(the_other_way),
-        cmocka_unit_test(a_part_of_the_way), cmocka_unit_test(a_part_too_far),
+        cmocka_unit_test(no_more_cuts_than_have_to_be), cmocka_unit_test(straight_on_with_fewer_cuts), cmocka_unit_test(a_part_of_the_way), cmocka_unit_test(a_part_too_far),
         cmocka_unit_test(the_same_bits_twice), cmocka_unit_test(fold_files_carry_the_pattern_of_each_frame),
         cmocka_unit_test(the_report_file_says_the_same),
     };

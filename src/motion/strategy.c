@@ -1,5 +1,6 @@
 #include "motion/strategy.h"
 #include "base/status.h"
+#include "motion/cuts.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -40,8 +41,9 @@ typedef enum cut { AS_DRAWN, SPLITTING, SHORT } cut;
 
 /* How often half as much give is tried when the pattern folds. */
 static const int32_t LESS_GIVE[] = {0, 2, 5};
-/* How often fewer cuts are tried then; a facet that bends by less (radians) may stay whole, if no vertex goes much farther. */
-static const int32_t FEWER_CUTS[] = {0, 2, 4};
+/* How often fewer cuts are tried then, of a flow and straight on; a facet that bends by less (radians) may stay whole, if no
+ * vertex goes much farther. */
+static const int32_t FEWER_CUTS[] = {0, 3, 8}, FEWER_STRAIGHT[] = {0, 8, 24};
 static const double HARDLY_BENT = 10 * RG_DEG, LITTLE_MORE = 1.1;
 
 static rg_status copy_mesh(const rg_mesh *m, cut how, const unsigned char *which, rg_mesh *out)
@@ -93,42 +95,30 @@ static int consider(rg_choice *c, rg_take *t, const char *triangulation, const c
     return folds;
 }
 
-static rg_status straight(rg_choice *c, const rg_mesh *none, const rg_settings *s, int all, const char *why_all,
-                          rg_watch *watch, rg_diag *why, int *done)
-{
-    rg_mesh m;
-    rg_take t;
-    rg_settings mine = *s;
-    mine.triangulate = all ? RG_TRIANGULATE_ALL : RG_TRIANGULATE_NONE;
-    rg_status status = copy_mesh(none, all ? SPLITTING : AS_DRAWN, NULL, &m);
-    if (status == RG_OK) status = rg_take_straight(&t, &m, &mine, watch, why);
-    if (status != RG_OK) return status;
-    *done = consider(c, &t, all ? "all" : "none", why_all, all ? "straight on, triangulated" : "straight on") || watch->cancelled;
-    return RG_OK;
-}
-
-static void describe(const rg_flow_law *law, cut how, int back, char *text, size_t room)
-{
-    const char *moves = law->give > 0 ? "joint flow, the pattern gives way" : law->gain > 0 ? "flow with adjusted creases" : "flow";
-    snprintf(text, room, "%s%s%s%s%s", moves, how == SPLITTING ? ", triangulated" : how == SHORT ? ", triangulated by short diagonals" : "", law->kawasaki ? ", kept flat-foldable" : "",
-             law->attempts ? ", several starts" : "", back ? ", unfolded from its end" : "");
-}
-
-/* What is tried, besides the law: how facets are cut, and which, NULL: all; whether the motion is found from its end; and the
- * work that is left. */
+/* What is tried, besides the law: how facets are cut, and which, NULL: all; straight on, with no law; whether the motion is
+ * found from its end; and the work that is left, and may be spent on one try. */
 typedef struct way {
     cut how;
     const unsigned char *which;
-    int back;
-    double left;
+    int straight, back;
+    double left, work;
 } way;
+
+static rg_status straight_once(rg_take *t, const rg_mesh *none, const rg_settings *s, const way *w, rg_watch *watch, rg_diag *why)
+{
+    rg_mesh m;
+    rg_settings mine = *s;
+    mine.triangulate = w->how ? RG_TRIANGULATE_ALL : RG_TRIANGULATE_NONE;
+    const rg_status status = copy_mesh(none, w->how, w->which, &m);
+    return status == RG_OK ? rg_take_straight(t, &m, &mine, watch, why) : status;
+}
 
 /* One flow by one law, from flat or, back, from the folded end to flat. */
 static rg_status flow_once(rg_take *t, const rg_mesh *none, const rg_settings *s, const rg_flow_law *law, const way *w,
-                           double budget, rg_watch *watch, rg_diag *why)
+                           rg_watch *watch, rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(s->memory);
-    const double sign = s->to < 0 ? -1 : 1;
+    const double sign = s->to < 0 ? -1 : 1, budget = fmin(w->left, w->work);
     rg_mesh m;
     rg_status status = copy_mesh(none, w->how, w->which, &m);
     if (status != RG_OK) return status;
@@ -156,14 +146,108 @@ static rg_status flow_once(rg_take *t, const rg_mesh *none, const rg_settings *s
     return status;
 }
 
-static rg_status try_flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, const rg_flow_law *law, way *w, double work,
-                          rg_watch *watch, rg_diag *why, int *folds)
+static rg_status once(rg_take *t, const rg_mesh *none, const rg_settings *s, const rg_flow_law *law, way *w, rg_watch *watch,
+                      rg_diag *why)
+{
+    const rg_status status = w->straight ? straight_once(t, none, s, w, watch, why) : flow_once(t, none, s, law, w, watch, why);
+    if (status == RG_OK) w->left -= t->work;
+    return status;
+}
+
+/* Fewer creases are added: is *t still as good? Takes it over. */
+static int take_fewer(rg_choice *c, rg_take *t)
+{
+    c->tries++;
+    add_cost(&c->cost, &t->cost);
+    if (!(rank(t) == 2 && t->mesh.added < c->take.mesh.added && t->moved <= LITTLE_MORE * c->take.moved)) {
+        rg_take_free(t);
+        return 0;
+    }
+    rg_take_free(&c->take);
+    c->take = *t;
+    c->triangulation = "some";
+    c->why_triangulated = "stops short without added creases; facets that hardly bend stay whole";
+    return 1;
+}
+
+/* No more creases should be added than have to be: what folds with all facets cut, with fewer. First with those that cuts say;
+ * then without those that bend least, half of them at once or, where that does not fold or moves the pattern more, half as
+ * many. */
+static rg_status prune(rg_choice *c, rg_cuts *cuts, const rg_settings *s, way *w, rg_watch *watch, rg_diag *why)
+{
+    const int32_t tries = (w->straight ? FEWER_STRAIGHT : FEWER_CUTS)[s->effort];
+    rg_status status = RG_OK;
+    int32_t fewer = cuts->bends;
+    for (int32_t k = 0; status == RG_OK && k < tries && fewer > 0 && w->left > 0 && !watch->cancelled; k++) {
+        const rg_flow_law law = c->take.law;
+        int folds = 0;
+        if (k) rg_cuts_all_but(cuts, fewer);
+        w->which = cuts->which;
+        if (cuts->cut > 0 && cuts->cut < cuts->bends) {
+            rg_take t;
+            status = once(&t, cuts->none, s, &law, w, watch, why);
+            folds = status == RG_OK && take_fewer(c, &t);
+        }
+        if (folds) rg_cuts_measure(cuts, &c->take);
+        const int32_t half = cuts->bends / 2;
+        fewer = k == 0 || (folds && fewer > half) ? half : folds ? fewer : fewer / 2;
+    }
+    w->which = NULL;
+    return status;
+}
+
+static rg_status straight(rg_choice *c, const rg_mesh *none, const rg_settings *s, int may_leave, rg_watch *watch, rg_diag *why,
+                          int *done)
+{
+    const way w = {.how = AS_DRAWN};
+    rg_take t;
+    const rg_status status = straight_once(&t, none, s, &w, watch, why);
+    if (status != RG_OK) return status;
+    *done = consider(c, &t, "none", may_leave ? "folds without added creases" : "asked for", "straight on") || watch->cancelled;
+    return RG_OK;
+}
+
+static rg_status straight_cut(rg_choice *c, const rg_mesh *none, const rg_settings *s, int may_leave, rg_watch *watch,
+                              rg_diag *why, int *done)
+{
+    const rg_memory mem = rg_mem_default(s->memory);
+    const int32_t vertices = c->take.vertices;
+    int32_t *vertex = rg_mem_array(&mem, (size_t)vertices, sizeof *vertex);
+    way w = {.how = SPLITTING, .straight = 1, .left = 1};
+    rg_take t;
+    rg_cuts cuts;
+    if (!vertex) return RG_ENOMEM;
+    for (int32_t i = 0; i < vertices; i++) vertex[i] = c->take.vertex[i];
+    rg_status status = straight_once(&t, none, s, &w, watch, why);
+    if (status == RG_OK)
+        *done = consider(c, &t, "all", may_leave ? "stops short without added creases" : "asked for", "straight on, triangulated");
+    if (status == RG_OK && *done && may_leave) {
+        status = rg_cuts_init(&cuts, &mem, none, &c->take);
+        if (status == RG_OK) {
+            rg_cuts_around(&cuts, vertex, vertices); /* that may be all it takes */
+            status = prune(c, &cuts, s, &w, watch, why);
+        }
+        rg_cuts_free(&cuts);
+    }
+    rg_mem_free(&mem, vertex);
+    *done |= watch->cancelled;
+    return status;
+}
+
+static void describe(const rg_flow_law *law, cut how, int back, char *text, size_t room)
+{
+    const char *moves = law->give > 0 ? "joint flow, the pattern gives way" : law->gain > 0 ? "flow with adjusted creases" : "flow";
+    snprintf(text, room, "%s%s%s%s%s", moves, how == SPLITTING ? ", triangulated" : how == SHORT ? ", triangulated by short diagonals" : "", law->kawasaki ? ", kept flat-foldable" : "",
+             law->attempts ? ", several starts" : "", back ? ", unfolded from its end" : "");
+}
+
+static rg_status try_flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, const rg_flow_law *law, way *w, rg_watch *watch,
+                          rg_diag *why, int *folds)
 {
     rg_take t;
     char text[160];
-    const rg_status status = flow_once(&t, none, s, law, w, fmin(w->left, work), watch, why);
+    const rg_status status = once(&t, none, s, law, w, watch, why);
     if (status != RG_OK) return status;
-    w->left -= t.work;
     describe(law, w->how, w->back, text, sizeof text);
     *folds = consider(c, &t, w->how ? "all" : "none", w->how ? "stops short without added creases"
                     : s->triangulate == RG_TRIANGULATE_AUTO     ? "folds without added creases"
@@ -172,78 +256,43 @@ static rg_status try_flow(rg_choice *c, const rg_mesh *none, const rg_settings *
 }
 
 /* The pattern should give way no more than it has to: half as readily, while that still folds and moves it less. */
-static rg_status economise(rg_choice *c, const rg_mesh *none, const rg_settings *s, rg_flow_law law, way *w, double work,
-                           rg_watch *watch, rg_diag *why)
+static rg_status economise(rg_choice *c, const rg_mesh *none, const rg_settings *s, rg_flow_law law, way *w, rg_watch *watch,
+                           rg_diag *why)
 {
     rg_status status = RG_OK;
     for (int n = 0, folds = 1; n < LESS_GIVE[s->effort] && folds && w->left > 0 && !watch->cancelled && status == RG_OK; n++) {
         law.give /= 2;
-        status = try_flow(c, none, s, &law, w, work, watch, why, &folds);
+        status = try_flow(c, none, s, &law, w, watch, why, &folds);
     }
     return status;
 }
 
-/* Facets that bend by `least` or more somewhere in the kept motion; how many that is. Added creases come facet by facet. */
-static int32_t mark_bending(const rg_take *t, const rg_mesh *none, double least, unsigned char *which)
-{
-    const size_t N = (size_t)t->mesh.N;
-    int32_t i = t->mesh.N - t->mesh.added, n = 0;
-    for (int32_t f = 0; f < none->nf; f++) {
-        which[f] = 0;
-        for (int32_t k = none->facet_start[f] + 3; k < none->facet_start[f + 1] && i < t->mesh.N; k++, i++)
-            for (int32_t frame = 0; frame < t->count; frame++)
-                which[f] |= fabs(t->rho[(size_t)frame * N + (size_t)i]) >= least;
-        n += which[f];
-    }
-    return n;
-}
-
-/* No more creases should be added than have to be: facets that hardly bend stay whole, if it folds then and moves the
- * pattern little more. */
-static rg_status prune(rg_choice *c, const rg_mesh *none, const rg_settings *s, way *w, double work, rg_watch *watch, rg_diag *why)
+/* The same of a flow: facets that hardly bend may stay whole. */
+static rg_status prune_flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, way *w, rg_watch *watch, rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(s->memory);
-    unsigned char *which = rg_mem_array(&mem, (size_t)none->nf, 1);
-    rg_status status = which ? RG_OK : RG_ENOMEM;
-    for (int n = 0; status == RG_OK && n < FEWER_CUTS[s->effort] && w->left > 0 && !watch->cancelled; n++) {
-        rg_take t;
-        const int32_t bending = mark_bending(&c->take, none, HARDLY_BENT * (n + 1), which);
-        if (bending == 0 || c->take.mesh.added == 0) break;
-        const rg_flow_law law = c->take.law;
-        w->which = which;
-        status = flow_once(&t, none, s, &law, w, fmin(w->left, work), watch, why);
-        if (status != RG_OK) break;
-        w->left -= t.work;
-        c->tries++;
-        add_cost(&c->cost, &t.cost);
-        const int better = rank(&t) == 2 && t.mesh.added < c->take.mesh.added && t.moved <= LITTLE_MORE * c->take.moved;
-        if (better) {
-            rg_take_free(&c->take);
-            c->take = t;
-            c->triangulation = "some";
-            c->why_triangulated = "stops short without added creases; facets that hardly bend stay whole";
-        } else {
-            rg_take_free(&t);
-            break;
-        }
+    rg_cuts cuts;
+    rg_status status = rg_cuts_init(&cuts, &mem, none, &c->take);
+    if (status == RG_OK && c->take.mesh.added > 0) {
+        rg_cuts_bending(&cuts, HARDLY_BENT);
+        status = prune(c, &cuts, s, w, watch, why);
     }
-    rg_mem_free(&mem, which);
+    rg_cuts_free(&cuts);
     return status;
 }
 
 static rg_status flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, int all, int may_leave, rg_watch *watch,
                       rg_diag *why)
 {
-    double work;
     int folds = 0;
     rg_flow_law law;
     rg_status status = RG_OK;
-    way w = {AS_DRAWN, NULL, 0, MOST_WORK[s->effort]};
-    if (all && may_leave && rg_strategy_law(s, 0, &law, &work) > 0) {
-        status = try_flow(c, none, s, &law, &w, work, watch, why, &folds);
+    way w = {.how = AS_DRAWN, .left = MOST_WORK[s->effort]};
+    if (all && may_leave && rg_strategy_law(s, 0, &law, &w.work) > 0) {
+        status = try_flow(c, none, s, &law, &w, watch, why, &folds);
         if (status != RG_OK || folds) return status;
     }
-    for (int32_t n = 0, use; (use = rg_strategy_law(s, n, &law, &work)) >= 0; n++)
+    for (int32_t n = 0, use; (use = rg_strategy_law(s, n, &law, &w.work)) >= 0; n++)
         for (int k = 0; use && k < 4; k++) {
             const int shorter = k / 2;
             w.back = k % 2;
@@ -251,11 +300,11 @@ static rg_status flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, i
             if (w.back && !(law.give > 0 && s->to != 0)) continue;
             if (shorter && (!all || law.gain == 0)) continue;
             if (!(w.left > 0) || watch->cancelled) return RG_OK;
-            status = try_flow(c, none, s, &law, &w, work, watch, why, &folds);
+            status = try_flow(c, none, s, &law, &w, watch, why, &folds);
             if (status != RG_OK) return status;
             if (!folds) continue;
-            if (law.give > 0) status = economise(c, none, s, law, &w, work, watch, why);
-            if (status == RG_OK && may_leave) status = prune(c, none, s, &w, work, watch, why);
+            if (law.give > 0) status = economise(c, none, s, law, &w, watch, why);
+            if (status == RG_OK && may_leave) status = prune_flow(c, none, s, &w, watch, why);
             return status;
         }
     return RG_OK;
@@ -269,9 +318,9 @@ rg_status rg_strategy_run(rg_choice *c, const rg_mesh *none, const rg_settings *
     memset(c, 0, sizeof *c);
     rg_status status = RG_OK;
     if (may_leave || triangles)
-        status = straight(c, none, s, 0, may_add && may_leave ? "folds without added creases" : "asked for", watch, why, &done);
+        status = straight(c, none, s, may_add && may_leave, watch, why, &done);
     if (status == RG_OK && !done && may_add && !triangles)
-        status = straight(c, none, s, 1, may_leave ? "stops short without added creases" : "asked for", watch, why, &done);
+        status = straight_cut(c, none, s, may_leave, watch, why, &done);
     /* Who asks for a method and no adjustment asks for that and nothing else. */
     if (status == RG_OK && !done && !(s->method != RG_METHOD_AUTO && s->adjust == 0))
         status = flow(c, none, s, may_add && !triangles, may_leave, watch, why);

@@ -1,10 +1,10 @@
 /* strategy.h -- what is tried, in which order, until the pattern folds; and which try is kept.
- * Paper    sections 3.1 to 3.4        Uses  take.h        Used by  motion.c
+ * Paper    sections 3.1 to 3.4        Uses  take.h cuts.h        Used by  motion.c
  *
  * First without added creases, then with all facets cut into triangles, each straight on; then, where that is blocked, the
  * flow on triangles: first with the pattern as it is, then with its vertices moving as section 3.3 has it, then giving way
  * more and more. The first that folds is kept, so what moves the pattern least comes first; if none does, the one
- * that came farthest. */
+ * that came farthest. What folds with all facets cut is then tried with fewer of them cut. */
 #ifndef RG_STRATEGY_H
 #define RG_STRATEGY_H
 
