@@ -89,12 +89,14 @@ static void count_held(const rg_motion *m, int32_t *locked, int32_t *at_limit)
 }
 
 /* Where and why the kept try is held, in words: the strongest vertex and what it is, the creases, what may help. */
-static void explain(rg_motion *m, const rg_pattern *p)
+static rg_status explain(rg_motion *m, const rg_pattern *p)
 {
     rg_report *r = &m->report;
-    if (r->outcome != RG_STOPPED || !r->blocking_vertex_count) return;
+    if (r->outcome != RG_STOPPED || !r->blocking_vertex_count) return RG_OK;
     const double x = r->blocking_at[0][0], y = r->blocking_at[0][1];
     int32_t creases = 0, closed = 0, locked, at_limit, ways;
+    const rg_status s = rg_motion_mobility(m, r->frame_count - 1, &ways);
+    if (s != RG_OK && s != RG_EABSENT) return s;
     for (int32_t i = 0; i < m->mesh.N - m->mesh.added; i++) {
         const int32_t *end = m->mesh.edge[m->mesh.crease_edge[i]];
         creases += end[0] == r->blocking_vertices[0] || end[1] == r->blocking_vertices[0];
@@ -106,11 +108,12 @@ static void explain(rg_motion *m, const rg_pattern *p)
                        : m->settings.adjust == 0                      ? "adjusting creases may help"
                                                                       : "nothing known helps";
     size_t used = strlen(r->reason);
-    if (rg_motion_mobility(m, r->frame_count - 1, &ways) == RG_OK)
+    if (s == RG_OK)
         used += (size_t)snprintf(r->reason + used, sizeof r->reason - used, "; ways it could go to first order: %d", (int)ways);
     snprintf(r->reason + used, sizeof r->reason - used,
              "; held most at (%.6g, %.6g), a %svertex of %d creases (%d free); creases locked flat: %d, at half a turn: %d; %s", x, y,
              closed ? "closed " : "", (int)creases, (int)(creases > 3 ? creases - 3 : 0), (int)locked, (int)at_limit, help);
+    return RG_OK;
 }
 
 /* What the kept try has, becomes the motion's. */
@@ -190,12 +193,12 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_
     if (s == RG_EARG && m->mesh.nf > 0)
         rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)settings->fixed_facet, (int)m->mesh.nf - 1);
     if (s == RG_OK) s = rg_measure_frames(m);
+    if (s == RG_OK && !watch.cancelled) s = explain(m, p);
     rg_mesh_free(&none);
     if (s != RG_OK) {
         rg_motion_destroy(m);
         return s == RG_ENOMEM ? rg_fail(s, why, 0, "out of memory") : s;
     }
-    if (!watch.cancelled) explain(m, p);
     r->seconds_total = seconds() - begun;
     *motion = m;
     return RG_OK;

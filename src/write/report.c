@@ -29,14 +29,13 @@ void rg_report_pattern(rg_json *j, const rg_pattern_info *info)
 }
 
 /* null: not known in this build. */
-static void mobility(rg_json *j, const char *key, const rg_motion *m, int32_t frame)
+static void mobility(rg_json *j, const char *key, int32_t ways)
 {
-    int32_t ways;
-    if (rg_motion_mobility(m, frame, &ways) == RG_OK) rg_json_integer(j, key, ways);
+    if (ways >= 0) rg_json_integer(j, key, ways);
     else rg_json_number(j, key, NAN);
 }
 
-static void model(rg_json *j, const rg_motion *m)
+static void model(rg_json *j, const rg_motion *m, int32_t ways)
 {
     const rg_report *r = &m->report;
     rg_json_open(j, "model", '{');
@@ -44,7 +43,7 @@ static void model(rg_json *j, const rg_motion *m)
     rg_json_integer(j, "unknowns", r->unknowns);
     rg_json_integer(j, "constraints", r->constraints);
     rg_json_integer(j, "components", r->components);
-    mobility(j, "mobility", m, r->frame_count / 2);
+    mobility(j, "mobility", ways);
     rg_json_string(j, "triangulation", r->triangulation);
     rg_json_string(j, "why_triangulated", r->why_triangulated);
     rg_json_close(j);
@@ -79,7 +78,7 @@ static void blocking(rg_json *j, const rg_report *r)
     rg_json_integers(j, "blocking_creases", r->blocking_creases, r->blocking_crease_count);
 }
 
-static void result(rg_json *j, const rg_motion *m)
+static void result(rg_json *j, const rg_motion *m, int32_t ways)
 {
     const rg_report *r = &m->report;
     rg_json_open(j, "result", '{');
@@ -94,7 +93,7 @@ static void result(rg_json *j, const rg_motion *m)
     rg_json_number(j, "max_adjustment", r->max_adjustment);
     rg_json_number(j, "max_strain_from_original", r->max_strain_from_original);
     rg_json_integer(j, "wrong_side_creases", r->wrong_side_creases);
-    mobility(j, "mobility_at_end", m, r->frame_count - 1);
+    mobility(j, "mobility_at_end", ways);
     blocking(j, r);
     rg_json_number(j, "first_contact_frame", NAN); /* null: contact of facets is not looked for */
     rg_json_close(j);
@@ -114,9 +113,13 @@ static void states(rg_json *j, const rg_report *r)
 rg_status rg_report_write(const rg_motion *m, double seconds_writing, double peak_bytes, const char *file, rg_diag *why)
 {
     const rg_report *r = &m->report;
+    int32_t half_way = -1, at_end = -1;
     rg_json j;
     rg_file out;
-    rg_status s = rg_file_begin(&out, &m->mem, file, why);
+    rg_status s = rg_motion_mobility(m, r->frame_count / 2, &half_way);
+    if (s == RG_OK) s = rg_motion_mobility(m, r->frame_count - 1, &at_end);
+    if (s == RG_ENOMEM) return rg_fail(s, why, 0, "out of memory for the report");
+    s = rg_file_begin(&out, &m->mem, file, why);
     if (s != RG_OK) return s;
     rg_json_begin(&j, out.stream);
     rg_json_open(&j, NULL, '{');
@@ -124,9 +127,9 @@ rg_status rg_report_write(const rg_motion *m, double seconds_writing, double pea
     rg_json_open(&j, "pattern", '{');
     rg_report_pattern(&j, &r->pattern);
     rg_json_close(&j);
-    model(&j, m);
+    model(&j, m, half_way);
     run(&j, r, seconds_writing, peak_bytes);
-    result(&j, m);
+    result(&j, m, at_end);
     states(&j, r);
     rg_json_open(&j, "frames", '[');
     for (int32_t k = 0; k < r->frame_count; k++) {
