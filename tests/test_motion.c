@@ -309,6 +309,39 @@ static void the_other_way(void **state)
     folds(m, -1, 1);
 }
 
+static int until(void *ctx, double progress)
+{
+    int32_t *left = ctx;
+    assert_true(progress >= 0 && progress <= 1);
+    return --*left <= 0;
+}
+
+/* Stopped in whichever try, that is what is told, unless what was there already folds; and what is there is a motion. */
+static void interrupted(void **state)
+{
+    (void)state;
+    int stopped = 0, folded = 0, later = 0;
+    for (int32_t after = 1; !folded; after += 1 + after / 3) {
+        const rg_settings s = with(RG_ADJUST_AUTO, RG_TRIANGULATE_AUTO);
+        int32_t left = after;
+        rg_motion *m = NULL;
+        rg_pattern *p = generated("closed-adjust", 0);
+        assert_int_equal(rg_motion_create(p, &s, until, &left, &m, NULL), RG_OK);
+        rg_pattern_destroy(p);
+        const rg_report *r = rg_motion_report(m);
+        assert_true(r->frame_count >= 1);
+        folded = r->outcome == RG_FOLDED;
+        if (!folded) {
+            assert_string_equal(r->reason, "interrupted");
+            stopped++;
+            later += r->tries > 2;
+        }
+        the_report_is_true(m);
+        rg_motion_destroy(m);
+    }
+    assert_true(stopped > 3 && later > 1);
+}
+
 /* A part of the way is a mean of creases that have all left flat, by whatever way the pattern folds; in even frames. */
 static void a_part_of_the_way(void **state)
 {
@@ -451,7 +484,7 @@ int main(void)
         cmocka_unit_test(plain_ways_come_first), cmocka_unit_test(closed_vertices_that_splitting_frees),
         cmocka_unit_test(closed_vertices_that_adjusting_frees), cmocka_unit_test(more_that_fold_adjusted),
         cmocka_unit_test(switched_off_nothing_moves), cmocka_unit_test(what_cannot_fold_is_told), cmocka_unit_test(the_other_way),
-        cmocka_unit_test(no_more_cuts_than_have_to_be), cmocka_unit_test(straight_on_with_fewer_cuts), cmocka_unit_test(a_part_of_the_way), cmocka_unit_test(a_part_too_far),
+        cmocka_unit_test(interrupted), cmocka_unit_test(no_more_cuts_than_have_to_be), cmocka_unit_test(straight_on_with_fewer_cuts), cmocka_unit_test(a_part_of_the_way), cmocka_unit_test(a_part_too_far),
         cmocka_unit_test(the_same_bits_twice), cmocka_unit_test(fold_files_carry_the_pattern_of_each_frame),
         cmocka_unit_test(the_report_file_says_the_same),
     };

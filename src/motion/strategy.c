@@ -237,7 +237,8 @@ static rg_status straight_cut(rg_choice *c, const rg_mesh *none, const rg_settin
 static void describe(const rg_flow_law *law, cut how, int back, char *text, size_t room)
 {
     const char *moves = law->give > 0 ? "joint flow, the pattern gives way" : law->gain > 0 ? "flow with adjusted creases" : "flow";
-    snprintf(text, room, "%s%s%s%s%s", moves, how == SPLITTING ? ", triangulated" : how == SHORT ? ", triangulated by short diagonals" : "", law->kawasaki ? ", kept flat-foldable" : "",
+    const char *cuts = how == SPLITTING ? ", triangulated" : how == SHORT ? ", triangulated by short diagonals" : "";
+    snprintf(text, room, "%s%s%s%s%s", moves, cuts, law->kawasaki ? ", kept flat-foldable" : "",
              law->attempts ? ", several starts" : "", back ? ", unfolded from its end" : "");
 }
 
@@ -249,9 +250,10 @@ static rg_status try_flow(rg_choice *c, const rg_mesh *none, const rg_settings *
     const rg_status status = once(&t, none, s, law, w, watch, why);
     if (status != RG_OK) return status;
     describe(law, w->how, w->back, text, sizeof text);
-    *folds = consider(c, &t, w->how ? "all" : "none", w->how ? "stops short without added creases"
-                    : s->triangulate == RG_TRIANGULATE_AUTO     ? "folds without added creases"
-                                                                : "asked for", text);
+    const char *cause = w->how                                    ? "stops short without added creases"
+                        : s->triangulate == RG_TRIANGULATE_AUTO ? "folds without added creases"
+                                                                : "asked for";
+    *folds = consider(c, &t, w->how ? "all" : "none", cause, text);
     return RG_OK;
 }
 
@@ -326,6 +328,9 @@ rg_status rg_strategy_run(rg_choice *c, const rg_mesh *none, const rg_settings *
         status = flow(c, none, s, may_add && !triangles, may_leave, watch, why);
     if (status == RG_OK && c->take.outcome != RG_FOLDED && strcmp(c->triangulation, "none") == 0 && may_add && may_leave && !triangles)
         c->why_triangulated = "added creases get it no further";
+    /* Of a search that was cut short the best so far is kept, which need not be the try that was cut short. */
+    if (status == RG_OK && watch->cancelled && c->take.outcome != RG_FOLDED)
+        snprintf(c->take.reason, sizeof c->take.reason, "interrupted");
     if (status != RG_OK) rg_take_free(&c->take);
     return status;
 }
