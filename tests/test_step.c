@@ -193,7 +193,7 @@ static void even_out(rg_step *A)
     for (int32_t j = 0; j < A->start[A->columns]; j++) A->x[j] /= sqrt(square[A->row[j]]);
 }
 
-/* What no column can do is left alone: the step is that for the part of b within reach, or none; it never makes it worse. */
+/* What no column can do is left alone: the step is that for the part of b within reach, by A^T A x = A^T b. */
 static void out_of_reach(void **state)
 {
     (void)state;
@@ -212,7 +212,12 @@ static void out_of_reach(void **state)
         for (int32_t i = 0; i < rows; i++) was += b[i] * b[i], is += (b[i] - Ax[i]) * (b[i] - Ax[i]);
         below(is, was * (1 + 1e-9));
         project_on_rows(&d, x, onto);
-        for (int32_t i = 0; i < A.columns; i++) near(x[i], onto[i], 1e-5);
+        for (int32_t i = 0; i < A.columns; i++) near(x[i], onto[i], 1e-8);
+        for (int32_t c = 0; c < A.columns; c++) {
+            double left = 0;
+            for (int32_t i = 0; i < rows; i++) left += d.a[i][c] * (b[i] - Ax[i]);
+            near(left, 0, 1e-7);
+        }
         rg_step_free(&A);
     }
 }

@@ -11,6 +11,8 @@ static const int32_t ITERATIONS_WITH_FACTOR = 6, ITERATIONS_PER_ROW = 4;
 /* Curvature over what the preconditioner makes of the residual is lambda / (lambda + beta) along a mode of A A^T: what is
  * below is rounding in modes that no column can turn, and a step along it would be nothing but noise. */
 static const double OUT_OF_REACH = 0.1, OUT_OF_REACH_OF_DIAGONAL = 1e-14;
+/* Each leaves some 1e-5 of what is out of reach, rounding over beta. */
+static const int PASSES = 2;
 /* Part of b, in the metric of the preconditioner, that is not chased further. */
 static const double TOLERANCE = 1e-12;
 
@@ -160,8 +162,8 @@ static void precondition(rg_step *A, const double *r, double *z)
         for (int32_t i = 0; i < A->rows; i++) z[i] = A->diagonal[i] * r[i];
 }
 
-/* Conjugate gradients on A A^T y = b. */
-static void iterate_with_factor(rg_step *A)
+/* Conjugate gradients on A A^T y = b. Zero: what is out of reach outweighs the rest, and y is what it was. */
+static int iterate_with_factor(rg_step *A)
 {
     const int32_t m = A->rows;
     double gamma = dot(m, A->r, A->z);
@@ -170,7 +172,7 @@ static void iterate_with_factor(rg_step *A)
         rg_step_mul_t(A, A->p, A->t);
         rg_step_mul(A, A->t, A->q);
         const double curvature = dot(m, A->p, A->q);
-        if (!(curvature > OUT_OF_REACH * gamma)) break; /* nothing left to move, or NaN */
+        if (!(curvature > OUT_OF_REACH * gamma)) return n > 0; /* nothing left to move, or NaN */
         const double alpha = gamma / curvature;
         for (int32_t i = 0; i < m; i++) A->y[i] += alpha * A->p[i];
         for (int32_t i = 0; i < m; i++) A->r[i] -= alpha * A->q[i];
@@ -180,6 +182,17 @@ static void iterate_with_factor(rg_step *A)
         for (int32_t i = 0; i < m; i++) A->p[i] = A->z[i] + gamma / old * A->p[i];
         A->iterations++;
     }
+    return 1;
+}
+
+/* What no column reaches is beta z, but for rounding, as (A A^T + beta I) z = r: takes that off r. */
+static void leave_out_of_reach(rg_step *A)
+{
+    for (int pass = 0; pass < PASSES; pass++) {
+        for (int32_t i = 0; i < A->rows; i++) A->r[i] -= A->beta * A->z[i];
+        precondition(A, A->r, A->z);
+    }
+    memcpy(A->p, A->z, (size_t)A->rows * sizeof *A->p);
 }
 
 /* Conjugate gradients on A^T D A x = A^T D b, D the inverse of the diagonal: the part of b that no column reaches, which many
@@ -215,8 +228,12 @@ void rg_step_solve(rg_step *A, const double *b, double *x)
     memcpy(A->r, b, (size_t)m * sizeof *A->r);
     precondition(A, A->r, A->z);
     memcpy(A->p, A->z, (size_t)m * sizeof *A->p);
-    if (rg_supernodal_built()) iterate_with_factor(A);
-    else iterate_with_diagonal(A, x);
+    if (!rg_supernodal_built()) {
+        iterate_with_diagonal(A, x);
+    } else if (!iterate_with_factor(A)) {
+        leave_out_of_reach(A);
+        iterate_with_factor(A);
+    }
     A->solves++;
     rg_step_mul_t(A, A->y, x);
 }

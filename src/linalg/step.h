@@ -32,7 +32,8 @@ void rg_step_renew(rg_step *A);
 /* y[rows] = A x[columns]; x = A^T y */
 void rg_step_mul(const rg_step *A, const double *x, double *y);
 void rg_step_mul_t(const rg_step *A, const double *y, double *x);
-/* x[columns]: out. A->y: how hard each row resists. Allocates nothing. */
+/* x[columns]: out. A->y: how hard each row resists. Where no x does what b asks, it is the least of those whose
+ * A x comes nearest to b. Allocates nothing. */
 void rg_step_solve(rg_step *A, const double *b, double *x);
 
 #endif
