@@ -29,15 +29,13 @@ endif
 
 B := build/$(config)$(if $(filter-out osmesa,$(GL)),-gl-$(GL))$(if $(filter 0,$(GPL)),-nogpl)$(if $(filter clang%,$(CC)),-clang)$(if $(filter 1,$(WERROR)),-werror)
 
-# PNG files are packed by libdeflate, or by zlib where that is not there.
-deflate := $(shell pkg-config --exists libdeflate 2>/dev/null && echo libdeflate || echo zlib)
-pkgs := libxml-2.0 jansson $(deflate)
+pkgs := libxml-2.0 jansson libpng zlib
 gl_osmesa := osmesa
 gl_egl    := egl gl
 pkgs += $(gl_$(GL))
 
 # In lower case what the project needs; CPPFLAGS, CFLAGS, LDFLAGS, LDLIBS stay the caller's.
-cppflags := -Iinclude -Isrc -D_XOPEN_SOURCE=700 -DRG_GL_$(GL)=1 $(if $(filter libdeflate,$(deflate)),-DRG_LIBDEFLATE=1) $(shell pkg-config --cflags $(pkgs) 2>/dev/null)
+cppflags := -Iinclude -Isrc -D_XOPEN_SOURCE=700 -DRG_GL_$(GL)=1 $(shell pkg-config --cflags $(pkgs) 2>/dev/null)
 cflags   := -std=c11 -fPIC -fvisibility=hidden -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes \
             -Wmissing-prototypes -Wvla -Wpointer-arith -Wwrite-strings
 libs     := $(shell pkg-config --libs $(pkgs) 2>/dev/null) -lgif -lpthread -lm
@@ -114,7 +112,7 @@ $B/rigami: $(cmd_o) $B/librigami.a
 # Tests see the library's inside, so they link the archive.
 $B/tests/test_%: $B/tests/test_%.o $B/librigami.a
 	$(call say,link,$@)
-	$Q$(link) -o $@ $(filter %.o %.a,$^) -lcmocka -lpng -lz $(if $(filter 1,$(GPL)),-lgsl -lgslcblas) $(libs) $(LDLIBS)
+	$Q$(link) -o $@ $(filter %.o %.a,$^) -lcmocka $(if $(filter 1,$(GPL)),-lgsl -lgslcblas) $(libs) $(LDLIBS)
 
 $B/tests/stability: $B/tests/stability.o $B/librigami.a
 	$(call say,link,$@)

@@ -241,27 +241,6 @@ static void frames_are_numbered(void **state)
     rg_motion_destroy(m);
 }
 
-/* Readers do not all look at these: every chunk ends with the sum that zlib finds. */
-static void chunks_have_their_sums(void **state)
-{
-    static const char *const kinds = "IHDR sRGB tEXt IDAT IEND ";
-    (void)state;
-    skip_without_gl();
-    rg_motion *m = some_motion(FRAMES);
-    write_by(m, in("x.png"), 0);
-    bytes b = slurp(in("x.png"));
-    char found[60] = "";
-    for (size_t at = 8; at < b.n; at += 12 + number(b.at + at)) {
-        const uint32_t n = number(b.at + at);
-        assert_true(at + 12 + n <= b.n && strlen(found) + 6 < sizeof found);
-        assert_int_equal(crc32(0, b.at + at + 4, 4 + n), number(b.at + at + 8 + n));
-        snprintf(found + strlen(found), 6, "%.4s ", (const char *)b.at + at + 4);
-    }
-    assert_string_equal(found, kinds);
-    free(b.at);
-    rg_motion_destroy(m);
-}
-
 static void a_shorter_run_leaves_no_frames_of_a_longer_one(void **state)
 {
     (void)state;
@@ -681,7 +660,6 @@ int main(void)
         in_a_folder(forms_are_told_by_their_names),
         in_a_folder(a_build_without_gl_says_so),
         in_a_folder(frames_are_numbered),
-        in_a_folder(chunks_have_their_sums),
         in_a_folder(a_shorter_run_leaves_no_frames_of_a_longer_one),
         in_a_folder(threads_change_nothing),
         in_a_folder(apng_frames_are_the_pictures),

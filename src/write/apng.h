@@ -1,5 +1,5 @@
 /* apng.h -- an animation as APNG: true colour, and of each picture only the rectangle that changed.
- * Uses  png.h        Used by  film.c */
+ * Uses  base        Used by  film.c */
 #ifndef RG_APNG_H
 #define RG_APNG_H
 

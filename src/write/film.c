@@ -68,7 +68,7 @@ static rg_status write_png(const rg_memory *mem, const char *path, const rg_pict
     rg_file file;
     rg_status s = rg_file_begin(&file, mem, path, why);
     if (s != RG_OK) return s;
-    s = rg_png_write(mem, file.stream, p->width, p->height, rgb, why);
+    s = rg_png_write(file.stream, p->width, p->height, rgb, why);
     if (s == RG_OK) return rg_file_commit(&file, why);
     rg_file_abandon(&file);
     return name_it(s, path, why);

@@ -68,13 +68,17 @@ static void warning(rg_json *j, const rg_diag *w)
     rg_json_close(j);
 }
 
+static int32_t listed(const rg_likeness *l) { return l->mirrors < RG_MOST_MIRRORS ? l->mirrors : RG_MOST_MIRRORS; }
+
 static void symmetry(rg_json *j, const rg_alike *a)
 {
     rg_json_open_line(j, "symmetry", '{');
     rg_json_integer(j, "turns", a->same.turns);
-    rg_json_numbers(j, "mirrors_deg", a->same.mirror, a->same.mirrors);
+    rg_json_numbers(j, "mirrors_deg", a->same.mirror, listed(&a->same));
+    rg_json_integer(j, "mirrors", a->same.mirrors);
     rg_json_integer(j, "exchanging_turns", a->exchanged.turns);
-    rg_json_numbers(j, "exchanging_mirrors_deg", a->exchanged.mirror, a->exchanged.mirrors);
+    rg_json_numbers(j, "exchanging_mirrors_deg", a->exchanged.mirror, listed(&a->exchanged));
+    rg_json_integer(j, "exchanging_mirrors", a->exchanged.mirrors);
     rg_json_close(j);
 }
 
@@ -138,9 +142,10 @@ static void likeness(const rg_likeness *l, int32_t all, FILE *out)
 {
     if (l->turns && all > 1) fprintf(out, "turns by %.6g degrees", 360.0 / all);
     if (l->turns && all > 1 && l->mirrors) fprintf(out, ", ");
-    for (int32_t i = 0; i < l->mirrors; i++)
+    if (l->mirrors > listed(l)) fprintf(out, "%d ", (int)l->mirrors);
+    for (int32_t i = 0; i < listed(l); i++)
         fprintf(out, "%s%.4g", i ? ", " : plural(l->mirrors, "mirror at ", "mirrors at "), round(1e4 * l->mirror[i]) / 1e4);
-    if (l->mirrors) fprintf(out, " degrees");
+    if (l->mirrors) fprintf(out, "%s degrees", l->mirrors > listed(l) ? " ..." : "");
 }
 
 static void symmetries(const rg_alike *a, FILE *out)

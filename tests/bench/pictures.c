@@ -102,7 +102,7 @@ static void paint(const rg_motion *m, const rg_picture *p, bill *b)
         const double laid = cpu();
         must(rg_render_frame(render, x, lift, &camera, rgb, &why), "frame", &why);
         const double drawn = cpu();
-        must(rg_png_write(&m->mem, null, p->width, p->height, rgb, &why), "png", &why);
+        must(rg_png_write(null, p->width, p->height, rgb, &why), "png", &why);
         sum[LAYERS] += laid - begun, sum[DRAWING] += drawn - laid, sum[PACKING] += cpu() - drawn;
     }
     for (int part = FRAMING; part <= PACKING; part++) least(b, part, sum[part]);
