@@ -147,7 +147,6 @@ static rg_status fill(rg_chart *c, const rg_mesh *none, const rg_mesh *all, watc
     tick(w);
     if (s == RG_OK) s = rg_model_fold(&c->none, none, &c->settings, none->N, &c->ref.frames, why);
     if (s == RG_OK) s = rg_model_fold(&c->all, all, &c->settings, none->N, &c->ref.frames, why);
-    if (s == RG_OK) s = rg_symmetry_find(&c->symmetry, &c->mem, none);
     tick(w);
     return s;
 }
@@ -165,6 +164,7 @@ rg_status rg_chart_create(const rg_pattern *p, const rg_settings *settings, rg_p
     else s = RG_ENOMEM;
     if (s == RG_OK && none.M == 0) s = rg_fail(RG_EARG, why, 0, "no vertex inside the sheet: there is nothing to solve");
     if (s == RG_OK) s = rg_triangulate_all(&none, &all);
+    if (s == RG_OK) s = rg_alike_find(p, &c->alike);
     if (s == RG_OK) s = fill(c, &none, &all, &w, why);
     rg_mesh_free(&none);
     rg_mesh_free(&all);

@@ -1,11 +1,12 @@
 /* chart.h -- speed against accuracy of one pattern: every method with every solver, over a range of steps.
- * Uses  reference.h order.h model.h        Used by  table.c plot.c */
+ * Uses  reference.h order.h model.h alike.h        Used by  table.c plot.c */
 #ifndef RG_CHART_H
 #define RG_CHART_H
 
 #include "chart/model.h"
 #include "chart/order.h"
 #include "chart/reference.h"
+#include "pattern/alike.h"
 
 #include <stdio.h>
 
@@ -24,7 +25,7 @@ struct rg_chart {
     double from, to;            /* progress: the stretch that the orders are of */
     rg_model none, all;
     int32_t edges_all, nodes;   /* of the sheet cut into triangles */
-    rg_symmetry symmetry;
+    rg_alike alike;             /* of the sheet as drawn */
 };
 
 /* It went all the way, to every frame. */

@@ -1,18 +1,9 @@
-/* model.h -- how much of a model a sheet needs, and what its symmetries would save.
+/* model.h -- how much of a model a sheet needs.
  * Paper    section 3.2 (what triangulation adds)        Uses  run.h        Used by  chart.c */
 #ifndef RG_MODEL_H
 #define RG_MODEL_H
 
 #include "chart/run.h"
-
-/* Turns by multiples of 60 and 90 degrees and mirrors in lines at multiples of 15 degrees, through the mean of the vertices, as
- * far as they take every edge to one of the same or, all together, of the opposite target. */
-typedef struct rg_symmetry {
-    int32_t order;              /* how many, the identity among them */
-    int32_t creases, vertices;  /* orbits of creases and of interior vertices */
-} rg_symmetry;
-
-rg_status rg_symmetry_find(rg_symmetry *y, const rg_memory *mem, const rg_mesh *m);
 
 /* One way to model a sheet. */
 typedef struct rg_model {

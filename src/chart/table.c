@@ -192,8 +192,8 @@ static void models(const rg_chart *c, FILE *out)
     model("all triangles", &c->all, out);
     fprintf(out, "| bars and hinges | %d | %d bars, %d hinges | | | | | | | |\n\n", 3 * (int)c->nodes, (int)c->edges_all,
             (int)c->all.unknowns);
-    fprintf(out, "Symmetries: %d; they leave %d of %d creases and %d of %d vertices to solve for.\n", (int)c->symmetry.order,
-            (int)c->symmetry.creases, (int)c->none.unknowns, (int)c->symmetry.vertices, (int)c->none.constraints / 3);
+    fprintf(out, "Symmetries: %d; they leave %d of %d creases and %d of %d vertices to solve for.\n", (int)c->alike.order,
+            (int)c->alike.creases, (int)c->none.unknowns, (int)c->alike.vertices, (int)c->none.constraints / 3);
 }
 
 void rg_chart_words(const rg_chart *c, const char *title, FILE *out)
