@@ -10,6 +10,7 @@
 #ifndef SCENARIOS_H
 #define SCENARIOS_H
 
+#include "base/clock.h"
 #include "chart/exact.h"
 #include "chart/run.h"
 #include "draw.h"
@@ -272,7 +273,7 @@ static inline void run_near_flat(rg_pattern *p, rg_method method, cell *c)
 {
     rg_fold *f = fold_of(p, method, 60);
     rg_exact x;
-    const double begun = rg_run_seconds(), s0 = 1e-6 / RG_PI;
+    const double begun = rg_seconds(), s0 = 1e-6 / RG_PI;
     double *truth = calloc((size_t)f->mesh.N, sizeof *truth);
     assert_true(truth && rg_exact_init(&x, &f->mem, &f->mesh) == RG_OK && x.found);
     rg_exact_at(&x, &f->drive, s0, f->rho);
@@ -296,7 +297,7 @@ static inline void run_near_flat(rg_pattern *p, rg_method method, cell *c)
         for (int32_t i = 0; i < f->mesh.N; i++) c->off = fmax(c->off, fabs(f->rho[i] - truth[i]));
     }
     c->percent = 100 * f->s;
-    c->seconds = rg_run_seconds() - begun;
+    c->seconds = rg_seconds() - begun;
     judge(c, info.outcome == RG_FOLDED);
     if (c->verdict == REACHED && !(c->off <= 1e-6)) c->verdict = DIVERGED;
     snprintf(c->note, sizeof c->note, "off the closed form by %.1e rad", c->off);
@@ -386,7 +387,7 @@ static inline int go_back(rg_fold *f, int steps, double *mid, cell *c)
 
 static inline void cycle(rg_pattern *p, rg_method method, int cycles, cell *c)
 {
-    const double begun = rg_run_seconds();
+    const double begun = rg_seconds();
     const int steps = 24;
     rg_fold *f = fold_of(p, method, steps + 1);
     const size_t bytes = (size_t)f->mesh.N * sizeof(double);
@@ -408,7 +409,7 @@ static inline void cycle(rg_pattern *p, rg_method method, int cycles, cell *c)
         flat = fmax(flat, largest_angle(f));
         for (int32_t i = 0; i < f->mesh.N; i++) c->off = fmax(c->off, fabs(mid[i] - first[i]));
     }
-    c->seconds = rg_run_seconds() - begun;
+    c->seconds = rg_seconds() - begun;
     judge(c, n == cycles);
     if (n == cycles && c->verdict == REACHED && (flat > 1e-6 || c->off > 1e-6)) c->verdict = DIVERGED;
     if (n < cycles) c->percent = 100.0 * n / cycles;

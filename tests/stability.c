@@ -109,11 +109,11 @@ int main(int argc, char **argv)
     for (int i = 0; i < SCENARIOS; i++) {
         if (argc > 2 && strcmp(argv[2], scenarios[i].name) != 0) continue;
         for (int m = 0; m < METHODS; m++) {
-            const double begun = rg_run_seconds();
+            const double begun = rg_seconds();
             cell *x = &c[i][m];
             *x = try_cell(&scenarios[i], (rg_method)m);
             printf("%-30s %-9s %-9s %6.1f %%  closure %.1e strain %.1e beyond %.2g  %.2f s  %s\n", scenarios[i].name, method_name(m),
-                   verdict_name(x->verdict), x->percent, x->closure, x->strain, x->beyond, rg_run_seconds() - begun, x->note);
+                   verdict_name(x->verdict), x->percent, x->closure, x->strain, x->beyond, rg_seconds() - begun, x->note);
             fflush(stdout);
             const int lies = scenarios[i].must_not_fold && x->verdict == REACHED;
             if (m == RG_METHOD_AUTO && (x->verdict > STOPPED || lies)) failed = 1;

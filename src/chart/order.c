@@ -1,4 +1,5 @@
 #include "chart/order.h"
+#include "base/clock.h"
 #include "fold/integrate.h"
 
 #include <string.h>
@@ -113,7 +114,7 @@ static rg_status measure(rg_slope *slope, rg_method method, int open, const rg_m
                          const rg_reference *ref, int32_t from, int32_t to, rg_diag *why)
 {
     const double s_end = fabs(s->to) * to / (s->frames - 1), *goal = ref->frames.rho + (size_t)to * (size_t)m->N;
-    const double begun = rg_run_seconds();
+    const double begun = rg_seconds();
     rg_status status = RG_OK;
     memset(slope, 0, sizeof *slope);
     for (int32_t p = 0; p < RG_ORDER_POINTS && status == RG_OK; p++) {
@@ -126,7 +127,7 @@ static rg_status measure(rg_slope *slope, rg_method method, int open, const rg_m
             slope->error[slope->points++] = far;
         }
         rg_fold_destroy(f);
-        if (rg_run_seconds() - begun > PATIENCE) break;
+        if (rg_seconds() - begun > PATIENCE) break;
     }
     fit(slope);
     return status;

@@ -1,4 +1,5 @@
 #include "chart/reference.h"
+#include "base/clock.h"
 
 #include <string.h>
 
@@ -50,7 +51,7 @@ static rg_status in_closed_form(rg_reference *ref, const rg_mesh *m, const rg_se
 static rg_status by_halving(rg_reference *ref, const rg_mesh *m, const rg_settings *s, rg_diag *why)
 {
     rg_frames fine;
-    const double begun = rg_run_seconds();
+    const double begun = rg_seconds();
     rg_status status = rg_frames_init(&fine, &ref->mem, m->N, s->frames);
     const rg_solver solver = m->N <= SVD_UP_TO && rg_pinv_built() ? RG_SOLVER_SVD : RG_SOLVER_AUTO;
     rg_way way = {RG_METHOD_RK4, solver, s->step, CLOSED, FIRST_GRADE};
@@ -69,7 +70,7 @@ static rg_status by_halving(rg_reference *ref, const rg_mesh *m, const rg_settin
         ref->frames = fine;
         fine = coarse;
         fine.count = 0;
-        if (ref->error <= KNOWN || rg_run_seconds() - begun > PATIENCE) break;
+        if (ref->error <= KNOWN || rg_seconds() - begun > PATIENCE) break;
     }
     rg_mem_free(&ref->mem, fine.rho);
     return status;

@@ -1,7 +1,7 @@
 #include "chart/run.h"
+#include "base/clock.h"
 
 #include <string.h>
-#include <time.h>
 
 /* Multiplications of C and r anew over those of a product with C, of which a block has three: two turns of a 3 x 3 frame
  * by one angle each, 4 x 3 multiplications a turn, less what the zeros of a turn save. */
@@ -9,13 +9,6 @@ static const double ASSEMBLY_PASSES = 6;
 /* A time is known when it was taken so often and has taken this long in all. */
 static const double LONG_ENOUGH = 0.02;
 static const int FEWEST_REPEATS = 3, MOST_REPEATS = 100;
-
-double rg_run_seconds(void)
-{
-    struct timespec t;
-    timespec_get(&t, TIME_UTC);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 const char *rg_run_method_name(rg_method m)
 {
@@ -132,7 +125,7 @@ rg_status rg_run_make(rg_run *r, const rg_mesh *m, const rg_settings *settings, 
     s.tol = way->tol;
     rg_status status = rg_mesh_copy(m, &copy);
     if (status != RG_OK) return status;
-    double begun = rg_run_seconds(), looking = 0; /* at frames, which is not folding */
+    double begun = rg_seconds(), looking = 0; /* at frames, which is not folding */
     status = rg_fold_from_mesh(&copy, &s, &f, why);
     while (status == RG_OK && info.outcome == RG_RUNNING) {
         if (way->grade > 0) grade(f, way->grade);
@@ -140,11 +133,11 @@ rg_status rg_run_make(rg_run *r, const rg_mesh *m, const rg_settings *settings, 
         /* Within 1 % of the end and no way on, or crept up to it beside it: that is the last frame, but not one to measure others by. */
         const int last = info.outcome == RG_FOLDED && r->frames == s.frames - 1 && (info.frame < 0 || !has_landed(f));
         if (info.frame < 0 && !last) continue;
-        const double from = rg_run_seconds();
+        const double from = rg_seconds();
         frame(r, f, with, last ? NULL : keep);
-        looking += rg_run_seconds() - from;
+        looking += rg_seconds() - from;
     }
-    r->seconds = rg_run_seconds() - begun - looking;
+    r->seconds = rg_seconds() - begun - looking;
     if (status == RG_OK) {
         r->method = f->settings.method;
         const rg_cost cost = rg_fold_cost(f);

@@ -46,7 +46,6 @@ double rg_frames_distance(const rg_frames *a, const rg_frames *b);
 /* Room for `room` frames of N creases. RG_ENOMEM. Owner: the caller, rg_mem_free(rho). */
 rg_status rg_frames_init(rg_frames *f, const rg_memory *mem, int32_t N, int32_t room);
 
-double rg_run_seconds(void); /* a clock */
 const char *rg_run_method_name(rg_method m);
 const char *rg_run_solver_name(rg_solver s);
 

@@ -1,46 +1,22 @@
 #include "fold/fold.h"
+#include "base/clock.h"
 #include "base/status.h"
 #include "fold/integrate.h"
+#include "fold/onward.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 /* The first step off the flat state, as mean angle: far above rounding, where the branches are apart, and far below
  * where they bend. */
 static const double FIRST_ANGLE = 0.01;
-/* Steps smaller than this part of the whole way are no progress. */
-static const double SMALLEST_STEP = 1e-6;
 static const int32_t MOST_STEPS = 20000;
 /* So many steps must reach a frame, or gain this much of the way, or, with steps that are small by order, this part of what
  * they could, or of what lies behind or before them: a motion that only creeps is over. */
 static const int32_t MOST_IDLE = 60;
 static const double LEAST_GAIN = 1e-3, LEAST_PART = 0.01;
-static const double SOLVE_TOLERANCE = 1e-8;
-static const int32_t CORRECTIONS = 8;
-/* A correction this much longer than the step it corrects has left the branch. */
-static const double FARTHEST_CORRECTION = 0.5;
-/* How strongly a limit pulls, per step; and how often again, where more than this is left. */
-static const double LIMIT_GAIN = 0.5;
-static const int32_t MOST_PULLS = 12;
-static const double LITTLE_PULL = 1e-3;
 /* Within this of its target every crease counts as arrived: the exit status's 1 %. */
 static const double ARRIVED = 0.01;
-
-static double seconds(void)
-{
-    struct timespec t;
-    timespec_get(&t, TIME_UTC);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static double largest(int32_t n, const double *a)
-{
-    double most = 0;
-    for (int32_t i = 0; i < n; i++)
-        if (!(fabs(a[i]) <= most)) most = fabs(a[i]);
-    return most;
-}
 
 static rg_status check_settings(const rg_settings *s, rg_diag *why)
 {
@@ -175,13 +151,13 @@ double rg_fold_frame_progress(const rg_fold *f, int32_t frame)
     return f->s_end * frame / (f->settings.frames - 1);
 }
 
-static void accept(rg_fold *f, const double *rho, double s)
+void rg_fold_accept(rg_fold *f, const double *rho, double s)
 {
     memcpy(f->rho, rho, (size_t)f->mesh.N * sizeof *rho);
     f->s = s;
 }
 
-static void stop(rg_fold *f, const char *why)
+void rg_fold_stop(rg_fold *f, const char *why)
 {
     int arrived = f->s_end >= 1;
     for (int32_t i = 0; i < f->mesh.N && arrived; i++)
@@ -191,120 +167,12 @@ static void stop(rg_fold *f, const char *why)
              arrived ? "; every crease is within 1 % of its target" : "");
 }
 
-/* Creases beyond their limits are pulled back, along what the constraint allows; f->trial is then corrected. */
-static int pull_back(rg_fold *f, double least, double gain)
-{
-    rg_cg_report rep;
-    if (!(rg_limit_pull(&f->limit, f->trial, f->pull) > least)) return 0;
-    for (int32_t i = 0; i < f->mesh.N; i++) f->pull[i] *= gain;
-    if (rg_project_step(&f->P, &f->K, f->pull, 0, NULL, f->pull, SOLVE_TOLERANCE, &rep) != RG_OK) return 0;
-    for (int32_t i = 0; i < f->mesh.N; i++) f->trial[i] += f->pull[i];
-    return 1;
-}
-
-/* The folded state itself, where it is within a step and straight ahead. */
-static int land(rg_fold *f)
-{
-    const int32_t N = f->mesh.N;
-    double far = 0, refused = 0, wished = 0, left = 1 - f->s;
-    if (f->s_end < 1 || !f->end_is_closed || f->frame < f->settings.frames - 1) return 0;
-    for (int32_t i = 0; i < N; i++) {
-        double d = f->end[i] - f->rho[i];
-        far = fmax(far, fabs(d));
-        wished += d * d;
-        refused += (d - left * f->t[i]) * (d - left * f->t[i]);
-    }
-    /* The wish points straight at the end; near it the constraint agrees up to second order. */
-    if (!(far <= f->settings.step && refused <= 0.01 * wished)) return 0;
-    accept(f, f->end, 1);
-    f->closure = rg_constraint_closure(&f->K, f->rho, NULL);
-    return 1;
-}
-
-/* A step of the method's own kind from f->rho along f->t to f->trial, closed. Beyond a limit, and where a stage has no
- * direction, as in the folded state, Euler's is the method: it can be pulled back. */
-static int try_step(rg_fold *f, double ds)
-{
-    int higher = f->settings.method == RG_METHOD_HEUN  ? rg_integrate_heun(f, ds)
-                 : f->settings.method == RG_METHOD_RK4 ? rg_integrate_rk4(f, ds)
-                                                       : 0;
-    if (higher && !(rg_limit_pull(&f->limit, f->trial, f->pull) > 0)) return 1;
-    for (int32_t i = 0; i < f->mesh.N; i++) f->trial[i] = f->rho[i] + ds * f->t[i];
-    pull_back(f, 0, LIMIT_GAIN);
-    int closed = rg_newton_correct(f, f->s + ds, CORRECTIONS);
-    for (int32_t n = 0; n < MOST_PULLS && closed && pull_back(f, LITTLE_PULL, 1); n++) closed = rg_newton_correct(f, f->s + ds, CORRECTIONS);
-    return closed;
-}
-
-static void step_newton(rg_fold *f)
-{
-    const int32_t N = f->mesh.N;
-    const double goal = rg_fold_frame_progress(f, f->frame);
-    if (!(rg_integrate_tangent(f, f->rho, f->s, 0, f->t) > 0)) {
-        stop(f, "no motion that the facets allow folds any further");
-        return;
-    }
-    if (land(f)) return;
-    double fastest = largest(N, f->t), most = f->settings.step / fastest;
-    const double left = goal - f->s;
-    double ds = fmin(f->ds, most);
-    if (!(ds < left - SMALLEST_STEP)) ds = left; /* leaves no rest that would be too small a step */
-    for (;; ds /= 2) {
-        if (!(ds > SMALLEST_STEP)) {
-            stop(f, "the facets leave no way on: even the smallest step does not close");
-            return;
-        }
-        double way = ds * fastest, strayed = 0;
-        if (!try_step(f, ds)) continue;
-        for (int32_t i = 0; i < N; i++) {
-            double d = fabs(f->trial[i] - f->rho[i] - ds * f->t[i]);
-            if (!(d <= strayed)) strayed = d;
-        }
-        if (strayed <= FARTHEST_CORRECTION * way + 1e-6) break;
-    }
-    int whole = ds >= left;
-    f->ds = whole ? fmax(2 * ds, f->ds == INFINITY ? 0 : f->ds) : 2 * ds;
-    accept(f, f->trial, whole ? goal : f->s + ds);
-}
-
-/* One solve, no correction: the paper's eq. (14) and nothing else. */
-static void step_euler(rg_fold *f)
-{
-    const int32_t N = f->mesh.N;
-    const double goal = rg_fold_frame_progress(f, f->frame);
-    rg_cg_report rep;
-    rg_constraint_assemble(&f->K, f->rho);
-    f->assemblies++;
-    rg_project_renew(&f->P);
-    rg_drive_wish(&f->drive, f->rho, fmin(f->s, 1 - SMALLEST_STEP), f->wish);
-    double h = fmin(f->settings.step / fmax(largest(N, f->wish), 1e-300), 1);
-    rg_limit_pull(&f->limit, f->rho, f->pull);
-    for (int32_t i = 0; i < N; i++) f->wish[i] = h * f->wish[i] + LIMIT_GAIN * f->pull[i];
-    if (rg_project_step(&f->P, &f->K, f->wish, 1, NULL, f->t, SOLVE_TOLERANCE, &rep) != RG_OK) { /* eqs. (14), (15) */
-        stop(f, "the solver failed");
-        return;
-    }
-    double ds = rg_drive_progress(&f->drive, f->t), part = 1, way = largest(N, f->t);
-    if (!(way <= RG_PI)) {
-        stop(f, "the step diverged");
-        return;
-    }
-    if (f->s + ds > goal - SMALLEST_STEP && ds > 0) part = (goal - f->s) / ds;
-    if (!(part * way > SMALLEST_STEP * f->settings.step)) {
-        stop(f, "no motion that the facets allow folds any further");
-        return;
-    }
-    for (int32_t i = 0; i < N; i++) f->trial[i] = f->rho[i] + part * f->t[i]; /* eq. (10) */
-    accept(f, f->trial, part != 1 ? goal : f->s + ds);
-    f->closure = rg_constraint_closure(&f->K, f->rho, NULL);
-}
-
 static void leave_flat(rg_fold *f)
 {
     double s1 = fmin(FIRST_ANGLE / RG_PI, rg_fold_frame_progress(f, f->frame));
     if (f->smooth) rg_path_insert(&f->path, 0, f->rho, NULL);
     if (!rg_start_leave_flat(f, s1)) {
-        stop(f, "no way off the flat state was found");
+        rg_fold_stop(f, "no way off the flat state was found");
         return;
     }
     if (f->smooth && !(rg_integrate_tangent(f, f->rho, f->s, 0, f->t) > 0)) f->smooth = 0;
@@ -323,7 +191,7 @@ static void step_adaptive(rg_fold *f)
     int ended = f->path_ended || last >= f->s_end;
     int reached = goal <= last && (ended || (p->count > beyond && goal <= p->node[p->count - beyond].s));
     if (reached && rg_integrate_read_off(f, goal)) {
-        accept(f, f->trial, goal);
+        rg_fold_accept(f, f->trial, goal);
         return;
     }
     if (!reached && !ended) {
@@ -332,7 +200,7 @@ static void step_adaptive(rg_fold *f)
         return;
     }
     f->smooth = 0; /* from the last node on, or from the last frame if that is all there is, step by step */
-    if (!reached) accept(f, p->node[p->count - 1].rho, last);
+    if (!reached) rg_fold_accept(f, p->node[p->count - 1].rho, last);
 }
 
 static int creeps(rg_fold *f)
@@ -353,14 +221,14 @@ static int32_t step(rg_fold *f)
         return f->settings.frames - 1;
     }
     if (f->steps - f->frame > MOST_STEPS) { /* besides those that frames ask for */
-        stop(f, "the number of steps ran out");
+        rg_fold_stop(f, "the number of steps ran out");
     } else if (creeps(f)) {
-        stop(f, "the facets leave hardly any way on: it goes on in steps too small to get anywhere");
+        rg_fold_stop(f, "the facets leave hardly any way on: it goes on in steps too small to get anywhere");
     } else {
-        if (f->settings.method == RG_METHOD_EULER) step_euler(f);
+        if (f->settings.method == RG_METHOD_EULER) rg_onward_euler(f);
         else if (f->steps == 1 && f->s == 0) leave_flat(f);
         else if (f->smooth) step_adaptive(f);
-        else step_newton(f);
+        else rg_onward_newton(f);
         if (f->outcome == RG_RUNNING && f->s >= rg_fold_frame_progress(f, f->frame)) return f->frame;
     }
     return -1;
@@ -382,17 +250,17 @@ rg_status rg_fold_step(rg_fold *f, rg_step_info *info)
 {
     const rg_cost was = rg_fold_cost(f);
     int32_t frame = -1;
-    double from = seconds();
+    double from = rg_seconds();
     if (f->outcome == RG_RUNNING) {
         frame = f->apart.parts ? step_apart(f) : step(f);
         if (frame >= 0) f->frame = frame + 1, f->idle = 0;
         if (f->outcome == RG_RUNNING && f->frame == f->settings.frames) {
             f->outcome = RG_FOLDED;
-            if (f->s_end >= 1) stop(f, "all frames are made");
+            if (f->s_end >= 1) rg_fold_stop(f, "all frames are made");
         }
         f->steps += !f->smooth || f->steps < 2;
     }
-    f->seconds_solving += seconds() - from;
+    f->seconds_solving += rg_seconds() - from;
     const rg_cost is = rg_fold_cost(f);
     *info = (rg_step_info){f->outcome, f->s, frame, f->closure, (int32_t)(is.solves - was.solves),
                            (int32_t)(is.iterations - was.iterations)};

@@ -62,6 +62,11 @@ rg_cost rg_fold_cost(const rg_fold *f);
 /* That of the system with most creases; never RG_SOLVER_AUTO. */
 rg_solver rg_fold_solver(const rg_fold *f);
 
+/* The state is rho now, at progress s. */
+void rg_fold_accept(rg_fold *f, const double *rho, double s);
+/* It is over, and arrived if every crease is within 1 % of its target. */
+void rg_fold_stop(rg_fold *f, const char *why);
+
 /* The progress at which a frame is due. */
 double rg_fold_frame_progress(const rg_fold *f, int32_t frame);
 

@@ -151,27 +151,13 @@ void rg_joint_free(rg_joint *J)
     memset(J, 0, sizeof *J);
 }
 
-static void measure_sectors(rg_joint *J)
-{
-    const rg_mesh *m = J->mesh;
-    for (int32_t k = 0; k < J->M; k++) {
-        const int32_t first = m->loop_start[k], last = m->loop_start[k + 1];
-        const rg_vec2 v = J->X[m->inner_vertex[k]];
-        for (int32_t j = first; j < last; j++) {
-            const rg_vec2 a = rg_vec2_sub(J->X[J->far[j]], v), b = rg_vec2_sub(J->X[J->far[j + 1 < last ? j + 1 : first]], v);
-            const double turn = atan2(rg_vec2_cross(a, b), rg_vec2_dot(a, b));
-            J->theta[j] = turn > 0 ? turn : turn + 2 * RG_PI;
-        }
-    }
-}
-
 double rg_joint_assemble(rg_joint *J, const double *rho, const double *u, double *off)
 {
     const rg_mesh *m = J->mesh;
     double worst = 0, most = 0;
     if (J->U) {
         rg_freedom_move(J->freedom, u, J->X);
-        measure_sectors(J);
+        rg_mesh_sectors(J->mesh, J->X, J->theta);
     }
     for (int32_t k = 0; k < J->M; k++) {
         rg_mat3 A = rg_mat3_identity();

@@ -10,15 +10,7 @@ static rg_status set_pattern(rg_constraint *K, const rg_mesh *m, const rg_vec2 *
 {
     double *theta = rg_mem_array(&m->mem, (size_t)m->loop_start[m->M], sizeof *theta);
     if (!theta) return RG_ENOMEM;
-    for (int32_t k = 0; k < m->M; k++) {
-        const int32_t first = m->loop_start[k], last = m->loop_start[k + 1], v = m->inner_vertex[k];
-        for (int32_t j = first; j < last; j++) {
-            const int32_t *e = m->edge[m->crease_edge[m->loop_crease[j]]];
-            const int32_t *g = m->edge[m->crease_edge[m->loop_crease[j + 1 < last ? j + 1 : first]]];
-            const rg_vec2 a = rg_vec2_sub(X[e[e[0] == v]], X[v]), b = rg_vec2_sub(X[g[g[0] == v]], X[v]);
-            theta[j] = atan2(rg_vec2_cross(a, b), rg_vec2_dot(a, b));
-        }
-    }
+    rg_mesh_sectors(m, X, theta);
     rg_constraint_set_theta(K, theta);
     rg_mem_free(&m->mem, theta);
     return RG_OK;

@@ -41,6 +41,20 @@ rg_status rg_mesh_copy(const rg_mesh *m, rg_mesh *out)
     return ok ? RG_OK : RG_ENOMEM;
 }
 
+void rg_mesh_sectors(const rg_mesh *m, const rg_vec2 *X, double *theta)
+{
+    for (int32_t k = 0; k < m->M; k++) {
+        const int32_t first = m->loop_start[k], last = m->loop_start[k + 1], v = m->inner_vertex[k];
+        for (int32_t j = first; j < last; j++) {
+            const int32_t *e = m->edge[m->crease_edge[m->loop_crease[j]]];
+            const int32_t *g = m->edge[m->crease_edge[m->loop_crease[j + 1 < last ? j + 1 : first]]];
+            const rg_vec2 a = rg_vec2_sub(X[e[e[0] == v]], X[v]), b = rg_vec2_sub(X[g[g[0] == v]], X[v]);
+            const double turn = atan2(rg_vec2_cross(a, b), rg_vec2_dot(a, b));
+            theta[j] = turn > 0 ? turn : turn + 2 * RG_PI;
+        }
+    }
+}
+
 static rg_status join_facets(rg_mesh *m)
 {
     m->edge_facet = rg_mem_array(&m->mem, (size_t)m->ne, sizeof *m->edge_facet);
@@ -86,16 +100,13 @@ static rg_status walk_loops(rg_mesh *m, const int32_t *inner)
         m->inner_vertex[k] = v;
         int32_t j = first[v];
         do {
-            const int32_t arriving = m->facet_edge[before[j]], from = m->facet_vertex[before[j]];
-            const int32_t e = m->facet_edge[j], to = m->edge[e][m->edge[e][0] == v];
-            const rg_vec2 a = rg_vec2_sub(m->X[to], m->X[v]), b = rg_vec2_sub(m->X[from], m->X[v]);
-            const double turn = atan2(rg_vec2_cross(a, b), rg_vec2_dot(a, b));
-            m->loop_crease[at] = m->edge_crease[e];
-            m->loop_theta[at++] = turn > 0 ? turn : turn + 2 * RG_PI;
+            const int32_t arriving = m->facet_edge[before[j]];
+            m->loop_crease[at++] = m->edge_crease[m->facet_edge[j]];
             j = leaving[2 * arriving + (m->edge[arriving][0] != v)];
         } while (j != first[v]);
         m->loop_start[++k] = at;
     }
+    rg_mesh_sectors(m, m->X, m->loop_theta);
 out:
     rg_mem_free(&m->mem, leaving);
     rg_mem_free(&m->mem, first);

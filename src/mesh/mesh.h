@@ -38,6 +38,9 @@ rg_status rg_triangulate_all(const rg_mesh *m, rg_mesh *out);
 rg_status rg_triangulate_short(const rg_mesh *m, rg_mesh *out);
 /* Only the facets f with which[f] non-zero, the first way or, shorter non-zero, the second. */
 rg_status rg_triangulate_some(const rg_mesh *m, const unsigned char *which, int shorter, rg_mesh *out);
+/* theta[loop_start[M]]: out, the angles between creases round interior vertices on another pattern X[nv], as loop_theta is on
+ * m->X. */
+void rg_mesh_sectors(const rg_mesh *m, const rg_vec2 *X, double *theta);
 /* A copy, with an allocator of its own. RG_ENOMEM, *out is then zeroed. */
 rg_status rg_mesh_copy(const rg_mesh *m, rg_mesh *out);
 void rg_mesh_free(rg_mesh *m);

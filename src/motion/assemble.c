@@ -1,10 +1,10 @@
 #include "motion/assemble.h"
+#include "base/clock.h"
 #include "base/status.h"
 #include "motion/measure.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 /* A vertex that is this part of the sheet off where a take has it has not moved. */
 static const double IN_PLACE = 1e-12;
@@ -202,13 +202,6 @@ rg_status rg_assemble_frames(rg_motion *m, const rg_states *q, rg_diag *why)
 
 /* ---------------------------------------------------------------------------------------------- the motion ---- */
 
-static double seconds(void)
-{
-    struct timespec t;
-    timespec_get(&t, TIME_UTC);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* Measuring goes by angles from one state to one other; of a sequence, it is the way that counts. */
 static rg_status measure(rg_motion *m)
 {
@@ -242,7 +235,7 @@ static rg_status make(rg_motion *m, const rg_states *q, const rg_pattern *last, 
 rg_status rg_motion_create_states(const rg_pattern *const *states, int32_t count, const rg_settings *settings,
                                   rg_progress progress, void *ctx, rg_motion **motion, rg_diag *why)
 {
-    const double begun = seconds();
+    const double begun = rg_seconds();
     const rg_memory mem = rg_mem_default(settings->memory);
     if (count < 1) return rg_fail(RG_EARG, why, 0, "there must be at least one state");
     if (count == 1) return rg_motion_create(states[0], settings, progress, ctx, motion, why);
@@ -260,7 +253,7 @@ rg_status rg_motion_create_states(const rg_pattern *const *states, int32_t count
         rg_motion_destroy(m);
         return s == RG_ENOMEM ? rg_fail(s, why, 0, "out of memory") : s;
     }
-    m->report.seconds_total = seconds() - begun;
+    m->report.seconds_total = rg_seconds() - begun;
     *motion = m;
     return RG_OK;
 }

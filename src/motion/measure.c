@@ -12,7 +12,8 @@ static double larger(double most, double value)
 
 /* Room for one frame. */
 typedef struct gauge {
-    rg_turn *rho, *theta; /* [N], [corners] theirs is of the pattern `of` */
+    rg_turn *rho, *theta; /* [N], [corners] of the pattern `of` */
+    double *sector;       /* [corners] */
     const rg_vec2 *of;
     rg_place *place;      /* [nf] */
     rg_vec3 *x;           /* [nv] */
@@ -23,16 +24,8 @@ static void set_sectors(gauge *g, const rg_mesh *m, const rg_vec2 *X)
 {
     if (g->of == X) return;
     g->of = X;
-    for (int32_t k = 0; k < m->M; k++) {
-        const int32_t first = m->loop_start[k], last = m->loop_start[k + 1], v = m->inner_vertex[k];
-        for (int32_t j = first; j < last; j++) {
-            const int32_t *e = m->edge[m->crease_edge[m->loop_crease[j]]];
-            const int32_t *f = m->edge[m->crease_edge[m->loop_crease[j + 1 < last ? j + 1 : first]]];
-            const rg_vec2 a = rg_vec2_sub(X[e[e[0] == v]], X[v]), b = rg_vec2_sub(X[f[f[0] == v]], X[v]);
-            const double lengths = sqrt(rg_vec2_dot(a, a) * rg_vec2_dot(b, b));
-            g->theta[j] = (rg_turn){rg_vec2_dot(a, b) / lengths, rg_vec2_cross(a, b) / lengths};
-        }
-    }
+    rg_mesh_sectors(m, X, g->sector);
+    for (int32_t j = 0; j < m->loop_start[m->M]; j++) g->theta[j] = (rg_turn){cos(g->sector[j]), sin(g->sector[j])};
 }
 
 /* Largest rotation angle of F over the interior vertices, for fold angles rho on the pattern X. */
@@ -81,10 +74,11 @@ static int make_room(gauge *g, const rg_memory *mem, const rg_mesh *m)
 {
     g->rho = rg_mem_array(mem, (size_t)m->N, sizeof *g->rho);
     g->theta = rg_mem_array(mem, (size_t)m->loop_start[m->M], sizeof *g->theta);
+    g->sector = rg_mem_array(mem, (size_t)m->loop_start[m->M], sizeof *g->sector);
     g->place = rg_mem_array(mem, (size_t)m->nf, sizeof *g->place);
     g->x = rg_mem_array(mem, (size_t)m->nv, sizeof *g->x);
     g->part = rg_mem_array(mem, (size_t)m->N, sizeof *g->part);
-    return g->rho && g->theta && g->place && g->x && g->part;
+    return g->rho && g->theta && g->sector && g->place && g->x && g->part;
 }
 
 static void measure_frame(rg_motion *m, int32_t k, gauge *g)
@@ -110,7 +104,7 @@ rg_status rg_measure_frames(rg_motion *m)
     const int ok = make_room(&g, &m->mem, &m->mesh);
     if (ok) m->report.components = rg_components_find(&m->mesh, g.part);
     for (int32_t k = 0; ok && k < m->report.frame_count; k++) measure_frame(m, k, &g);
-    void *block[] = {g.rho, g.theta, g.place, g.x, g.part};
-    for (int i = 0; i < 5; i++) rg_mem_free(&m->mem, block[i]);
+    void *block[] = {g.rho, g.theta, g.sector, g.place, g.x, g.part};
+    for (int i = 0; i < 6; i++) rg_mem_free(&m->mem, block[i]);
     return ok ? RG_OK : RG_ENOMEM;
 }

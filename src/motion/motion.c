@@ -1,4 +1,5 @@
 #include "motion/motion.h"
+#include "base/clock.h"
 #include "base/status.h"
 #include "kinematics/mobility.h"
 #include "motion/diagnose.h"
@@ -7,14 +8,6 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
-
-static double seconds(void)
-{
-    struct timespec t;
-    timespec_get(&t, TIME_UTC);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 void rg_motion_destroy(rg_motion *m)
 {
@@ -170,7 +163,7 @@ rg_status rg_motion_check_settings(const rg_settings *s, rg_diag *why)
 rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_progress progress, void *ctx,
                            rg_motion **motion, rg_diag *why)
 {
-    const double begun = seconds();
+    const double begun = rg_seconds();
     const rg_memory mem = rg_mem_default(settings->memory);
     rg_status s = rg_motion_check_settings(settings, why);
     if (s != RG_OK) return s;
@@ -199,7 +192,7 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_
         rg_motion_destroy(m);
         return s == RG_ENOMEM ? rg_fail(s, why, 0, "out of memory") : s;
     }
-    r->seconds_total = seconds() - begun;
+    r->seconds_total = rg_seconds() - begun;
     *motion = m;
     return RG_OK;
 }

@@ -1,22 +1,15 @@
 #include "motion/take.h"
+#include "base/clock.h"
 #include "base/status.h"
 #include "motion/diagnose.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 /* A crease that did less than this part of its way has not left flat. */
 static const double LEFT_FLAT = 1e-6;
 /* What was asked for is there within 1 %. */
 static const double OFF_THE_MEAN = 0.01;
-
-static double seconds(void)
-{
-    struct timespec t;
-    timespec_get(&t, TIME_UTC);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 void rg_take_free(rg_take *t)
 {
@@ -108,7 +101,7 @@ static int is_cancelled(rg_watch *w, double done)
 
 rg_status rg_take_straight(rg_take *t, rg_mesh *m, const rg_settings *settings, rg_watch *watch, rg_diag *why)
 {
-    const double begun = seconds();
+    const double begun = rg_seconds();
     rg_fold *f = NULL;
     rg_step_info info = {0};
     memset(t, 0, sizeof *t);
@@ -150,7 +143,7 @@ rg_status rg_take_straight(rg_take *t, rg_mesh *m, const rg_settings *settings, 
         rg_take_free(t);
         return rg_fail(s, why, 0, "%s", rg_status_text(s));
     }
-    t->cost.seconds = seconds() - begun;
+    t->cost.seconds = rg_seconds() - begun;
     return RG_OK;
 }
 
@@ -168,7 +161,7 @@ static void keep_passed(rg_take *t, rg_flow *F, double first, int32_t frames, in
 rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, const rg_flow_law *law, const double *from,
                        const double *target, double budget, rg_watch *watch, rg_diag *why)
 {
-    const double begun = seconds();
+    const double begun = rg_seconds();
     /* From folded, the way is the whole of it, of which the last part is asked for. */
     const double first = from ? 1 - fabs(settings->to) : 0;
     const int32_t given = first > 0 ? 0 : 1;
@@ -228,7 +221,7 @@ rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, cons
         rg_take_free(t);
         return rg_fail(s, why, 0, "%s", rg_status_text(s));
     }
-    t->cost.seconds = seconds() - begun;
+    t->cost.seconds = rg_seconds() - begun;
     return RG_OK;
 }
 

@@ -1,0 +1,130 @@
+#include "fold/onward.h"
+#include "fold/fold.h"
+#include "fold/integrate.h"
+
+/* Steps smaller than this part of the whole way are no progress. */
+static const double SMALLEST_STEP = 1e-6;
+static const double SOLVE_TOLERANCE = 1e-8;
+static const int32_t CORRECTIONS = 8;
+/* A correction this much longer than the step it corrects has left the branch. */
+static const double FARTHEST_CORRECTION = 0.5;
+/* How strongly a limit pulls, per step; and how often again, where more than this is left. */
+static const double LIMIT_GAIN = 0.5;
+static const int32_t MOST_PULLS = 12;
+static const double LITTLE_PULL = 1e-3;
+
+static double largest(int32_t n, const double *a)
+{
+    double most = 0;
+    for (int32_t i = 0; i < n; i++)
+        if (!(fabs(a[i]) <= most)) most = fabs(a[i]);
+    return most;
+}
+
+/* Creases beyond their limits are pulled back, along what the constraint allows; f->trial is then corrected. */
+static int pull_back(rg_fold *f, double least, double gain)
+{
+    rg_cg_report rep;
+    if (!(rg_limit_pull(&f->limit, f->trial, f->pull) > least)) return 0;
+    for (int32_t i = 0; i < f->mesh.N; i++) f->pull[i] *= gain;
+    if (rg_project_step(&f->P, &f->K, f->pull, 0, NULL, f->pull, SOLVE_TOLERANCE, &rep) != RG_OK) return 0;
+    for (int32_t i = 0; i < f->mesh.N; i++) f->trial[i] += f->pull[i];
+    return 1;
+}
+
+/* The folded state itself, where it is within a step and straight ahead. */
+static int land(rg_fold *f)
+{
+    const int32_t N = f->mesh.N;
+    double far = 0, refused = 0, wished = 0, left = 1 - f->s;
+    if (f->s_end < 1 || !f->end_is_closed || f->frame < f->settings.frames - 1) return 0;
+    for (int32_t i = 0; i < N; i++) {
+        double d = f->end[i] - f->rho[i];
+        far = fmax(far, fabs(d));
+        wished += d * d;
+        refused += (d - left * f->t[i]) * (d - left * f->t[i]);
+    }
+    /* The wish points straight at the end; near it the constraint agrees up to second order. */
+    if (!(far <= f->settings.step && refused <= 0.01 * wished)) return 0;
+    rg_fold_accept(f, f->end, 1);
+    f->closure = rg_constraint_closure(&f->K, f->rho, NULL);
+    return 1;
+}
+
+/* A step of the method's own kind from f->rho along f->t to f->trial, closed. Beyond a limit, and where a stage has no
+ * direction, as in the folded state, Euler's is the method: it can be pulled back. */
+static int try_step(rg_fold *f, double ds)
+{
+    int higher = f->settings.method == RG_METHOD_HEUN  ? rg_integrate_heun(f, ds)
+                 : f->settings.method == RG_METHOD_RK4 ? rg_integrate_rk4(f, ds)
+                                                       : 0;
+    if (higher && !(rg_limit_pull(&f->limit, f->trial, f->pull) > 0)) return 1;
+    for (int32_t i = 0; i < f->mesh.N; i++) f->trial[i] = f->rho[i] + ds * f->t[i];
+    pull_back(f, 0, LIMIT_GAIN);
+    int closed = rg_newton_correct(f, f->s + ds, CORRECTIONS);
+    for (int32_t n = 0; n < MOST_PULLS && closed && pull_back(f, LITTLE_PULL, 1); n++) closed = rg_newton_correct(f, f->s + ds, CORRECTIONS);
+    return closed;
+}
+
+void rg_onward_newton(rg_fold *f)
+{
+    const int32_t N = f->mesh.N;
+    const double goal = rg_fold_frame_progress(f, f->frame);
+    if (!(rg_integrate_tangent(f, f->rho, f->s, 0, f->t) > 0)) {
+        rg_fold_stop(f, "no motion that the facets allow folds any further");
+        return;
+    }
+    if (land(f)) return;
+    double fastest = largest(N, f->t), most = f->settings.step / fastest;
+    const double left = goal - f->s;
+    double ds = fmin(f->ds, most);
+    if (!(ds < left - SMALLEST_STEP)) ds = left; /* leaves no rest that would be too small a step */
+    for (;; ds /= 2) {
+        if (!(ds > SMALLEST_STEP)) {
+            rg_fold_stop(f, "the facets leave no way on: even the smallest step does not close");
+            return;
+        }
+        double way = ds * fastest, strayed = 0;
+        if (!try_step(f, ds)) continue;
+        for (int32_t i = 0; i < N; i++) {
+            double d = fabs(f->trial[i] - f->rho[i] - ds * f->t[i]);
+            if (!(d <= strayed)) strayed = d;
+        }
+        if (strayed <= FARTHEST_CORRECTION * way + 1e-6) break;
+    }
+    int whole = ds >= left;
+    f->ds = whole ? fmax(2 * ds, f->ds == INFINITY ? 0 : f->ds) : 2 * ds;
+    rg_fold_accept(f, f->trial, whole ? goal : f->s + ds);
+}
+
+/* One solve, no correction: the paper's eq. (14) and nothing else. */
+void rg_onward_euler(rg_fold *f)
+{
+    const int32_t N = f->mesh.N;
+    const double goal = rg_fold_frame_progress(f, f->frame);
+    rg_cg_report rep;
+    rg_constraint_assemble(&f->K, f->rho);
+    f->assemblies++;
+    rg_project_renew(&f->P);
+    rg_drive_wish(&f->drive, f->rho, fmin(f->s, 1 - SMALLEST_STEP), f->wish);
+    double h = fmin(f->settings.step / fmax(largest(N, f->wish), 1e-300), 1);
+    rg_limit_pull(&f->limit, f->rho, f->pull);
+    for (int32_t i = 0; i < N; i++) f->wish[i] = h * f->wish[i] + LIMIT_GAIN * f->pull[i];
+    if (rg_project_step(&f->P, &f->K, f->wish, 1, NULL, f->t, SOLVE_TOLERANCE, &rep) != RG_OK) { /* eqs. (14), (15) */
+        rg_fold_stop(f, "the solver failed");
+        return;
+    }
+    double ds = rg_drive_progress(&f->drive, f->t), part = 1, way = largest(N, f->t);
+    if (!(way <= RG_PI)) {
+        rg_fold_stop(f, "the step diverged");
+        return;
+    }
+    if (f->s + ds > goal - SMALLEST_STEP && ds > 0) part = (goal - f->s) / ds;
+    if (!(part * way > SMALLEST_STEP * f->settings.step)) {
+        rg_fold_stop(f, "no motion that the facets allow folds any further");
+        return;
+    }
+    for (int32_t i = 0; i < N; i++) f->trial[i] = f->rho[i] + part * f->t[i]; /* eq. (10) */
+    rg_fold_accept(f, f->trial, part != 1 ? goal : f->s + ds);
+    f->closure = rg_constraint_closure(&f->K, f->rho, NULL);
+}
