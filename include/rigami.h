@@ -198,7 +198,8 @@ typedef struct rg_step_info {
     int32_t solves, iterations; /* of this step */
 } rg_step_info;
 
-/* Takes a copy of what it needs of the pattern. RG_ESHEET: not one sheet without holes, why->text says where.
+/* Takes a copy of what it needs of the pattern. Creases that no vertex joins are systems of their own, in step frame by frame; one
+ * that is held does not hold the others, and the fold is then RG_STOPPED at its last frame. RG_ESHEET: not one sheet without holes, why->text says where.
  * Owner: the caller, rg_fold_destroy. */
 RG_API rg_status rg_fold_create(const rg_pattern *p, const rg_settings *s, rg_fold **fold, rg_diag *why);
 /* One step of the time loop; allocates nothing. A run that cannot go on is no error: info->outcome is RG_STOPPED. */
