@@ -97,6 +97,7 @@ static void grade(rg_fold *f, double part)
     rg_fold *const *system;
     for (int32_t p = rg_fold_systems(f, &system); p-- > 0;) {
         rg_fold *g = system[p];
+        g->graded = 1;
         if (g->s > 0) g->ds = fmin(g->ds, part * fmin(g->s, fmax(1 - g->s, 1e-4)));
     }
 }

@@ -12,7 +12,7 @@
 static const double FIRST_ANGLE = 0.01;
 static const int32_t MOST_STEPS = 20000;
 /* So many steps must reach a frame, or gain this much of the way, or, with steps that are small by order, this part of what
- * they could, or of what lies behind or before them: a motion that only creeps is over. */
+ * they could or, graded, of what lies behind or before them: a motion that only creeps is over. */
 static const int32_t MOST_IDLE = 60;
 static const double LEAST_GAIN = 1e-3, LEAST_PART = 0.01;
 /* Within this of its target every crease counts as arrived: the exit status's 1 %. */
@@ -207,7 +207,8 @@ static int creeps(rg_fold *f)
 {
     const double s = f->smooth && f->path.count > 0 ? f->path.node[f->path.count - 1].s : f->s;
     const double could = MOST_IDLE * f->settings.step / RG_PI;
-    if (s - f->idle_s >= fmin(LEAST_GAIN, LEAST_PART * fmin(could, fmin(s, 1 - s)))) f->idle = 0, f->idle_s = s;
+    const double part = LEAST_PART * (f->graded ? fmin(could, fmin(s, 1 - s)) : could);
+    if (s - f->idle_s >= fmin(LEAST_GAIN, part)) f->idle = 0, f->idle_s = s;
     return f->idle++ >= MOST_IDLE;
 }
 

@@ -40,6 +40,7 @@ struct rg_fold {
     int end_is_closed;            /* the folded state closes to tolerance: land on it exactly */
     int32_t frame;                /* the next frame to reach */
     int32_t steps;
+    int graded;                   /* the caller keeps ds below a part of what lies behind and before the state */
     int32_t idle;                 /* steps since a frame was reached or ... */
     double idle_s;                /* ... progress was made, from there */
     int64_t assemblies;
