@@ -55,7 +55,7 @@ static const rule rules[] = {
     {FOR_FOLD | FOR_CHART, "no-targets", 0, NULL, SWITCH, AT(settings.targets), 0, 0, 1, NULL, "aim at 180 degrees everywhere"},
     {FOR_FOLD, "method", 0, "NAME", CHOICE, AT(method), 0, 0, 1, methods, "how steps are made (auto):"},
     {FOR_FOLD, "step", 0, "DEG", ABOVE, AT(settings.step), 0, 180, DEG, NULL, "largest step of any crease, degrees (5)"},
-    {FOR_FOLD | FOR_CHART, "tol", 0, "T", REAL, AT(settings.tol), 1e-14, 0.1, 1, NULL, "closure tolerance, radians (1e-10)"},
+    {FOR_FOLD | FOR_CHART, "tol", 0, "T", REAL, AT(settings.tol), 1e-13, 0.1, 1, NULL, "closure tolerance, radians (1e-10)"},
     {FOR_FOLD, "solver", 0, "NAME", CHOICE, AT(solver), 0, 0, 1, solvers, "linear solver (auto):"},
     {FOR_FOLD | FOR_CHART, "triangulate", 0, "WHAT", CHOICE, AT(triangulate), 0, 0, 1, triangulations,
      "added creases; auto: only what the pattern needs (auto):"},

@@ -17,6 +17,8 @@ static const double BEYOND_GIVES = 0.1, BACK = 0.3;
 /* So many halvings end, from flat paper, in a step so short that it closes to tolerance as it is: what is wrong with its
  * direction is of second order there, and is worked off by the steps that follow. */
 static const int32_t ROUNDS = 6, HALVINGS = 16, CORRECTIONS = 12;
+/* Whatever step is asked for: a longer one would find closed states that nothing leads to. */
+static const double MOST_STEP = 10 * RG_DEG;
 /* Below this progress no crease has won or lost. */
 static const double AT_FLAT = 0.005;
 /* No facet shrinks below this part of its area. */
@@ -85,7 +87,7 @@ rg_status rg_flow_init(rg_flow *F, const rg_mesh *m, const rg_settings *s, const
     F->mem = mem;
     F->mesh = m;
     F->law = *law;
-    F->step = s->step;
+    F->step = fmin(s->step, MOST_STEP);
     F->tol = s->tol;
     F->s_end = fabs(s->to);
     F->N = m->N;

@@ -10,18 +10,21 @@
 /* The first step off the flat state, as mean angle: far above rounding, where the branches are apart, and far below
  * where they bend. */
 static const double FIRST_ANGLE = 0.01;
-static const int32_t MOST_STEPS = 20000;
+/* Whatever the step; and so many times what half a turn takes by the largest. */
+static const double MOST_STEPS = 20000, MOST_WAYS = 8;
 /* So many steps must reach a frame, or gain this much of the way, or, with steps that are small by order, this part of what
  * they could or, graded, of what lies behind or before them: a motion that only creeps is over. */
 static const int32_t MOST_IDLE = 60;
 static const double LEAST_GAIN = 1e-3, LEAST_PART = 0.01;
+/* Where there are more equations than creases they must agree this well, or what is open at vertices holds the sheet. */
+static const double LOOSEST = 1e-6;
 /* Within this of its target every crease counts as arrived: the exit status's 1 %. */
 static const double ARRIVED = 0.01;
 
 static rg_status check_settings(const rg_settings *s, rg_diag *why)
 {
     if (!(s->step > 0 && s->step <= RG_PI)) return rg_fail(RG_EARG, why, 0, "the step must be above 0 and at most 180 degrees");
-    if (!(s->tol >= 1e-14 && s->tol <= 0.1)) return rg_fail(RG_EARG, why, 0, "the tolerance must be within 1e-14 and 0.1");
+    if (!(s->tol >= 1e-13 && s->tol <= 0.1)) return rg_fail(RG_EARG, why, 0, "the tolerance must be within 1e-13, which rounding leaves, and 0.1");
     if (!(fabs(s->to) <= 1)) return rg_fail(RG_EARG, why, 0, "the end must be within -100 and 100 percent");
     if (s->frames < 2) return rg_fail(RG_EARG, why, 0, "there must be at least 2 frames");
     return RG_OK;
@@ -38,6 +41,7 @@ static rg_status make_system(rg_fold *f, rg_diag *why)
     for (int i = 0; i < 9; i++)
         if (!(*array[i] = rg_mem_array(mem, (size_t)f->mesh.N, sizeof(double))) && s == RG_OK) s = RG_ENOMEM;
     if (s != RG_OK) return s;
+    if (f->mesh.N <= 3 * f->mesh.M) f->settings.tol = fmin(f->settings.tol, LOOSEST);
     for (int32_t i = 0; i < f->mesh.N; i++) f->end[i] = isnan(f->drive.target[i]) ? 0 : f->drive.target[i];
     f->end_is_closed = rg_constraint_closure(&f->K, f->end, NULL) <= f->settings.tol;
     return RG_OK;
@@ -221,7 +225,7 @@ static int32_t step(rg_fold *f)
         f->outcome = RG_FOLDED;
         return f->settings.frames - 1;
     }
-    if (f->steps - f->frame > MOST_STEPS) { /* besides those that frames ask for */
+    if (f->steps - f->frame > fmax(MOST_STEPS, MOST_WAYS * RG_PI / f->settings.step)) { /* besides those that frames ask for */
         rg_fold_stop(f, "the number of steps ran out");
     } else if (creeps(f)) {
         rg_fold_stop(f, "the facets leave hardly any way on: it goes on in steps too small to get anywhere");

@@ -87,6 +87,6 @@ int rg_start_leave_flat(rg_fold *f, double s1)
     }
     if (!(least < INFINITY)) return 0;
     memcpy(f->rho, f->best, bytes);
-    f->s = rg_drive_progress(&f->drive, f->rho);
+    f->s = s1; /* it was held there */
     return 1;
 }

@@ -102,9 +102,9 @@ static rg_status explain(rg_motion *m, const rg_pattern *p)
                                                                       : "nothing known helps";
     size_t used = strlen(r->reason);
     if (s == RG_OK)
-        used += (size_t)snprintf(r->reason + used, sizeof r->reason - used, "; ways it could go to first order: %d", (int)ways);
+        used += (size_t)snprintf(r->reason + used, sizeof r->reason - used, "; ways the sheet could go to first order: %d", (int)ways);
     snprintf(r->reason + used, sizeof r->reason - used,
-             "; held most at (%.6g, %.6g), a %svertex of %d creases (%d free); creases locked flat: %d, at half a turn: %d; %s", x, y,
+             "; held most at (%.6g, %.6g), a %svertex of %d creases (%d free); creases of the sheet locked flat: %d, at half a turn: %d; %s", x, y,
              closed ? "closed " : "", (int)creases, (int)(creases > 3 ? creases - 3 : 0), (int)locked, (int)at_limit, help);
     return RG_OK;
 }

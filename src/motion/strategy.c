@@ -68,11 +68,14 @@ static const double OVERFOLD = 0.1 * RG_DEG;
 
 static int rank(const rg_take *t) { return t->outcome != RG_FOLDED ? 0 : t->overfold > OVERFOLD || t->strays > 0 ? 1 : 2; }
 
+/* Short of the end, what moves the pattern must come this much farther than what leaves it as it is. */
+static const double WORTH_MOVING = 0.1;
+
 static int is_better(const rg_take *t, const rg_take *old)
 {
     const int mine = rank(t), its = old->mem.resize ? rank(old) : -1;
     if (mine != its) return mine > its;
-    return mine == 2 ? t->moved < old->moved : mine == 1 ? t->strays < old->strays : t->score > old->score;
+    return mine == 2 ? t->moved < old->moved : mine == 1 ? t->strays < old->strays : t->score > old->score + (t->moved > 0 && old->moved == 0 ? WORTH_MOVING : 0);
 }
 
 /* Keeps the better of what is kept and *t; takes *t over. Of two that fold the one that moves the pattern less is better.

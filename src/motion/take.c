@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Beyond half a turn by more than that, facets at a crease have passed through each other. */
+static const double MOST_OVER = RG_DEG;
 /* A crease that did less than this part of its way has not left flat. */
 static const double LEFT_FLAT = 1e-6;
 /* What was asked for is there within 1 %. */
@@ -33,8 +35,9 @@ static rg_status make_room(rg_take *t, const rg_mesh *m, int32_t frames, int mov
 }
 
 /* Mean of what was done of each crease's way, none counted for more than all of it or less than nothing. */
-static double score(const rg_take *t, const double *rho)
+static double score(const rg_take *t)
 {
+    const double *rho = t->rho + (size_t)(t->count - 1) * (size_t)t->mesh.N;
     double sum = 0;
     int32_t n = 0;
     for (int32_t i = 0; i < t->mesh.N; i++) {
@@ -53,6 +56,21 @@ static double overfold(const rg_take *t)
         for (int32_t i = 0; i < t->mesh.N; i++)
             most = fmax(most, fabs(t->rho[(size_t)k * (size_t)t->mesh.N + (size_t)i]) - RG_PI);
     return most;
+}
+
+/* Facets that pass through each other at a crease are no motion: one that stops, stops before that. */
+static void cut_back(rg_take *t)
+{
+    const size_t N = (size_t)t->mesh.N;
+    const int32_t had = t->count;
+    for (; t->outcome == RG_STOPPED && t->count > 1; t->count--) {
+        double most = 0;
+        for (size_t i = 0; i < N; i++) most = fmax(most, fabs(t->rho[(size_t)(t->count - 1) * N + i]) - RG_PI);
+        if (most <= MOST_OVER) break;
+    }
+    const size_t used = strlen(t->reason);
+    if (t->count < had)
+        snprintf(t->reason + used, sizeof t->reason - used, "; from there on creases go past half a turn");
 }
 
 /* Short of the whole way, a mean is what is asked for: is it one of creases that are all on their way? Those on the wrong
@@ -134,7 +152,8 @@ rg_status rg_take_straight(rg_take *t, rg_mesh *m, const rg_settings *settings, 
         t->cost = rg_fold_cost(f);
         t->mesh = f->mesh;
         memset(&f->mesh, 0, sizeof f->mesh);
-        t->score = score(t, f->rho);
+        cut_back(t);
+        t->score = score(t);
         t->overfold = overfold(t);
         judge(t);
     }
@@ -197,7 +216,6 @@ rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, cons
     if (s == RG_OK) {
         t->outcome = watch->cancelled ? RG_STOPPED : F.outcome;
         snprintf(t->reason, sizeof t->reason, "%.190s", watch->cancelled ? "interrupted" : F.reason);
-        t->score = score(t, F.rho);
         if (t->outcome == RG_STOPPED || t->count < settings->frames) {
             rg_joint_assemble(&F.J, F.rho, F.u, NULL);
             if (t->count > settings->frames) t->count = settings->frames;
@@ -207,6 +225,8 @@ rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, cons
             t->count = settings->frames - 1;
             keep(t, F.rho, F.J.X);
         }
+        cut_back(t);
+        t->score = score(t);
         t->overfold = overfold(t);
         t->moved = moved(t);
         if (!from) judge(t);
