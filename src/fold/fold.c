@@ -220,10 +220,9 @@ static int creeps(rg_fold *f)
 static int32_t step(rg_fold *f)
 {
     if (f->steps == 0) return 0; /* the flat state is the first frame */
-    if (f->drive.count == 0 || f->s_end == 0) { /* nothing to fold: flat is where it ends */
-        f->s = f->s_end;
-        f->outcome = RG_FOLDED;
-        return f->settings.frames - 1;
+    if (f->drive.count == 0 || f->s_end == 0) { /* nothing to fold: flat is what all frames are */
+        f->s = rg_fold_frame_progress(f, f->frame);
+        return f->frame;
     }
     if (f->steps - f->frame > fmax(MOST_STEPS, MOST_WAYS * RG_PI / f->settings.step)) { /* besides those that frames ask for */
         rg_fold_stop(f, "the number of steps ran out");
