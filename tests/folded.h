@@ -45,6 +45,28 @@ static inline double off_identity(turn3 F)
     return worst;
 }
 
+/* The largest entry of chi_1 ... chi_n - I over the vertices, with the angles of the pattern X. */
+static inline double unclosed(const rg_mesh *m, const rg_vec2 *X, const double *rho)
+{
+    double worst = 0;
+    for (int32_t k = 0; k < m->M; k++) {
+        const int32_t start = m->loop_start[k], n = m->loop_start[k + 1] - start, v = m->inner_vertex[k];
+        turn3 F = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+        double fold = 0, last = 0; /* of the crease before */
+        for (int32_t i = 0; i <= n; i++) {
+            const int32_t *e = m->edge[m->crease_edge[m->loop_crease[start + i % n]]];
+            const rg_vec2 d = rg_vec2_sub(X[e[e[0] == v]], X[v]);
+            const double angle = atan2(d.y, d.x);
+            if (i) F = times(F, chi(fold, fmod(angle - last + 4 * RG_PI, 2 * RG_PI)));
+            last = angle;
+            fold = rho[m->loop_crease[start + i % n]];
+        }
+        const double off = off_identity(F);
+        if (!(off <= worst)) worst = off;
+    }
+    return worst;
+}
+
 /* Fold angles of a flat-foldable vertex of degree 4 with sectors a, b, pi - a, pi - b, by t = tan of half the first one's:
  * opposite creases fold alike but for the sign of one, and the tangents of the half angles keep their ratio. mode 0: the
  * first and third have the same sign; mode 1: the second and fourth have. */

@@ -11,7 +11,7 @@
 #include "near.h"
 #include "counted.h"
 #include "draw.h"
-#include "fold/fold.h"
+#include "folding.h"
 #include "mesh/components.h"
 
 /* A vertex at (x, 1) on a strip two high: creases at 90 +- a and 270 +- (90 - a) degrees, so that it folds flat. */
@@ -35,24 +35,6 @@ static rg_pattern *strip_pattern(const strip *s)
         if (s->vertex[k] > 0) draw_vertex(&l, s->vertex[k], s->angle[k], s->assignment[k]);
     if (s->crease > 0) draw(&l, 'V', s->crease, 0, s->crease, 2);
     return pattern_of(&l);
-}
-
-static rg_fold *fold_of(const rg_pattern *p, const rg_settings *s)
-{
-    rg_fold *f = NULL;
-    rg_diag why = {0, ""};
-    const rg_status status = rg_fold_create(p, s, &f, &why);
-    if (status != RG_OK) fail_msg("status %d: %s", status, why.text);
-    return f;
-}
-
-/* Steps on to the next frame; its number, -1: there is none. */
-static int32_t next_frame(rg_fold *f)
-{
-    rg_step_info i;
-    do assert_int_equal(rg_fold_step(f, &i), RG_OK);
-    while (i.frame < 0 && i.outcome == RG_RUNNING);
-    return i.frame;
 }
 
 /* The crease of `one` that has the ends of crease i of `many`, -1: none. */
@@ -84,14 +66,17 @@ static void each_folds_as_if_alone(void **state)
         assert_int_equal(f->apart.parts, 3);
         for (int32_t frame = 0; frame < s.frames; frame++) {
             int32_t seen = 0;
-            assert_int_equal(next_frame(f), frame);
+            rg_step_info i;
+            assert_true(next_frame(f, &i));
+            assert_int_equal(i.frame, frame);
             near(rg_drive_progress(&f->drive, f->rho), (double)frame / (s.frames - 1), 1e-9);
             for (int k = 0; k < 3; k++) {
-                assert_int_equal(next_frame(g[k]), frame);
-                for (int32_t i = 0; i < f->mesh.N; i++) {
-                    const int32_t j = same_crease(&f->mesh, i, &g[k]->mesh);
-                    if (j < 0) continue;
-                    near(f->rho[i], g[k]->rho[j], 1e-9);
+                assert_true(next_frame(g[k], &i));
+                assert_int_equal(i.frame, frame);
+                for (int32_t a = 0; a < f->mesh.N; a++) {
+                    const int32_t b = same_crease(&f->mesh, a, &g[k]->mesh);
+                    if (b < 0) continue;
+                    near(f->rho[a], g[k]->rho[b], 1e-9);
                     seen++;
                 }
             }
@@ -116,7 +101,7 @@ static void one_that_is_held_does_not_hold_the_others(void **state)
     rg_pattern *p = strip_pattern(&both);
     rg_fold *f = fold_of(p, &s);
     int32_t frames = 0, last = -1;
-    for (int32_t frame; (frame = next_frame(f)) >= 0; frames++) last = frame;
+    for (rg_step_info i; next_frame(f, &i); frames++) last = i.frame;
     assert_int_equal(f->outcome, RG_STOPPED);
     assert_non_null(strstr(f->reason, "1 of 3 independent parts"));
     assert_int_equal(last, s.frames - 1);
@@ -139,8 +124,8 @@ static void what_does_not_move_is_not_solved(void **state)
     rg_settings s = rg_settings_default();
     rg_pattern *p = strip_pattern(&one), *q = strip_pattern(&both);
     rg_fold *f = fold_of(p, &s), *g = fold_of(q, &s);
-    while (next_frame(f) >= 0 && f->outcome == RG_RUNNING) {}
-    while (next_frame(g) >= 0 && g->outcome == RG_RUNNING) {}
+    for (rg_step_info i; next_frame(f, &i) && f->outcome == RG_RUNNING;) {}
+    for (rg_step_info i; next_frame(g, &i) && g->outcome == RG_RUNNING;) {}
     assert_int_equal(g->outcome, RG_FOLDED);
     assert_true(rg_fold_cost(f).solves > 0);
     assert_int_equal(rg_fold_cost(g).solves, rg_fold_cost(f).solves);
@@ -203,7 +188,7 @@ static void added_creases_stay_with_their_limits(void **state)
     rg_fold *f = fold_of(p, &s);
     assert_int_equal(f->mesh.N, 3);
     assert_int_equal(f->apart.parts, 0);
-    while (next_frame(f) >= 0 && f->outcome == RG_RUNNING) {}
+    for (rg_step_info i; next_frame(f, &i) && f->outcome == RG_RUNNING;) {}
     assert_int_equal(f->outcome, RG_FOLDED);
     rg_fold_destroy(f);
     rg_pattern_destroy(p);
@@ -214,20 +199,7 @@ static void want_of_memory_is_told(void **state)
     (void)state;
     const strip all = {{3, 11}, {30, 35}, {FOLDS, FOLDS}, 7};
     rg_pattern *p = strip_pattern(&all);
-    for (long left = 0;; left++) {
-        counted c = {left, 0, 0};
-        const rg_memory mem = {counted_resize, &c};
-        rg_settings s = rg_settings_default();
-        s.memory = &mem;
-        rg_fold *f = NULL;
-        rg_diag why = {0, ""};
-        const rg_status status = rg_fold_create(p, &s, &f, &why);
-        rg_fold_destroy(f);
-        assert_int_equal(c.out, 0);
-        if (status == RG_OK) break;
-        assert_int_equal(status, RG_ENOMEM);
-        assert_null(f);
-    }
+    starves_cleanly(p, rg_settings_default());
     rg_pattern_destroy(p);
 }
 

@@ -70,26 +70,6 @@ static void end(run *r)
     free(r->X);
 }
 
-/* Largest entry of chi_1 ... chi_n - I over the vertices, with the angles of the pattern X. */
-static double unclosed(const rg_mesh *m, const rg_vec2 *X, const double *rho)
-{
-    double worst = 0;
-    for (int32_t k = 0; k < m->M; k++) {
-        const int32_t start = m->loop_start[k], n = m->loop_start[k + 1] - start, v = m->inner_vertex[k];
-        double fold[MOST], theta[MOST], angle[MOST + 1];
-        assert_true(n <= MOST);
-        for (int32_t i = 0; i <= n; i++) {
-            const int32_t *e = m->edge[m->crease_edge[m->loop_crease[start + i % n]]];
-            const rg_vec2 d = rg_vec2_sub(X[e[e[0] == v]], X[v]);
-            angle[i] = atan2(d.y, d.x);
-            if (i < n) fold[i] = rho[m->loop_crease[start + i]];
-            if (i) theta[i - 1] = fmod(angle[i] - angle[i - 1] + 4 * RG_PI, 2 * RG_PI);
-        }
-        worst = fmax(worst, off_identity(round_trip(n, fold, theta)));
-    }
-    return worst;
-}
-
 static double facet_area(const rg_mesh *m, int32_t f, const rg_vec2 *X)
 {
     double twice = 0;

@@ -10,7 +10,8 @@
 
 #include "near.h"
 #include "counted.h"
-#include "draw.h"
+#include "folded.h"
+#include "folding.h"
 #include "fold/fold.h"
 #include "generate/generate.h"
 
@@ -34,51 +35,6 @@ static rg_pattern *star(int32_t n, const double *degrees, const char *assignment
     }
     draw_polygon(&l, RG_BORDER, rim, n);
     return pattern_of(&l);
-}
-
-static rg_fold *fold_of(const rg_pattern *p, const rg_settings *s)
-{
-    rg_fold *f = NULL;
-    rg_diag why = {0, ""};
-    rg_status status = rg_fold_create(p, s, &f, &why);
-    if (status == RG_EABSENT) {
-        print_message("SKIPPED: %s\n", why.text);
-        skip();
-    }
-    if (status != RG_OK) fail_msg("status %d: %s", status, why.text);
-    return f;
-}
-
-/* Steps on to the next frame; zero: there is none. */
-static int next_frame(rg_fold *f, rg_step_info *i)
-{
-    do assert_int_equal(rg_fold_step(f, i), RG_OK);
-    while (i->frame < 0 && i->outcome == RG_RUNNING);
-    return i->frame >= 0;
-}
-
-/* The largest entry of chi_1 ... chi_n - I over the vertices, multiplied out as in Fig. 3: no code of the library's. */
-static double unclosed(const rg_fold *f)
-{
-    const rg_mesh *m = &f->mesh;
-    double worst = 0;
-    for (int32_t k = 0; k < m->M; k++) {
-        double F[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-        for (int32_t j = m->loop_start[k]; j < m->loop_start[k + 1]; j++) {
-            const double c = cos(f->rho[m->loop_crease[j]]), s = sin(f->rho[m->loop_crease[j]]);
-            const double p = cos(m->loop_theta[j]), q = sin(m->loop_theta[j]);
-            const double chi[3][3] = {{p, -q, 0}, {c * q, c * p, -s}, {s * q, s * p, c}};
-            double G[3][3] = {{0}};
-            for (int a = 0; a < 3; a++)
-                for (int b = 0; b < 3; b++)
-                    for (int d = 0; d < 3; d++) G[a][b] += F[a][d] * chi[d][b];
-            memcpy(F, G, sizeof F);
-        }
-        for (int a = 0; a < 3; a++)
-            for (int b = 0; b < 3; b++)
-                if (!(fabs(F[a][b] - (a == b)) <= worst)) worst = fabs(F[a][b] - (a == b));
-    }
-    return worst;
 }
 
 /* --------------------------------------------------------------------------------------- closed forms ---- */
@@ -124,7 +80,7 @@ static void miura_keeps_its_closed_form(int32_t n, rg_method method, double off,
             assert_true(f->rho[k] * f->drive.target[k] >= 0);
         }
         near(rg_drive_progress(&f->drive, f->rho), (double)i.frame / (s.frames - 1), 1e-9);
-        below(unclosed(f), 1e-10);
+        below(unclosed(&f->mesh, f->mesh.X, f->rho), 1e-10);
     }
     assert_true(straight >= 0);
     assert_int_equal(frames, s.frames);
@@ -193,10 +149,10 @@ static void all_mountain_does_not_fold_and_says_so(void **state)
         rg_pattern *p = star(4, degrees, "MMMM");
         rg_fold *f = fold_of(p, &s);
         rg_step_info i;
-        while (next_frame(f, &i)) below(unclosed(f), 1e-9);
+        while (next_frame(f, &i)) below(unclosed(&f->mesh, f->mesh.X, f->rho), 1e-9);
         assert_int_equal(f->outcome, RG_STOPPED);
         assert_true(f->reason[0] != 0);
-        below(unclosed(f), 1e-9);
+        below(unclosed(&f->mesh, f->mesh.X, f->rho), 1e-9);
         rg_fold_destroy(f);
         rg_pattern_destroy(p);
     }
@@ -280,7 +236,7 @@ static void adaptive_follows_the_same_motion(void **state)
         assert_true(next_frame(fine, &j));
         below(distance(f->rho, fine->rho), 2e-5);
         near(rg_drive_progress(&f->drive, f->rho), 0.05 * i.frame, 1e-9);
-        below(unclosed(f), 1e-10);
+        below(unclosed(&f->mesh, f->mesh.X, f->rho), 1e-10);
     }
     assert_int_equal(f->outcome, RG_FOLDED);
     rg_fold_destroy(f);
@@ -336,21 +292,9 @@ static void memory_may_be_short(void **state)
 {
     (void)state;
     rg_pattern *p = generated("miura", 3, 0);
-    for (long left = 0;; left++) {
-        counted c = {left, 0, 0};
-        const rg_memory mem = {counted_resize, &c};
-        rg_settings s = rg_settings_default();
-        s.memory = &mem;
-        s.solver = rg_cholesky_built() ? RG_SOLVER_CHOLESKY : RG_SOLVER_CG;
-        rg_fold *f = NULL;
-        rg_diag why = {0, ""};
-        rg_status status = rg_fold_create(p, &s, &f, &why);
-        rg_fold_destroy(f);
-        assert_int_equal(c.out, 0);
-        if (status == RG_OK) break;
-        assert_int_equal(status, RG_ENOMEM);
-        assert_null(f);
-    }
+    rg_settings s = rg_settings_default();
+    s.solver = rg_cholesky_built() ? RG_SOLVER_CHOLESKY : RG_SOLVER_CG;
+    starves_cleanly(p, s);
     rg_pattern_destroy(p);
 }
 
@@ -363,9 +307,9 @@ static void what_stops_is_closed(void **state)
         rg_settings s = rg_settings_default();
         rg_pattern *p = generated(kinds[k], 0, 0);
         rg_fold *f = fold_of(p, &s);
-        for (rg_step_info i; next_frame(f, &i);) below(unclosed(f), 2e-10);
+        for (rg_step_info i; next_frame(f, &i);) below(unclosed(&f->mesh, f->mesh.X, f->rho), 2e-10);
         assert_int_equal(f->outcome, RG_STOPPED);
-        below(unclosed(f), 2e-10);
+        below(unclosed(&f->mesh, f->mesh.X, f->rho), 2e-10);
         rg_fold_destroy(f);
         rg_pattern_destroy(p);
     }

@@ -10,7 +10,7 @@
 
 #include "near.h"
 #include "counted.h"
-#include "draw.h"
+#include "folded.h"
 #include "generate/generate.h"
 #include "kinematics/mobility.h"
 #include "linalg/qr.h"
@@ -57,18 +57,9 @@ static int32_t ways_in(const rg_motion *m, int32_t frame)
  * singular values. */
 static void turn_at(const rg_mesh *m, int32_t k, const double *rho, double *r)
 {
-    double F[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (int32_t j = m->loop_start[k]; j < m->loop_start[k + 1]; j++) {
-        const double c = cos(rho[m->loop_crease[j]]), s = sin(rho[m->loop_crease[j]]);
-        const double p = cos(m->loop_theta[j]), q = sin(m->loop_theta[j]);
-        const double chi[3][3] = {{p, -q, 0}, {c * q, c * p, -s}, {s * q, s * p, c}};
-        double G[3][3] = {{0}};
-        for (int a = 0; a < 3; a++)
-            for (int b = 0; b < 3; b++)
-                for (int d = 0; d < 3; d++) G[a][b] += F[a][d] * chi[d][b];
-        memcpy(F, G, sizeof F);
-    }
-    r[0] = (F[2][1] - F[1][2]) / 2, r[1] = (F[0][2] - F[2][0]) / 2, r[2] = (F[1][0] - F[0][1]) / 2;
+    turn3 F = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    for (int32_t j = m->loop_start[k]; j < m->loop_start[k + 1]; j++) F = times(F, chi(rho[m->loop_crease[j]], m->loop_theta[j]));
+    r[0] = (F.a[2][1] - F.a[1][2]) / 2, r[1] = (F.a[0][2] - F.a[2][0]) / 2, r[2] = (F.a[1][0] - F.a[0][1]) / 2;
 }
 
 static int32_t ways_by_singular_values(const rg_mesh *m, const double *rho)

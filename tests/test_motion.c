@@ -50,26 +50,6 @@ static rg_settings with(double adjust, rg_triangulation triangulate)
     return s;
 }
 
-/* Largest entry of chi_1 ... chi_n - I over the vertices of a frame's pattern. */
-static double unclosed(const rg_mesh *m, const double (*X)[2], const double *rho)
-{
-    double worst = 0;
-    for (int32_t k = 0; k < m->M; k++) {
-        const int32_t start = m->loop_start[k], n = m->loop_start[k + 1] - start, v = m->inner_vertex[k];
-        double fold[MOST], theta[MOST], angle[MOST + 1];
-        assert_true(n <= MOST);
-        for (int32_t i = 0; i <= n; i++) {
-            const int32_t *e = m->edge[m->crease_edge[m->loop_crease[start + i % n]]];
-            const int32_t far = e[e[0] == v];
-            angle[i] = atan2(X[far][1] - X[v][1], X[far][0] - X[v][0]);
-            if (i < n) fold[i] = rho[m->loop_crease[start + i]];
-            if (i) theta[i - 1] = fmod(angle[i] - angle[i - 1] + 4 * RG_PI, 2 * RG_PI);
-        }
-        worst = fmax(worst, off_identity(round_trip(n, fold, theta)));
-    }
-    return worst;
-}
-
 static double flat_length(const double (*X)[2], const int32_t e[2]) { return hypot(X[e[1]][0] - X[e[0]][0], X[e[1]][1] - X[e[0]][1]); }
 
 static double length3(const double (*x)[3], const int32_t e[2])
@@ -92,7 +72,7 @@ static void the_report_is_true(const rg_motion *m)
     for (int32_t k = 0; k < r->frame_count; k++) {
         const double *rho = rg_motion_angles(m, k);
         const double(*X)[2] = rg_motion_flat(m, k);
-        const double off = unclosed(mesh, X, rho);
+        const double off = unclosed(mesh, (const rg_vec2 *)X, rho);
         below(off, 2 * r->frames[k].closure_residual + 1e-13);
         below(r->frames[k].closure_residual, 3 * off + 1e-13);
         closure = fmax(closure, r->frames[k].closure_residual);
