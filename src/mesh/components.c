@@ -1,23 +1,10 @@
 #include "mesh/components.h"
-
-static int32_t root(int32_t *up, int32_t i)
-{
-    while (up[i] != i) i = up[i] = up[up[i]];
-    return i;
-}
-
-/* The first crease of a group is its root. */
-static void join(int32_t *up, int32_t a, int32_t b)
-{
-    a = root(up, a), b = root(up, b);
-    if (a < b) up[b] = a;
-    else up[a] = b;
-}
+#include "base/classes.h"
 
 static void join_at_vertices(const rg_mesh *m, int32_t *up)
 {
     for (int32_t k = 0; k < m->M; k++)
-        for (int32_t j = m->loop_start[k] + 1; j < m->loop_start[k + 1]; j++) join(up, m->loop_crease[j - 1], m->loop_crease[j]);
+        for (int32_t j = m->loop_start[k] + 1; j < m->loop_start[k + 1]; j++) rg_class_join(up, m->loop_crease[j - 1], m->loop_crease[j]);
 }
 
 static void join_at_added(const rg_mesh *m, int32_t *up)
@@ -26,7 +13,7 @@ static void join_at_added(const rg_mesh *m, int32_t *up)
         for (int side = 0; side < 2; side++) {
             const int32_t f = m->edge_facet[m->crease_edge[i]][side];
             for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++)
-                if (m->edge_crease[m->facet_edge[j]] >= 0) join(up, i, m->edge_crease[m->facet_edge[j]]);
+                if (m->edge_crease[m->facet_edge[j]] >= 0) rg_class_join(up, i, m->edge_crease[m->facet_edge[j]]);
         }
 }
 
@@ -35,10 +22,10 @@ static rg_status join_single(const rg_mesh *m, int32_t *up)
 {
     int32_t *size = rg_mem_array(&m->mem, (size_t)m->N, sizeof *size), first = -1;
     if (!size) return RG_ENOMEM;
-    for (int32_t i = 0; i < m->N; i++) size[root(up, i)]++;
+    for (int32_t i = 0; i < m->N; i++) size[rg_class_of(up, i)]++;
     for (int32_t i = 0; i < m->N; i++) {
-        if (root(up, i) != i || size[i] > 1) continue;
-        if (first >= 0) join(up, first, i);
+        if (rg_class_of(up, i) != i || size[i] > 1) continue;
+        if (first >= 0) rg_class_join(up, first, i);
         else first = i;
     }
     rg_mem_free(&m->mem, size);
@@ -48,7 +35,7 @@ static rg_status join_single(const rg_mesh *m, int32_t *up)
 static int32_t number(const rg_mesh *m, int32_t *up)
 {
     int32_t count = 0;
-    for (int32_t i = 0; i < m->N; i++) up[i] = root(up, i);
+    for (int32_t i = 0; i < m->N; i++) up[i] = rg_class_of(up, i);
     for (int32_t i = 0; i < m->N; i++) up[i] = up[i] == i ? count++ : up[up[i]];
     return count;
 }

@@ -1,5 +1,5 @@
 /* components.h -- groups of creases that are joined through interior vertices: each moves without the others.
- * Uses  mesh.h        Used by  apart.c motion.c assemble.c */
+ * Uses  mesh.h        Used by  apart.c measure.c */
 #ifndef RG_COMPONENTS_H
 #define RG_COMPONENTS_H
 

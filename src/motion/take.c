@@ -49,25 +49,27 @@ static double score(const rg_take *t)
     return n ? sum / n : 1;
 }
 
+/* The most that a crease of frame k is beyond half a turn. */
+static double beyond(const rg_take *t, int32_t k)
+{
+    double most = 0;
+    for (int32_t i = 0; i < t->mesh.N; i++)
+        most = fmax(most, fabs(t->rho[(size_t)k * (size_t)t->mesh.N + (size_t)i]) - RG_PI);
+    return most;
+}
+
 static double overfold(const rg_take *t)
 {
     double most = 0;
-    for (int32_t k = 0; k < t->count; k++)
-        for (int32_t i = 0; i < t->mesh.N; i++)
-            most = fmax(most, fabs(t->rho[(size_t)k * (size_t)t->mesh.N + (size_t)i]) - RG_PI);
+    for (int32_t k = 0; k < t->count; k++) most = fmax(most, beyond(t, k));
     return most;
 }
 
 /* Facets that pass through each other at a crease are no motion: one that stops, stops before that. */
 static void cut_back(rg_take *t)
 {
-    const size_t N = (size_t)t->mesh.N;
     const int32_t had = t->count;
-    for (; t->outcome == RG_STOPPED && t->count > 1; t->count--) {
-        double most = 0;
-        for (size_t i = 0; i < N; i++) most = fmax(most, fabs(t->rho[(size_t)(t->count - 1) * N + i]) - RG_PI);
-        if (most <= MOST_OVER) break;
-    }
+    while (t->outcome == RG_STOPPED && t->count > 1 && !(beyond(t, t->count - 1) <= MOST_OVER)) t->count--;
     const size_t used = strlen(t->reason);
     if (t->count < had)
         snprintf(t->reason + used, sizeof t->reason - used, "; from there on creases go past half a turn");

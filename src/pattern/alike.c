@@ -1,4 +1,5 @@
 #include "pattern/alike.h"
+#include "base/classes.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -114,19 +115,9 @@ static void note(rg_likeness *l, int mirror, double angle)
     if (i < RG_MOST_MIRRORS) l->mirror[i] = line;
 }
 
-static int32_t least(int32_t *up, int32_t i)
-{
-    while (up[i] != i) i = up[i] = up[up[i]];
-    return i;
-}
-
 static void join(int32_t *up, int32_t n, const int32_t *to)
 {
-    for (int32_t i = 0; i < n; i++) {
-        const int32_t a = least(up, i), b = least(up, to[i]);
-        if (a < b) up[b] = a;
-        else up[a] = b;
-    }
+    for (int32_t i = 0; i < n; i++) rg_class_join(up, i, to[i]);
 }
 
 static void count_orbits(const search *s, rg_alike *a)
