@@ -740,6 +740,8 @@ static void bad_files_of_others_are_read_or_refused(void **state)
 
 /* ------------------------------------------------------------------------------------------------ all ---- */
 
+static int is_in_folder; /* else what end_all finds is not ours to remove: it is called where begin_all failed, too */
+
 static int begin_all(void **state)
 {
     (void)state;
@@ -752,6 +754,7 @@ static int begin_all(void **state)
     if (realpath(others && *others ? others : "../shared/corpus", path)) setenv("RIGAMI_CORPUS", path, 1);
     unsetenv("POSIXLY_CORRECT");
     if (!mkdtemp(folder) || chdir(folder) != 0) return -1;
+    is_in_folder = 1;
     draw_all();
     return 0;
 }
@@ -759,6 +762,7 @@ static int begin_all(void **state)
 static int end_all(void **state)
 {
     (void)state;
+    if (!is_in_folder) return 0;
     DIR *d = opendir(".");
     for (struct dirent *e; d && (e = readdir(d));)
         if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0) unlink(e->d_name);

@@ -184,11 +184,60 @@ static void memory(void **state)
     rg_mesh_free(&m);
 }
 
+/* A sheet of paper moved by its mean is the same sheet from every side of the group; the outline stays. */
+static void means(void **state)
+{
+    (void)state;
+    const rg_memory mem = rg_mem_default(NULL);
+    static const char *const kinds[] = {"boxpleat", "tatou", "waterbomb"};
+    static const int32_t orders[] = {4, 4, 2}, sizes[] = {8, 0, 4};
+    unsigned seed = 23;
+    for (int k = 0; k < 3; k++) {
+        rg_lines l;
+        assert_int_equal(rg_generate_lines(kinds[k], sizes[k], 0, 0, &mem, &l, NULL), RG_OK);
+        draw_moved(&l, 1, 0.3, 0, 0);
+        rg_pattern *p = pattern_of(&l);
+        rg_mesh m = mesh_of(p);
+        rg_freedom f = freedom_of(&m, 1);
+        rg_symmetry G;
+        assert_int_equal(rg_symmetry_find(&G, &mem, &m), RG_OK);
+        assert_int_equal(G.order, orders[k]);
+        double *u = calloc((size_t)f.U, sizeof *u), *again = calloc((size_t)f.U, sizeof *again), size = 0, mean = 0;
+        rg_vec2 *d = calloc((size_t)m.nv, sizeof *d), *X = calloc((size_t)m.nv, sizeof *X);
+        assert_true(u && again && d && X);
+        for (int32_t i = 0; i < f.U; i++) {
+            u[i] = 5e-3 * m.size * noise(&seed);
+            size += u[i] * u[i];
+        }
+        rg_freedom_mean(&f, &G, u, d);
+        for (int32_t i = 0; i < f.U; i++) mean += u[i] * u[i];
+        assert_true(mean > 0.02 * size && mean < size); /* a projection: shorter, and not nothing */
+        rg_freedom_move(&f, u, X);
+        for (int32_t g = 0; g < G.order; g++)
+            for (int32_t v = 0; v < m.nv; v++) {
+                const rg_vec2 x = rg_vec2_sub(X[v], G.middle), y = rg_vec2_sub(X[G.vertex[g * m.nv + v]], G.middle);
+                near(G.A[g][0][0] * x.x + G.A[g][0][1] * x.y, y.x, 1e-12 * m.size);
+                near(G.A[g][1][0] * x.x + G.A[g][1][1] * x.y, y.y, 1e-12 * m.size);
+            }
+        memcpy(again, u, (size_t)f.U * sizeof *u);
+        rg_freedom_mean(&f, &G, again, d);
+        for (int32_t i = 0; i < f.U; i++) near(again[i], u[i], 1e-14 * m.size);
+        free(u);
+        free(again);
+        free(d);
+        free(X);
+        rg_symmetry_free(&G);
+        rg_freedom_free(&f);
+        rg_mesh_free(&m);
+        rg_pattern_destroy(p);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(outline), cmocka_unit_test(reach), cmocka_unit_test(facets_turned_over), cmocka_unit_test(what_stays),
-        cmocka_unit_test(memory),
+        cmocka_unit_test(means),   cmocka_unit_test(memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -98,6 +98,17 @@ void rg_freedom_move(const rg_freedom *f, const double *u, rg_vec2 *X)
     }
 }
 
+void rg_freedom_mean(const rg_freedom *f, const rg_symmetry *G, double *u, rg_vec2 *d)
+{
+    memset(d, 0, (size_t)f->mesh->nv * sizeof *d);
+    for (int32_t i = 0; i < f->U; i++) {
+        rg_vec2 *x = &d[f->vertex[i]];
+        *x = (rg_vec2){x->x + u[i] * f->direction[i].x, x->y + u[i] * f->direction[i].y};
+    }
+    rg_symmetry_mean_vectors(G, d);
+    for (int32_t i = 0; i < f->U; i++) u[i] = rg_vec2_dot(d[f->vertex[i]], f->direction[i]);
+}
+
 static double area(const rg_mesh *m, int32_t facet, const rg_vec2 *X)
 {
     const int32_t first = m->facet_start[facet];

@@ -1,12 +1,12 @@
 /* freedom.h -- how the vertices of a pattern may move while it is folded.
- * Paper    section 3.3, the vector [dX dY]        Uses  mesh.h        Used by  joint.c adjust.c flow.c
+ * Paper    section 3.3, the vector [dX dY]        Uses  symmetry.h        Used by  joint.c adjust.c flow.c
  *
  * A vertex inside the sheet moves two ways, one on a straight edge of the sheet along that edge, a corner not at all:
  * the outline stays what it is. */
 #ifndef RG_FREEDOM_H
 #define RG_FREEDOM_H
 
-#include "mesh/mesh.h"
+#include "mesh/symmetry.h"
 
 typedef struct rg_freedom {
     rg_memory mem;
@@ -23,6 +23,8 @@ rg_status rg_freedom_init(rg_freedom *f, const rg_memory *mem, const rg_mesh *m,
 void rg_freedom_free(rg_freedom *f);
 /* X[nv]: out, the pattern moved by u[U], lengths. */
 void rg_freedom_move(const rg_freedom *f, const double *u, rg_vec2 *X);
+/* u[U]: becomes what moves the pattern alike everywhere, the mean of its displacements over G. d[nv]: scratch. */
+void rg_freedom_mean(const rg_freedom *f, const rg_symmetry *G, double *u, rg_vec2 *d);
 /* Zero: a facet has turned over, or shrunk to less than `least` of its area. */
 int rg_freedom_is_proper(const rg_freedom *f, const rg_vec2 *X, double least);
 

@@ -36,7 +36,7 @@ rg_status rg_mesh_from_pattern(const rg_pattern *p, const rg_memory *mem, rg_mes
 rg_status rg_triangulate_all(const rg_mesh *m, rg_mesh *out);
 /* The same by short diagonals, whatever they split: sheets fold one way that do not fold the other. */
 rg_status rg_triangulate_short(const rg_mesh *m, rg_mesh *out);
-/* Only the facets f with which[f] non-zero, the first way or, shorter non-zero, the second. */
+/* Only the facets f with which[f] non-zero (NULL: all), the first way or, shorter non-zero, the second. */
 rg_status rg_triangulate_some(const rg_mesh *m, const unsigned char *which, int shorter, rg_mesh *out);
 /* theta[loop_start[M]]: out, the angles between creases round interior vertices on another pattern X[nv], as loop_theta is on
  * m->X. */

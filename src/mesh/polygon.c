@@ -35,6 +35,47 @@ double rg_polygon_least_sine(const rg_polygon *p, int32_t i, int32_t j, int32_t 
     return least;
 }
 
+static rg_vec2 corner(const rg_polygon *p, int32_t i) { return p->X[p->v[(i + p->n) % p->n]]; }
+
+static int is_along(rg_vec2 at, rg_vec2 side, rg_vec2 x)
+{
+    return fabs(sine(at, side, x)) <= COLLINEAR && rg_vec2_dot(rg_vec2_sub(side, at), rg_vec2_sub(x, at)) > 0;
+}
+
+/* Does the ray from corner i to x start inside? Between the sides of a corner of less than half a turn it is left of one and
+ * right of the other; at one of more, it does not where it is right of the one and left of the other. */
+static int starts_inside(const rg_polygon *p, int32_t i, rg_vec2 x)
+{
+    const rg_vec2 at = corner(p, i), next = corner(p, i + 1), last = corner(p, i - 1);
+    const double of_next = sine(at, next, x), of_last = sine(at, x, last);
+    if (is_along(at, next, x) || is_along(at, last, x)) return 0;
+    if (sine(at, next, last) > COLLINEAR) return of_next > COLLINEAR && of_last > COLLINEAR;
+    return of_next > COLLINEAR || of_last > COLLINEAR;
+}
+
+int rg_polygon_has_diagonal(const rg_polygon *p, int32_t i, int32_t j)
+{
+    const rg_vec2 a = corner(p, i), b = corner(p, j);
+    if (!starts_inside(p, i, b) || !starts_inside(p, j, a)) return 0;
+    for (int32_t k = 0; k < p->n; k++) {
+        const int32_t l = (k + 1) % p->n;
+        if (k == i || k == j || l == i || l == j) continue;
+        const rg_vec2 c = corner(p, k), d = corner(p, l);
+        const double at_c = sine(a, b, c), at_d = sine(a, b, d), at_a = sine(c, d, a), at_b = sine(c, d, b);
+        const int one_side = (at_c > COLLINEAR && at_d > COLLINEAR) || (at_c < -COLLINEAR && at_d < -COLLINEAR);
+        const int other_side = (at_a > COLLINEAR && at_b > COLLINEAR) || (at_a < -COLLINEAR && at_b < -COLLINEAR);
+        if (!one_side && !other_side) return 0;
+    }
+    return 1;
+}
+
+double rg_polygon_least_sine_at(const rg_polygon *p, int32_t i, int32_t j)
+{
+    const rg_vec2 a = corner(p, i), b = corner(p, j);
+    const double at_a = fmin(fabs(sine(a, b, corner(p, i - 1))), fabs(sine(a, b, corner(p, i + 1))));
+    return fmin(at_a, fmin(fabs(sine(b, a, corner(p, j - 1))), fabs(sine(b, a, corner(p, j + 1)))));
+}
+
 int32_t rg_polygon_add_diagonal(rg_mesh *m, int32_t from, int32_t to)
 {
     m->edge[m->ne][0] = from;

@@ -1,5 +1,5 @@
 /* alike.h -- how a pattern is like itself: turned, and mirrored.
- * Uses  pattern.h        Used by  write/info.c chart.c */
+ * Uses  maps.h        Used by  write/info.c chart.c */
 #ifndef RG_ALIKE_H
 #define RG_ALIKE_H
 

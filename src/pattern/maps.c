@@ -1,0 +1,198 @@
+#include "pattern/maps.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const double SAME_TARGET = 1e-6;
+/* Vertices moved in all that is tried: a second's work, enough for every place in a ring of 1,400. */
+static const int64_t MOST_MOVED = 4000000;
+/* Vertices are sorted along a direction in which few are side by side. */
+static const double ACROSS_X = 0.3302, ACROSS_Y = 0.9439;
+
+typedef struct spot { double along; int32_t v; } spot;
+typedef struct ends { int32_t low, high, e; } ends;
+
+typedef struct search {
+    int32_t nv, ne;
+    const rg_vec2 *X;
+    const rg_edge *E;
+    rg_vec2 middle;
+    double tol;
+    spot *spots;                  /* [nv] sorted */
+    ends *edges;                  /* [ne] sorted */
+    int32_t *vertex_to, *edge_to; /* [nv], [ne] where each of them goes */
+    int32_t *taken;               /* [nv] the last try in which a vertex went there */
+    int32_t tries;
+} search;
+
+static double along(rg_vec2 x) { return ACROSS_X * x.x + ACROSS_Y * x.y; }
+
+static int by_along(const void *a, const void *b)
+{
+    const spot *p = a, *q = b;
+    return p->along != q->along ? (p->along < q->along ? -1 : 1) : (p->v > q->v) - (p->v < q->v);
+}
+
+static int by_ends(const void *a, const void *b)
+{
+    const ends *p = a, *q = b;
+    if (p->low != q->low) return p->low < q->low ? -1 : 1;
+    return (p->high > q->high) - (p->high < q->high);
+}
+
+static ends ends_of(int32_t a, int32_t b, int32_t e) { return (ends){a < b ? a : b, a < b ? b : a, e}; }
+
+static rg_vec2 from_middle(const search *s, int32_t v) { return rg_vec2_sub(s->X[v], s->middle); }
+
+/* Non-zero while spot i may be nearer to x than `nearest`; *v, *nearest: updated. */
+static int nearer(const search *s, int32_t i, rg_vec2 x, double *nearest, int32_t *v)
+{
+    if (!(fabs(s->spots[i].along - along(x)) <= *nearest)) return 0;
+    const double distance = rg_vec2_length(rg_vec2_sub(from_middle(s, s->spots[i].v), x));
+    if (distance <= *nearest) *nearest = distance, *v = s->spots[i].v;
+    return 1;
+}
+
+/* The vertex nearest to x, from the middle, of those in the same place: short edges have both ends there. -1: none. */
+static int32_t vertex_at(const search *s, rg_vec2 x)
+{
+    const double at = along(x);
+    int32_t low = 0, high = s->nv, v = -1;
+    while (low < high) {
+        const int32_t half = low + (high - low) / 2;
+        if (s->spots[half].along < at) low = half + 1;
+        else high = half;
+    }
+    double nearest = s->tol;
+    for (int32_t i = low; i < s->nv && nearer(s, i, x, &nearest, &v); i++) {}
+    for (int32_t i = low - 1; i >= 0 && nearer(s, i, x, &nearest, &v); i--) {}
+    return v;
+}
+
+static int same_target(double a, double b) { return (isnan(a) && isnan(b)) || fabs(a - b) <= SAME_TARGET; }
+
+static char exchanged(char assignment)
+{
+    return assignment == RG_MOUNTAIN ? RG_VALLEY : assignment == RG_VALLEY ? RG_MOUNTAIN : assignment;
+}
+
+static int move_vertices(search *s, const rg_map *g)
+{
+    s->tries++;
+    for (int32_t v = 0; v < s->nv; v++) {
+        const rg_vec2 x = from_middle(s, v);
+        const double y = g->mirror ? -x.y : x.y;
+        const int32_t to = vertex_at(s, (rg_vec2){g->c * x.x - g->s * y, g->s * x.x + g->c * y});
+        if (to < 0 || s->taken[to] == s->tries) return 0;
+        s->taken[to] = s->tries;
+        s->vertex_to[v] = to;
+    }
+    return 1;
+}
+
+/* Does it take the drawing to itself, one way or the other? g->keeps: out. */
+static int applies(search *s, rg_map *g)
+{
+    if (!move_vertices(s, g)) return 0;
+    int same = 1, other = 1;
+    for (int32_t e = 0; e < s->ne && (same || other); e++) {
+        const ends key = ends_of(s->vertex_to[s->E[e].v[0]], s->vertex_to[s->E[e].v[1]], e);
+        const ends *found = bsearch(&key, s->edges, (size_t)s->ne, sizeof key, by_ends);
+        if (!found) return 0;
+        const rg_edge *a = &s->E[e], *b = &s->E[found->e];
+        same &= a->assignment == b->assignment && same_target(a->target, b->target);
+        other &= exchanged(a->assignment) == b->assignment && same_target(-a->target, b->target);
+        s->edge_to[e] = found->e;
+    }
+    g->keeps = same;
+    return same || other;
+}
+
+typedef struct room { size_t map, vertex, edge; } room;
+
+static rg_status keep(rg_maps *g, room *r, const search *s, const rg_map *map)
+{
+    const size_t n = (size_t)g->count, nv = (size_t)g->nv, ne = (size_t)g->ne;
+    rg_status status = rg_mem_grow(&g->mem, (void **)&g->map, &r->map, n + 1, sizeof *g->map);
+    if (status == RG_OK) status = rg_mem_grow(&g->mem, (void **)&g->vertex, &r->vertex, (n + 1) * nv, sizeof *g->vertex);
+    if (status == RG_OK) status = rg_mem_grow(&g->mem, (void **)&g->edge, &r->edge, (n + 1) * ne, sizeof *g->edge);
+    if (status != RG_OK) return status;
+    g->map[n] = *map;
+    memcpy(g->vertex + n * nv, s->vertex_to, nv * sizeof *g->vertex);
+    memcpy(g->edge + n * ne, s->edge_to, ne * sizeof *g->edge);
+    g->count++;
+    return RG_OK;
+}
+
+/* Wherever the furthest vertex may go, turned or mirrored: y = (c + i s) x, or (c + i s) times the conjugate of x. */
+static rg_status try_all(rg_maps *g, search *s)
+{
+    int32_t furthest = 0;
+    int64_t moved = 0;
+    room r = {0, 0, 0};
+    for (int32_t v = 1; v < s->nv; v++)
+        if (rg_vec2_length(from_middle(s, v)) > rg_vec2_length(from_middle(s, furthest))) furthest = v;
+    const rg_vec2 x = from_middle(s, furthest);
+    const double far = rg_vec2_length(x);
+    if (!(far > 2 * s->tol)) return RG_OK;
+    for (int32_t n = 0; n <= s->nv && moved < MOST_MOVED; n++) { /* to itself first, so that the one by nothing is the first */
+        const int32_t v = n == 0 ? furthest : n - 1;
+        const rg_vec2 y = from_middle(s, v);
+        const double length = rg_vec2_length(y);
+        if ((n > 0 && v == furthest) || !(fabs(length - far) <= s->tol)) continue;
+        moved += 2 * (int64_t)s->nv;
+        for (int mirror = 0; mirror < 2; mirror++) {
+            const double xy = mirror ? -x.y : x.y, both = far * length;
+            rg_map map = {(x.x * y.x + xy * y.y) / both, (x.x * y.y - xy * y.x) / both, mirror, 0};
+            if (!applies(s, &map) || s->vertex_to[furthest] != v) continue;
+            const rg_status status = keep(g, &r, s, &map);
+            if (status != RG_OK) return status;
+        }
+    }
+    return RG_OK;
+}
+
+static void fill(search *s)
+{
+    for (int32_t v = 0; v < s->nv; v++) {
+        s->middle.x += s->X[v].x / s->nv;
+        s->middle.y += s->X[v].y / s->nv;
+    }
+    for (int32_t v = 0; v < s->nv; v++) s->spots[v] = (spot){along(from_middle(s, v)), v};
+    for (int32_t e = 0; e < s->ne; e++) s->edges[e] = ends_of(s->E[e].v[0], s->E[e].v[1], e);
+    qsort(s->spots, (size_t)s->nv, sizeof *s->spots, by_along);
+    qsort(s->edges, (size_t)s->ne, sizeof *s->edges, by_ends);
+}
+
+rg_status rg_maps_find(rg_maps *g, const rg_memory *mem, int32_t nv, const rg_vec2 *X, int32_t ne, const rg_edge *E,
+                       double tol)
+{
+    search s = {.nv = nv, .ne = ne, .X = X, .E = E, .tol = tol};
+    memset(g, 0, sizeof *g);
+    g->mem = *mem;
+    g->nv = nv, g->ne = ne;
+    s.spots = rg_mem_array(mem, (size_t)nv, sizeof *s.spots);
+    s.edges = rg_mem_array(mem, (size_t)ne, sizeof *s.edges);
+    s.vertex_to = rg_mem_array(mem, (size_t)nv, sizeof *s.vertex_to);
+    s.edge_to = rg_mem_array(mem, (size_t)ne, sizeof *s.edge_to);
+    s.taken = rg_mem_array(mem, (size_t)nv, sizeof *s.taken);
+    rg_status status = s.spots && s.edges && s.vertex_to && s.edge_to && s.taken ? RG_OK : RG_ENOMEM;
+    if (status == RG_OK && nv > 0) {
+        fill(&s);
+        g->middle = s.middle;
+        status = try_all(g, &s);
+    }
+    void *block[] = {s.spots, s.edges, s.vertex_to, s.edge_to, s.taken};
+    for (int i = 0; i < 5; i++) rg_mem_free(mem, block[i]);
+    if (status != RG_OK) rg_maps_free(g);
+    return status;
+}
+
+void rg_maps_free(rg_maps *g)
+{
+    if (!g->mem.resize) return;
+    rg_mem_free(&g->mem, g->map);
+    rg_mem_free(&g->mem, g->vertex);
+    rg_mem_free(&g->mem, g->edge);
+    memset(g, 0, sizeof *g);
+}
