@@ -183,6 +183,49 @@ RG_API rg_status rg_convert(const char *in, const char *out, rg_format to, const
 RG_API const char *const *rg_generate_kinds(void);
 RG_API rg_status rg_generate(const char *kind, int32_t n, int32_t m, double angle, const char *path, rg_diag *why);
 
+/* ---------------------------------------------------------------------------------------------- layers ---- */
+
+/* The orders in which the facets of a flat-folded pattern can lie on each other. Facets: those drawn, as rg_motion's without
+ * added creases. One thread at a time for one handle. */
+typedef struct rg_layers rg_layers;
+
+typedef enum rg_layers_state {
+    RG_LAYERS_VALID,   /* there is at least one order */
+    RG_LAYERS_NONE,    /* there is none: no flat folding without paper passing through paper */
+    RG_LAYERS_UNSOLVED, /* found out neither way within the work that is allowed */
+    RG_LAYERS_NOT_FLAT /* the creases do not end flat, or do not close there */
+} rg_layers_state;
+
+typedef struct rg_layers_info {
+    rg_layers_state state;
+    int32_t facets, pairs;     /* of facets that overlap */
+    int32_t settled;           /* pairs whose order is the same in all */
+    int32_t parts;             /* groups of the other pairs, each ordered without regard to the others */
+    const char *count;         /* how many orders, as decimal digits; "at least ..." where counting was given up; borrowed */
+    const char *rule;          /* NONE: what cannot be held: "taco-taco", "taco-tortilla", "tortilla-tortilla", "transitivity",
+                                * "mountain and valley", or "all together"; else "" */
+    int32_t where_count;       /* NONE: facets between which it fails first */
+    const int32_t *where;      /* their numbers */
+    const double (*where_at)[2]; /* their centroids in the pattern, file coordinates */
+    char reason[240];          /* in words, for every state but VALID */
+} rg_layers_info;
+
+/* One pair of a layer order, as FOLD's faceOrders: facet f lies above (+1) or below (-1) facet g, seen from the side to which g's
+ * front faces. */
+typedef struct rg_layers_pair { int32_t f, g, side; } rg_layers_pair;
+
+/* s: memory. RG_OK whatever is found, read rg_layers_get_info; RG_ESHEET: not one sheet without holes. Owner: the caller. */
+RG_API rg_status rg_layers_create(const rg_pattern *p, const rg_settings *s, rg_layers **layers, rg_diag *why);
+RG_API void rg_layers_destroy(rg_layers *l);
+RG_API void rg_layers_get_info(const rg_layers *l, rg_layers_info *info);
+/* How many orders part i has (at least, where the count says so), 0 <= i < info.parts. The number of all is their product. */
+RG_API uint64_t rg_layers_part(const rg_layers *l, int32_t i);
+/* pair[info.pairs]: out, the order that has the number which[i] within part i, each less than rg_layers_part; NULL: all 0, the first
+ * order. RG_EARG: there is no such order; RG_ENOMEM. */
+RG_API rg_status rg_layers_order(rg_layers *l, const uint64_t *which, rg_layers_pair *pair);
+/* which[info.parts]: out, for order `index` of all, 0 the first; those of one part follow each other. RG_EARG: no such order. */
+RG_API rg_status rg_layers_which(const rg_layers *l, uint64_t index, uint64_t *which);
+
 /* ------------------------------------------------------------------------------------------------ fold ---- */
 
 /* One fold in progress, for callers that own the loop. */

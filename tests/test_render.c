@@ -11,7 +11,7 @@
 #include "motions.h"
 #include "render/camera.h"
 #include "render/gl.h"
-#include "render/layers.h"
+#include "render/lift.h"
 #include "render/render.h"
 
 /* ------------------------------------------------------------------------------------------------ layers ---- */
@@ -25,19 +25,19 @@ typedef struct pile {
 static pile pile_after(const rg_motion *m, int32_t frames)
 {
     pile p;
-    rg_layers *l = NULL;
+    rg_lift *l = NULL;
     p.x = calloc((size_t)m->mesh.nv, sizeof *p.x);
     p.lift = calloc((size_t)m->mesh.nf, sizeof *p.lift);
     assert_true(p.x && p.lift);
     assert_int_equal(rg_triangles_init(NULL, &m->mesh, &p.triangles), RG_OK);
-    assert_int_equal(rg_layers_create(&m->mem, m, &p.triangles, &l), RG_OK);
+    assert_int_equal(rg_lift_create(&m->mem, m, &p.triangles, &l), RG_OK);
     for (int32_t k = 0; k < frames; k++) {
-        assert_int_equal(rg_layers_next(l, p.x, p.lift), RG_OK);
+        assert_int_equal(rg_lift_next(l, p.x, p.lift), RG_OK);
         for (int32_t f = 0; f < m->mesh.nf; f++)
-            below(rg_vec3_length(p.lift[f]), (1 + 1e-9) * RG_LAYERS_LIFT * m->mesh.size);
+            below(rg_vec3_length(p.lift[f]), (1 + 1e-9) * RG_LIFT_MOST * m->mesh.size);
     }
-    if (frames == m->report.frame_count) assert_int_equal(rg_layers_next(l, p.x, p.lift), RG_EARG);
-    rg_layers_destroy(l);
+    if (frames == m->report.frame_count) assert_int_equal(rg_lift_next(l, p.x, p.lift), RG_EARG);
+    rg_lift_destroy(l);
     return p;
 }
 
@@ -532,12 +532,12 @@ static void shortage_is_told(void **state)
         counted count = {k, 0, 0};
         const rg_memory mem = {counted_resize, &count};
         rg_triangles t;
-        rg_layers *y = NULL;
+        rg_lift *y = NULL;
         rg_render *r = NULL;
         m->mesh.mem = mem;
         s = rg_triangles_init(&mem, &m->mesh, &t);
-        if (s == RG_OK) s = rg_layers_create(&mem, m, &t, &y);
-        for (int i = 0; s == RG_OK && i < 3; i++) s = rg_layers_next(y, x, lift);
+        if (s == RG_OK) s = rg_lift_create(&mem, m, &t, &y);
+        for (int i = 0; s == RG_OK && i < 3; i++) s = rg_lift_next(y, x, lift);
         if (s == RG_OK) s = rg_render_create(&mem, &m->mesh, &t, &picture, &r, NULL);
         if (s == RG_OK) {
             const long asked = count.asked;
@@ -547,7 +547,7 @@ static void shortage_is_told(void **state)
             assert_int_equal(s, RG_ENOMEM);
         }
         rg_render_destroy(r);
-        rg_layers_destroy(y);
+        rg_lift_destroy(y);
         rg_triangles_free(&t);
         assert_int_equal(count.out, 0);
         assert_true(k < 1000);

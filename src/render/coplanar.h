@@ -1,5 +1,5 @@
 /* coplanar.h -- which facets lie in one plane, by a hash table over planes.
- * Uses  pose.h        Used by  layers.c */
+ * Uses  pose.h        Used by  lift.c */
 #ifndef RG_COPLANAR_H
 #define RG_COPLANAR_H
 

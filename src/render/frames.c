@@ -1,6 +1,6 @@
 #include "render/frames.h"
 #include "base/status.h"
-#include "render/layers.h"
+#include "render/lift.h"
 #include "render/render.h"
 
 #include <pthread.h>
@@ -22,7 +22,7 @@ typedef struct studio {
     guard guard;
     rg_memory mem; /* through the guard */
     rg_triangles triangles;
-    rg_layers *layers;
+    rg_lift *layers;
     rg_camera camera;
     pthread_mutex_t lock;
     pthread_cond_t moved;
@@ -61,7 +61,7 @@ static int next_frame(painter *p, int32_t *frame)
     int found = 0;
     pthread_mutex_lock(&s->lock);
     while (!found && s->status == RG_OK && s->next < s->motion->report.frame_count) {
-        s->status = rg_layers_next(s->layers, p->x, p->lift);
+        s->status = rg_lift_next(s->layers, p->x, p->lift);
         if (s->status != RG_OK) rg_fail(s->status, s->why, 0, "%s", rg_status_text(s->status));
         *frame = s->next++;
         found = s->status == RG_OK && is_wanted(s->wish, *frame);
@@ -182,10 +182,10 @@ rg_status rg_frames_draw(const rg_motion *m, const rg_frames *f, rg_diag *why)
     pthread_cond_init(&s.moved, NULL);
     s.mem = (rg_memory){guarded_resize, &s.guard};
     status = rg_triangles_init(&s.mem, &m->mesh, &s.triangles);
-    if (status == RG_OK) status = rg_layers_create(&s.mem, m, &s.triangles, &s.layers);
+    if (status == RG_OK) status = rg_lift_create(&s.mem, m, &s.triangles, &s.layers);
     if (status == RG_OK) status = draw(&s);
     else rg_fail(status, why, 0, "%s", rg_status_text(status));
-    rg_layers_destroy(s.layers);
+    rg_lift_destroy(s.layers);
     rg_triangles_free(&s.triangles);
     pthread_cond_destroy(&s.moved);
     pthread_mutex_destroy(&s.lock);

@@ -1,5 +1,5 @@
 /* stack.h -- the order of facets that lie on each other in one plane, from where each lay a moment before.
- * Uses  pose.h triangles.h        Used by  layers.c */
+ * Uses  pose.h triangles.h        Used by  lift.c */
 #ifndef RG_STACK_H
 #define RG_STACK_H
 

@@ -2,7 +2,7 @@
 #include "base/base64.h"
 #include "base/bytes.h"
 #include "base/json.h"
-#include "render/layers.h"
+#include "render/lift.h"
 
 #include <string.h>
 
@@ -16,7 +16,7 @@ typedef struct book {
     const rg_motion *m;
     const rg_mesh *mesh;
     rg_triangles t;
-    rg_layers *layers;
+    rg_lift *layers;
     int rigid;           /* facets keep their shape: the page finds their turns; else it moves the vertices alone */
     rg_vec3 *x, *lift;   /* [nv], [nf] */
     unsigned char *bytes; /* room for one frame */
@@ -84,7 +84,7 @@ static rg_status sheet(rg_json *j, book *b)
 
 static rg_status one_frame(rg_json *j, book *b, int32_t k)
 {
-    rg_status s = rg_layers_next(b->layers, b->x, b->lift);
+    rg_status s = rg_lift_next(b->layers, b->x, b->lift);
     if (s != RG_OK) return s;
     unsigned char *to = b->bytes;
     int lifted = 0;
@@ -141,7 +141,7 @@ static rg_status book_init(book *b, const rg_motion *m)
     for (int32_t k = 0; k < m->report.frame_count; k++)
         b->rigid &= memcmp(rg_motion_pattern(m, k), m->mesh.X, nv * sizeof *m->mesh.X) == 0;
     rg_status s = rg_triangles_init(mem, &m->mesh, &b->t);
-    if (s == RG_OK) s = rg_layers_create(mem, m, &b->t, &b->layers);
+    if (s == RG_OK) s = rg_lift_create(mem, m, &b->t, &b->layers);
     if (s != RG_OK) return s;
     b->x = rg_mem_array(mem, nv, sizeof *b->x);
     b->lift = rg_mem_array(mem, nf, sizeof *b->lift);
@@ -153,7 +153,7 @@ static void book_free(book *b)
 {
     void *block[] = {b->x, b->lift, b->bytes};
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&b->m->mem, block[i]);
-    rg_layers_destroy(b->layers);
+    rg_lift_destroy(b->layers);
     rg_triangles_free(&b->t);
 }
 

@@ -6,7 +6,7 @@
 #include "motion/measure.h"
 #include "render/frames.h"
 #include "render/gl.h"
-#include "render/layers.h"
+#include "render/lift.h"
 #include "render/render.h"
 #include "write/film.h"
 #include "write/png.h"
@@ -83,7 +83,7 @@ static void paint(const rg_motion *m, const rg_picture *p, bill *b)
 {
     rg_diag why = {0, ""};
     rg_triangles t;
-    rg_layers *layers = NULL;
+    rg_lift *layers = NULL;
     rg_render *render = NULL;
     rg_camera camera;
     double sum[PARTS] = {0}, from = cpu();
@@ -94,11 +94,11 @@ static void paint(const rg_motion *m, const rg_picture *p, bill *b)
     must(rg_camera_fit(m, p, &camera, &why), "camera", &why);
     sum[FRAMING] = cpu() - from;
     must(rg_triangles_init(&m->mem, &m->mesh, &t), "triangles", &why);
-    must(rg_layers_create(&m->mem, m, &t, &layers), "layers", &why);
+    must(rg_lift_create(&m->mem, m, &t, &layers), "layers", &why);
     must(rg_render_create(&m->mem, &m->mesh, &t, p, &render, &why), "render", &why);
     for (int32_t f = 0; f < m->report.frame_count; f++) {
         const double begun = cpu();
-        must(rg_layers_next(layers, x, lift), "layers", &why);
+        must(rg_lift_next(layers, x, lift), "layers", &why);
         const double laid = cpu();
         must(rg_render_frame(render, x, lift, &camera, rgb, &why), "frame", &why);
         const double drawn = cpu();
@@ -107,7 +107,7 @@ static void paint(const rg_motion *m, const rg_picture *p, bill *b)
     }
     for (int part = FRAMING; part <= PACKING; part++) least(b, part, sum[part]);
     rg_render_destroy(render);
-    rg_layers_destroy(layers);
+    rg_lift_destroy(layers);
     rg_triangles_free(&t);
     fclose(null);
     free(x), free(lift), free(rgb);

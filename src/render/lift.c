@@ -1,14 +1,14 @@
-#include "render/layers.h"
+#include "render/lift.h"
 #include "render/coplanar.h"
 #include "render/stack.h"
 
-/* Between two layers, in parts of the sheet's size; less where there are so many that RG_LAYERS_LIFT says so. */
+/* Between two layers, in parts of the sheet's size; less where there are so many that RG_LIFT_MOST says so. */
 #define STEP 5e-5
 /* How far to look back at most, radians: near enough that what comes to lie flat is almost flat. Frames further apart
  * than that are looked at in between. */
 #define LOOK_BACK (10 * RG_DEG)
 
-struct rg_layers {
+struct rg_lift {
     rg_memory mem;
     const rg_motion *motion;
     int32_t frame;                  /* the next one */
@@ -20,12 +20,12 @@ struct rg_layers {
     rg_stack stack;
 };
 
-rg_status rg_layers_create(const rg_memory *mem, const rg_motion *m, const rg_triangles *t, rg_layers **layers)
+rg_status rg_lift_create(const rg_memory *mem, const rg_motion *m, const rg_triangles *t, rg_lift **layers)
 {
     const size_t nf = (size_t)m->mesh.nf;
-    rg_layers *l = rg_mem_array(mem, 1, sizeof *l);
+    rg_lift *l = rg_mem_array(mem, 1, sizeof *l);
     if (!l) return RG_ENOMEM;
-    *l = (rg_layers){.mem = *mem, .motion = m};
+    *l = (rg_lift){.mem = *mem, .motion = m};
     l->place = rg_mem_array(mem, nf, sizeof *l->place);
     l->was = rg_mem_array(mem, nf, sizeof *l->was);
     l->back = rg_mem_array(mem, nf, sizeof *l->back);
@@ -36,14 +36,14 @@ rg_status rg_layers_create(const rg_memory *mem, const rg_motion *m, const rg_tr
     if (s == RG_OK) s = rg_coplanar_init(&l->coplanar, mem, &m->mesh);
     if (s == RG_OK) s = rg_stack_init(&l->stack, mem, &m->mesh, t);
     if (s != RG_OK) {
-        rg_layers_destroy(l);
+        rg_lift_destroy(l);
         return s;
     }
     *layers = l;
     return RG_OK;
 }
 
-void rg_layers_destroy(rg_layers *l)
+void rg_lift_destroy(rg_lift *l)
 {
     if (!l) return;
     rg_coplanar_free(&l->coplanar);
@@ -54,7 +54,7 @@ void rg_layers_destroy(rg_layers *l)
 
 /* Where the facets lay a little before, each with its lift: those that lie on each other already stay in order. Before
  * the first frame the sheet was a little flatter. */
-static void look_back(rg_layers *l, const rg_vec2 *X)
+static void look_back(rg_lift *l, const rg_vec2 *X)
 {
     const rg_mesh *m = &l->motion->mesh;
     const double *now = rg_motion_angles(l->motion, l->frame);
@@ -75,7 +75,7 @@ static void look_back(rg_layers *l, const rg_vec2 *X)
     }
 }
 
-static rg_status lift_group(rg_layers *l, int32_t g, const rg_vec3 *x, rg_vec3 *lift)
+static rg_status lift_group(rg_lift *l, int32_t g, const rg_vec3 *x, rg_vec3 *lift)
 {
     const rg_mesh *m = &l->motion->mesh;
     const rg_coplanar *c = &l->coplanar;
@@ -85,13 +85,13 @@ static rg_status lift_group(rg_layers *l, int32_t g, const rg_vec3 *x, rg_vec3 *
     int32_t levels;
     const rg_status s = rg_stack_order(&l->stack, facet, n, base, up, x, l->back, l->level, &levels);
     if (s != RG_OK || levels < 2) return s;
-    const double step = fmin(STEP, 2 * RG_LAYERS_LIFT / (levels - 1)) * m->size;
+    const double step = fmin(STEP, 2 * RG_LIFT_MOST / (levels - 1)) * m->size;
     for (int32_t i = 0; i < n; i++)
         lift[facet[i]] = rg_vec3_scale((l->level[facet[i]] - 0.5 * (levels - 1)) * step, up);
     return RG_OK;
 }
 
-rg_status rg_layers_next(rg_layers *l, rg_vec3 *x, rg_vec3 *lift)
+rg_status rg_lift_next(rg_lift *l, rg_vec3 *x, rg_vec3 *lift)
 {
     const rg_mesh *m = &l->motion->mesh;
     if (l->frame >= l->motion->report.frame_count) return RG_EARG;

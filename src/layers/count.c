@@ -1,0 +1,236 @@
+#include "layers/count.h"
+
+#include <string.h>
+
+/* How many words and cases one word of a list costs; between two questions whether to stop. */
+enum { NODES_BETWEEN_ASKING = 64 };
+
+typedef struct counter {
+    rg_orders *o;
+    int32_t *list;        /* parts, each after its length, as far as `used` */
+    size_t used, room;
+    unsigned char *mark;  /* [pairs] 1: of the list that is being divided, and in no part yet */
+    int64_t limit;        /* of o->work */
+    int out_of_work;
+    rg_status status;
+} counter;
+
+static int goes_on(counter *c)
+{
+    if (c->o->work > c->limit) c->out_of_work = 1;
+    return c->status == RG_OK && !c->out_of_work;
+}
+
+static void push(counter *c, int32_t i)
+{
+    if (c->status == RG_OK) c->status = rg_mem_grow(&c->o->mem, (void **)&c->list, &c->room, c->used + 1, sizeof *c->list);
+    if (c->status == RG_OK) c->list[c->used++] = i;
+}
+
+static void reach(counter *c, int32_t pair)
+{
+    if (!c->mark[pair]) return;
+    c->mark[pair] = 0;
+    push(c, pair);
+}
+
+/* Pairs that one and the same constraint leaves open together with this one. */
+static void reach_from(counter *c, int32_t pair)
+{
+    const rg_orders *o = c->o;
+    const rg_pairs *p = o->pairs;
+    const rg_constraints *k = o->constraints;
+    const size_t words = (size_t)p->words;
+    for (int32_t j = k->start[pair]; j < k->start[pair + 1]; j++) {
+        const rg_constraint_case *x = &k->item[k->of[j]];
+        for (int i = 0; i < x->n; i++) reach(c, x->pair[i]);
+    }
+    for (int end = 0; end < 2; end++) {
+        const int32_t f = p->facet[pair][end];
+        const uint64_t *row = p->row + (size_t)f * words, *above = o->above + (size_t)f * words, *below = o->below + (size_t)f * words;
+        for (int64_t i = p->common_start[pair]; i < p->common_start[pair + 1]; i++) {
+            const size_t w = (size_t)p->common_word[i];
+            uint64_t bits = p->common[i] & row[w] & ~above[w] & ~below[w];
+            c->o->work++;
+            for (; bits; bits &= bits - 1) reach(c, rg_pairs_find(p, f, (int32_t)(64 * w) + __builtin_ctzll(bits)));
+        }
+    }
+}
+
+/* Puts the parts of what is unknown among n pairs at the end of the list. from: where they begin in it; NULL: all pairs. */
+static void divide(counter *c, const size_t *from, int32_t n)
+{
+    for (int32_t i = 0; i < n; i++) {
+        const int32_t pair = from ? c->list[*from + (size_t)i] : i;
+        c->mark[pair] = !c->o->value[pair];
+    }
+    for (int32_t i = 0; c->status == RG_OK && i < n; i++) {
+        const int32_t pair = from ? c->list[*from + (size_t)i] : i;
+        if (!c->mark[pair]) continue;
+        const size_t head = c->used;
+        push(c, 0);
+        reach(c, pair);
+        for (size_t j = head + 1; c->status == RG_OK && j < c->used; j++) reach_from(c, c->list[j]);
+        if (c->status == RG_OK) c->list[head] = (int32_t)(c->used - head - 1);
+    }
+}
+
+static uint64_t product(uint64_t a, uint64_t b) { return b && a > UINT64_MAX / b ? UINT64_MAX : a * b; }
+
+static uint64_t count_part(counter *c, size_t first, int32_t n, uint64_t cap);
+
+/* How many orders what is left of n pairs has, at most `cap` of them counted. */
+static uint64_t count_rest(counter *c, size_t first, int32_t n, uint64_t cap)
+{
+    const size_t begin = c->used;
+    uint64_t total = 1;
+    divide(c, &first, n);
+    const size_t end = c->used;
+    for (size_t at = begin; total && at < end; at += 1 + (size_t)c->list[at])
+        total = product(total, count_part(c, at + 1, c->list[at], total < cap ? (cap - 1) / total + 1 : 1));
+    c->used = begin;
+    return c->status == RG_OK ? total : 0;
+}
+
+static uint64_t try_order(counter *c, size_t first, int32_t n, int value, uint64_t cap)
+{
+    const int32_t known = c->o->known;
+    uint64_t orders = 0;
+    if (rg_orders_set(c->o, c->list[first], value) && rg_orders_propagate(c->o)) orders = count_rest(c, first, n, cap);
+    rg_orders_undo(c->o, known);
+    return orders;
+}
+
+/* Of one part. Out of work, it is a number that there are at least. */
+static uint64_t count_part(counter *c, size_t first, int32_t n, uint64_t cap)
+{
+    uint64_t total = 0;
+    for (int value = 1; value >= -1 && total < cap && goes_on(c); value -= 2) {
+        const uint64_t more = try_order(c, first, n, value, cap - total);
+        total = more > UINT64_MAX - total ? UINT64_MAX : total + more;
+    }
+    return total;
+}
+
+static rg_status begin(counter *c, rg_orders *o, int64_t work)
+{
+    memset(c, 0, sizeof *c);
+    c->o = o;
+    c->limit = work > INT64_MAX - o->work ? INT64_MAX : o->work + work;
+    c->mark = rg_mem_array(&o->mem, (size_t)o->pairs->count, 1);
+    return c->mark ? RG_OK : RG_ENOMEM;
+}
+
+static void end(counter *c)
+{
+    rg_mem_free(&c->o->mem, c->mark);
+    rg_mem_free(&c->o->mem, c->list);
+}
+
+/* ---------------------------------------------------------------------------------------------- parts ---- */
+
+void rg_parts_free(rg_parts *q)
+{
+    if (!q->mem.resize) return;
+    const rg_memory mem = q->mem;
+    void *block[] = {q->start, q->pair, q->orders, q->more};
+    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&mem, block[i]);
+    memset(q, 0, sizeof *q);
+}
+
+static rg_status keep_parts(rg_parts *q, const counter *c)
+{
+    for (size_t at = 0; at < c->used; at += 1 + (size_t)c->list[at]) q->count++;
+    q->start = rg_mem_array(&q->mem, (size_t)q->count + 1, sizeof *q->start);
+    q->pair = rg_mem_array(&q->mem, c->used, sizeof *q->pair);
+    q->orders = rg_mem_array(&q->mem, (size_t)q->count, sizeof *q->orders);
+    q->more = rg_mem_array(&q->mem, (size_t)q->count, 1);
+    if (!q->start || !q->pair || !q->orders || !q->more) return RG_ENOMEM;
+    int32_t i = 0;
+    for (size_t at = 0; at < c->used; at += 1 + (size_t)c->list[at], i++) {
+        memcpy(q->pair + q->start[i], c->list + at + 1, (size_t)c->list[at] * sizeof *q->pair);
+        q->start[i + 1] = q->start[i] + c->list[at];
+    }
+    return RG_OK;
+}
+
+rg_status rg_parts_init(rg_parts *q, const rg_memory *mem, rg_orders *o, int64_t work, rg_count_result *result, int32_t *at)
+{
+    counter c;
+    memset(q, 0, sizeof *q);
+    q->mem = *mem;
+    rg_status s = begin(&c, o, work);
+    if (s == RG_OK) divide(&c, NULL, o->pairs->count);
+    if (s == RG_OK) s = c.status;
+    if (s == RG_OK) s = keep_parts(q, &c);
+    *result = RG_COUNT_DONE;
+    /* One of each first: whether there is any must not wait for the number of another. */
+    size_t head = 0;
+    for (int32_t i = 0; s == RG_OK && i < q->count && *result == RG_COUNT_DONE; i++, head += 1 + (size_t)c.list[head]) {
+        *at = i;
+        q->orders[i] = count_part(&c, head + 1, c.list[head], 1);
+        s = c.status;
+        if (!q->orders[i]) *result = c.out_of_work ? RG_COUNT_UNSOLVED : RG_COUNT_NONE;
+        else c.out_of_work = 0;
+    }
+    const int64_t share = q->count ? work / q->count : 0;
+    head = 0;
+    for (int32_t i = 0; s == RG_OK && i < q->count && *result == RG_COUNT_DONE; i++, head += 1 + (size_t)c.list[head]) {
+        c.limit = o->work + share;
+        c.out_of_work = 0;
+        const uint64_t n = count_part(&c, head + 1, c.list[head], UINT64_MAX);
+        s = c.status;
+        q->more[i] = (unsigned char)(c.out_of_work || n == UINT64_MAX);
+        if (n > q->orders[i]) q->orders[i] = n;
+    }
+    end(&c);
+    return s;
+}
+
+/* --------------------------------------------------------------------------------------- one of them ---- */
+
+static void choose_part(counter *c, size_t first, int32_t n, uint64_t which);
+
+/* The first part's number changes fastest. */
+static void choose_rest(counter *c, size_t first, int32_t n, uint64_t which)
+{
+    const size_t begin = c->used;
+    divide(c, &first, n);
+    const size_t end = c->used;
+    for (size_t at = begin; c->status == RG_OK && at < end; at += 1 + (size_t)c->list[at]) {
+        const uint64_t here = which ? count_part(c, at + 1, c->list[at], which + 1) : 1;
+        if (here == 0) break;
+        choose_part(c, at + 1, c->list[at], which % here);
+        which /= here;
+    }
+    c->used = begin;
+}
+
+static void choose_part(counter *c, size_t first, int32_t n, uint64_t which)
+{
+    for (int value = 1; value >= -1 && c->status == RG_OK; value -= 2) {
+        const uint64_t here = try_order(c, first, n, value, which + 1);
+        if (which >= here) {
+            which -= here;
+            continue;
+        }
+        rg_orders_set(c->o, c->list[first], value);
+        rg_orders_propagate(c->o);
+        choose_rest(c, first, n, which);
+        return;
+    }
+}
+
+rg_status rg_parts_choose(const rg_parts *q, rg_orders *o, int32_t i, uint64_t which)
+{
+    counter c;
+    rg_status s = begin(&c, o, INT64_MAX);
+    for (int32_t j = q->start[i]; s == RG_OK && j < q->start[i + 1]; j++) {
+        push(&c, q->pair[j]);
+        s = c.status;
+    }
+    if (s == RG_OK) choose_part(&c, 0, q->start[i + 1] - q->start[i], which);
+    if (s == RG_OK) s = c.status;
+    end(&c);
+    return s;
+}

@@ -1,0 +1,29 @@
+/* count.h -- how many orders there are, part by part, and any one of them.
+ * Uses  propagate.h        Used by  layers.c
+ *
+ * Pairs that constraints with two unknown orders join are a part; parts don't touch each other, so the orders of the whole are
+ * products. Within a part one pair is tried both ways; what is left falls into parts again, and those are counted each for itself. */
+#ifndef RG_COUNT_H
+#define RG_COUNT_H
+
+#include "layers/propagate.h"
+
+typedef struct rg_parts {
+    rg_memory mem;
+    int32_t count;
+    int32_t *start, *pair; /* [count + 1]: the unknown pairs of each, rising by their first ones */
+    uint64_t *orders;      /* [count] */
+    unsigned char *more;   /* [count] non-zero: there are more, but counting them was given up */
+} rg_parts;
+
+typedef enum rg_count_result { RG_COUNT_DONE, RG_COUNT_NONE, RG_COUNT_UNSOLVED } rg_count_result;
+
+/* Of what is not known in o, which is propagated. NONE: part `*at` has no order. UNSOLVED: the work ran out before an order of each
+ * part was found. work: as o->work counts it; stop (may be NULL) is asked now and then, non-zero ends it as if work ran out.
+ * RG_ENOMEM. Owner: the caller, rg_parts_free, also after a failure. */
+rg_status rg_parts_init(rg_parts *q, const rg_memory *mem, rg_orders *o, int64_t work, rg_count_result *result, int32_t *at);
+void rg_parts_free(rg_parts *q);
+/* Makes part i of o known: order `which` of it, which < q->orders[i]. RG_ENOMEM. */
+rg_status rg_parts_choose(const rg_parts *q, rg_orders *o, int32_t i, uint64_t which);
+
+#endif

@@ -1,0 +1,241 @@
+#include "layers/layers.h"
+#include "base/status.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Words and cases that finding an order may look at, and counting orders: a few seconds. */
+static const int64_t MOST_WORK = 400000000;
+
+void rg_layers_destroy(rg_layers *l)
+{
+    if (!l) return;
+    const rg_memory mem = l->mem;
+    rg_mesh_free(&l->mesh);
+    rg_flat_free(&l->flat);
+    rg_cells_free(&l->cells);
+    rg_pairs_free(&l->pairs);
+    rg_constraints_free(&l->constraints);
+    rg_orders_free(&l->orders);
+    rg_parts_free(&l->parts);
+    rg_mem_free(&mem, l->count);
+    rg_mem_free(&mem, l);
+}
+
+void rg_layers_get_info(const rg_layers *l, rg_layers_info *info) { *info = l->info; }
+
+static const char *rule_name(rg_rule rule)
+{
+    switch (rule) {
+    case RG_RULE_HINGE: return "mountain and valley";
+    case RG_RULE_TACO_TACO: return "taco-taco";
+    case RG_RULE_TACO_TORTILLA: return "taco-tortilla";
+    case RG_RULE_TORTILLA_TORTILLA: return "tortilla-tortilla";
+    case RG_RULE_TRANSITIVITY: return "transitivity";
+    }
+    return "";
+}
+
+/* ------------------------------------------------------------------------------------------- what it is ---- */
+
+static void say_not_flat(rg_layers *l)
+{
+    rg_layers_info *i = &l->info;
+    i->state = RG_LAYERS_NOT_FLAT;
+    if (l->flat.state == RG_FLAT_ANGLE) {
+        const int32_t *v = l->mesh.edge[l->flat.at_edge];
+        const rg_vec2 a = l->mesh.X[v[0]], b = l->mesh.X[v[1]];
+        snprintf(i->reason, sizeof i->reason, "the crease from (%.6g, %.6g) to (%.6g, %.6g) ends neither flat nor folded by half a turn",
+                 a.x, a.y, b.x, b.y);
+    } else {
+        const rg_vec2 x = l->mesh.X[l->flat.at_vertex];
+        snprintf(i->reason, sizeof i->reason, "folded flat, the facets about (%.6g, %.6g) do not meet", x.x, x.y);
+    }
+}
+
+static void name_facets(rg_layers *l, const int32_t *facet, int32_t n)
+{
+    rg_layers_info *i = &l->info;
+    size_t used = (size_t)snprintf(i->reason, sizeof i->reason, "%s of the facets at", i->rule);
+    for (int32_t k = 0; k < n; k++) {
+        const rg_vec2 x = l->flat.middle[facet[k]];
+        l->where[k] = facet[k];
+        l->where_at[k][0] = x.x, l->where_at[k][1] = x.y;
+        if (used < sizeof i->reason)
+            used += (size_t)snprintf(i->reason + used, sizeof i->reason - used, "%s (%.6g, %.6g)", k ? "," : "", x.x, x.y);
+    }
+    i->where_count = n;
+    i->where = l->where;
+    i->where_at = (const double(*)[2])l->where_at;
+}
+
+static void say_conflict(rg_layers *l)
+{
+    const rg_conflict *c = &l->orders.conflict;
+    l->info.state = RG_LAYERS_NONE;
+    l->info.rule = rule_name(c->rule);
+    name_facets(l, c->facet, c->n);
+}
+
+/* No order of a part: the facets of its first pair stand for it. */
+static void say_part(rg_layers *l, int32_t part)
+{
+    l->info.state = RG_LAYERS_NONE;
+    l->info.rule = "all together";
+    name_facets(l, l->pairs.facet[l->parts.pair[l->parts.start[part]]], 2);
+}
+
+static void say_unsolved(rg_layers *l, const char *words)
+{
+    l->info.state = RG_LAYERS_UNSOLVED;
+    snprintf(l->info.reason, sizeof l->info.reason, "%s", words);
+}
+
+/* The product of the parts as decimal digits. */
+static rg_status write_count(rg_layers *l)
+{
+    static const char at_least[] = "at least ";
+    enum { DIGITS_A_PART = 20 };
+    const rg_parts *q = &l->parts;
+    const size_t room = sizeof at_least + 2 + DIGITS_A_PART * (size_t)q->count;
+    char *digit = rg_mem_array(&l->mem, 2 * room, 1), *next = digit + room; /* values, the last one first */
+    l->count = rg_mem_array(&l->mem, room, 1);
+    if (!digit || !l->count) {
+        rg_mem_free(&l->mem, digit);
+        return RG_ENOMEM;
+    }
+    size_t n = 1;
+    int more = 0;
+    digit[0] = 1;
+    for (int32_t i = 0; i < q->count; i++) {
+        memset(next, 0, room);
+        size_t shift = 0;
+        for (uint64_t factor = q->orders[i]; factor; factor /= 10, shift++) {
+            int carry = 0;
+            for (size_t j = 0; j < n || carry; j++) {
+                carry += next[j + shift] + (j < n ? digit[j] * (int)(factor % 10) : 0);
+                next[j + shift] = (char)(carry % 10);
+                carry /= 10;
+            }
+        }
+        n += shift;
+        while (n > 1 && !next[n - 1]) n--;
+        memcpy(digit, next, n);
+        more |= q->more[i];
+    }
+    char *to = l->count;
+    if (more) to += snprintf(to, room, "%s", at_least);
+    while (n) *to++ = (char)('0' + digit[--n]);
+    rg_mem_free(&l->mem, digit);
+    l->info.count = l->count;
+    return RG_OK;
+}
+
+/* ---------------------------------------------------------------------------------------------- finding ---- */
+
+static rg_status solve(rg_layers *l)
+{
+    rg_status s = rg_orders_init(&l->orders, &l->mem, &l->pairs, &l->constraints);
+    rg_count_result result;
+    int32_t part = 0;
+    if (s != RG_OK) return s;
+    if (!rg_orders_set_hinges(&l->orders) || !rg_orders_propagate(&l->orders)) {
+        say_conflict(l);
+        return RG_OK;
+    }
+    l->settled = l->info.settled = l->orders.known;
+    s = rg_parts_init(&l->parts, &l->mem, &l->orders, MOST_WORK, &result, &part);
+    if (s != RG_OK) return s;
+    l->info.parts = l->parts.count;
+    if (result == RG_COUNT_NONE) say_part(l, part);
+    else if (result == RG_COUNT_UNSOLVED) say_unsolved(l, "the orders are too many to look through");
+    else return write_count(l);
+    return RG_OK;
+}
+
+rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, const rg_memory *mem, rg_layers **layers, rg_diag *why)
+{
+    rg_layers *l = rg_mem_array(mem, 1, sizeof *l);
+    rg_diag close = {0, ""};
+    if (!l) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
+    l->mem = *mem;
+    l->info.count = l->info.rule = "";
+    rg_status s = rg_mesh_copy(m, &l->mesh);
+    if (s == RG_OK) s = rg_flat_init(&l->flat, mem, &l->mesh, angle);
+    l->info.facets = l->flat.nf;
+    if (s == RG_OK && l->flat.state != RG_FLAT_END) say_not_flat(l);
+    else if (s == RG_OK) {
+        s = rg_cells_init(&l->cells, mem, &l->mesh, &l->flat, &close);
+        if (s == RG_OK) s = rg_pairs_init(&l->pairs, mem, &l->cells, l->flat.nf);
+        if (s == RG_OK) s = rg_constraints_init(&l->constraints, mem, &l->mesh, &l->flat, &l->cells, &l->pairs);
+        l->info.pairs = l->pairs.count;
+        if (s == RG_OK) s = solve(l);
+        if (s == RG_EFORMAT) {
+            s = RG_OK;
+            say_unsolved(l, "folded flat, lines are too many or too close together to tell what lies on what");
+        }
+    }
+    if (s != RG_OK) {
+        rg_layers_destroy(l);
+        return rg_fail(s, why, 0, "out of memory");
+    }
+    *layers = l;
+    return RG_OK;
+}
+
+rg_status rg_layers_create(const rg_pattern *p, const rg_settings *settings, rg_layers **layers, rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(settings->memory);
+    rg_mesh m;
+    rg_status s = rg_mesh_from_pattern(p, &mem, &m, why);
+    if (s != RG_OK) return s;
+    double *angle = rg_mem_array(&mem, (size_t)m.N, sizeof *angle);
+    if (!angle) s = rg_fail(RG_ENOMEM, why, 0, "out of memory");
+    for (int32_t i = 0; s == RG_OK && i < m.N; i++) angle[i] = m.target[m.crease_edge[i]];
+    if (s == RG_OK) s = rg_layers_of_mesh(&m, angle, &mem, layers, why);
+    rg_mem_free(&mem, angle);
+    rg_mesh_free(&m);
+    return s;
+}
+
+/* ------------------------------------------------------------------------------------- one of the orders ---- */
+
+uint64_t rg_layers_part(const rg_layers *l, int32_t i)
+{
+    return l->info.state == RG_LAYERS_VALID && i >= 0 && i < l->parts.count ? l->parts.orders[i] : 0;
+}
+
+rg_status rg_layers_which(const rg_layers *l, uint64_t index, uint64_t *which)
+{
+    uint64_t rest = index;
+    if (l->info.state != RG_LAYERS_VALID) return RG_EARG;
+    for (int32_t i = 0; i < l->parts.count; i++) rest /= l->parts.orders[i];
+    if (rest) return RG_EARG;
+    for (int32_t i = 0; i < l->parts.count; i++) {
+        which[i] = index % l->parts.orders[i];
+        index /= l->parts.orders[i];
+    }
+    return RG_OK;
+}
+
+rg_status rg_layers_choose(rg_layers *l, const uint64_t *which)
+{
+    rg_status s = RG_OK;
+    if (l->info.state != RG_LAYERS_VALID) return RG_EARG;
+    for (int32_t i = 0; which && i < l->parts.count; i++)
+        if (which[i] >= l->parts.orders[i]) return RG_EARG;
+    rg_orders_undo(&l->orders, l->settled);
+    for (int32_t i = 0; s == RG_OK && i < l->parts.count; i++) s = rg_parts_choose(&l->parts, &l->orders, i, which ? which[i] : 0);
+    return s;
+}
+
+rg_status rg_layers_order(rg_layers *l, const uint64_t *which, rg_layers_pair *pair)
+{
+    const rg_status s = rg_layers_choose(l, which);
+    if (s != RG_OK) return s;
+    for (int32_t i = 0; i < l->pairs.count; i++) {
+        const int32_t f = l->pairs.facet[i][1], g = l->pairs.facet[i][0];
+        pair[i] = (rg_layers_pair){f, g, l->orders.value[i] * l->flat.up[g]};
+    }
+    return RG_OK;
+}

@@ -1,0 +1,42 @@
+/* layers.h -- which facets lie on which where the sheet is folded flat: how many ways there are, any one of them, or why none.
+ * Source   as constraint.h; orders of pairs and their solution by parts: J. Ku's Flat-Folder
+ * Uses  count.h        Used by  motion, render, write */
+#ifndef RG_LAYERS_H
+#define RG_LAYERS_H
+
+#include "layers/count.h"
+
+struct rg_layers {
+    rg_memory mem;
+    rg_mesh mesh;
+    rg_flat flat;
+    rg_cells cells;
+    rg_pairs pairs;
+    rg_constraints constraints;
+    rg_orders orders;          /* what is the same in all orders; then, while `chosen`, one of them */
+    int32_t settled;           /* pairs that are the same in all */
+    rg_parts parts;
+    rg_layers_info info;
+    char *count;
+    int32_t where[4];
+    double where_at[4][2];
+    int64_t part_orders;
+};
+
+/* Of a sheet whose creases end at angle[m->N], radians; NAN: not said. m: triangulated or not; it is copied. stop: asked now and
+ * then, may be NULL. */
+rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, const rg_memory *mem, rg_layers **layers, rg_diag *why);
+
+/* Sets l->orders.value to the order whose parts have the numbers which[l->parts.count] (NULL: all 0). RG_ENOMEM; RG_EARG: there is
+ * none. Scratch of the handle is used: one thread at a time. */
+rg_status rg_layers_choose(rg_layers *l, const uint64_t *which);
+
+/* After a choice: +1: facet g lies above f (in the plane of flat.h, seen with the front of facet flat.root up), -1: below, 0: they do
+ * not overlap. */
+static inline int rg_layers_above(const rg_layers *l, int32_t f, int32_t g)
+{
+    const int32_t pair = f == g ? -1 : rg_pairs_find(&l->pairs, f, g);
+    return pair < 0 ? 0 : f < g ? l->orders.value[pair] : -l->orders.value[pair];
+}
+
+#endif

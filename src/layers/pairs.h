@@ -1,0 +1,32 @@
+/* pairs.h -- facets that lie on each other, and threes of them that have a common place.
+ * Uses  cells.h        Used by  constraint.c propagate.c layers.c */
+#ifndef RG_PAIRS_H
+#define RG_PAIRS_H
+
+#include "layers/cells.h"
+
+typedef struct rg_pairs {
+    rg_memory mem;
+    int32_t nf, count, words;   /* facets, pairs, 64-bit words in a row of facets */
+    int32_t (*facet)[2];        /* [count] the lower one first; rising */
+    uint64_t *row;              /* [nf][words] bit g of row f: f and g overlap */
+    int32_t *before;            /* [nf][words] pairs with facet f up to that word, see rg_pairs_find */
+    int32_t *start, *number;    /* [nf + 1]: pairs of facet f by the rising number of the other one */
+    int64_t *common_start;      /* [count + 1] */
+    int32_t *common_word;       /* which word of a row ... */
+    uint64_t *common;           /* ... and its bits: facets over a place that both facets of the pair are over */
+} rg_pairs;
+
+/* RG_ENOMEM; RG_EFORMAT: too many for the memory that this may take. Owner: the caller, rg_pairs_free, also after a failure. */
+rg_status rg_pairs_init(rg_pairs *p, const rg_memory *mem, const rg_cells *c, int32_t nf);
+void rg_pairs_free(rg_pairs *p);
+/* The pair of f and g; -1: they do not overlap. */
+static inline int32_t rg_pairs_find(const rg_pairs *p, int32_t f, int32_t g)
+{
+    const size_t at = (size_t)f * (size_t)p->words + (size_t)(g >> 6);
+    const uint64_t bit = UINT64_C(1) << (g & 63);
+    if (!(p->row[at] & bit)) return -1;
+    return p->number[p->before[at] + __builtin_popcountll(p->row[at] & (bit - 1))];
+}
+
+#endif
