@@ -203,8 +203,8 @@ typedef struct rg_layers_info {
     int32_t parts;             /* groups of the other pairs, each ordered without regard to the others */
     const char *count;         /* how many orders, as decimal digits; "at least ..." where counting was given up; borrowed */
     const char *rule;          /* NONE: what cannot be held: "taco-taco", "taco-tortilla", "tortilla-tortilla", "transitivity",
-                                * "mountain and valley", or "all together"; else "" */
-    int32_t where_count;       /* NONE: facets between which it fails first */
+                                * "mountain and valley", "all together", or "closing"; else "" */
+    int32_t where_count;       /* NONE: facets between which it fails */
     const int32_t *where;      /* their numbers */
     const double (*where_at)[2]; /* their centroids in the pattern, file coordinates */
     char reason[240];          /* in words, for every state but VALID */

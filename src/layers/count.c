@@ -1,9 +1,7 @@
 #include "layers/count.h"
 
+#include <stdlib.h>
 #include <string.h>
-
-/* How many words and cases one word of a list costs; between two questions whether to stop. */
-enum { NODES_BETWEEN_ASKING = 64 };
 
 typedef struct counter {
     rg_orders *o;
@@ -154,6 +152,33 @@ static rg_status keep_parts(rg_parts *q, const counter *c)
     return RG_OK;
 }
 
+typedef struct sized { int32_t pairs, part; size_t first; } sized;
+
+static int by_size(const void *a, const void *b)
+{
+    const sized *p = a, *q = b;
+    return p->pairs != q->pairs ? (p->pairs < q->pairs ? -1 : 1) : (p->part > q->part) - (p->part < q->part);
+}
+
+static rg_status count_by_size(rg_parts *q, counter *c, int64_t work)
+{
+    sized *part = rg_mem_array(&q->mem, (size_t)q->count, sizeof *part);
+    if (!part) return RG_ENOMEM;
+    size_t head = 0;
+    for (int32_t i = 0; i < q->count; i++, head += 1 + (size_t)c->list[head]) part[i] = (sized){c->list[head], i, head + 1};
+    qsort(part, (size_t)q->count, sizeof *part, by_size);
+    c->limit = c->o->work + work;
+    c->out_of_work = 0;
+    for (int32_t k = 0; c->status == RG_OK && k < q->count; k++) {
+        const int32_t i = part[k].part;
+        const uint64_t n = count_part(c, part[k].first, part[k].pairs, UINT64_MAX);
+        q->more[i] = (unsigned char)(c->out_of_work || n == UINT64_MAX);
+        if (n > q->orders[i]) q->orders[i] = n;
+    }
+    rg_mem_free(&q->mem, part);
+    return c->status;
+}
+
 rg_status rg_parts_init(rg_parts *q, const rg_memory *mem, rg_orders *o, int64_t work, rg_count_result *result, int32_t *at)
 {
     counter c;
@@ -173,16 +198,8 @@ rg_status rg_parts_init(rg_parts *q, const rg_memory *mem, rg_orders *o, int64_t
         if (!q->orders[i]) *result = c.out_of_work ? RG_COUNT_UNSOLVED : RG_COUNT_NONE;
         else c.out_of_work = 0;
     }
-    const int64_t share = q->count ? work / q->count : 0;
-    head = 0;
-    for (int32_t i = 0; s == RG_OK && i < q->count && *result == RG_COUNT_DONE; i++, head += 1 + (size_t)c.list[head]) {
-        c.limit = o->work + share;
-        c.out_of_work = 0;
-        const uint64_t n = count_part(&c, head + 1, c.list[head], UINT64_MAX);
-        s = c.status;
-        q->more[i] = (unsigned char)(c.out_of_work || n == UINT64_MAX);
-        if (n > q->orders[i]) q->orders[i] = n;
-    }
+    /* Then the smaller ones before the larger ones, which take what work is left. */
+    if (s == RG_OK && *result == RG_COUNT_DONE) s = count_by_size(q, &c, work);
     end(&c);
     return s;
 }

@@ -5,9 +5,9 @@
 
 /* A fold angle that is meant to be 0 or half a turn: files give degrees with a few digits. */
 static const double MEANT = 0.01 * RG_DEG;
-/* How far apart facets may put a vertex, in parts of the sheet's size. Drawings whose angles were rounded or drawn by eye come to
- * 5e-3; a vertex that breaks Kawasaki's theorem is off by a sizeable part of its creases. */
-static const double CLOSED = 1e-2;
+/* How far apart facets may put a vertex, in parts of the sheet's size: what is deeper counts as paper in paper (docs/corpus.md).
+ * Drawings that are meant to fold flat come to 1e-5, one drawn by eye to 3e-4. */
+static const double CLOSED = 1e-4;
 
 void rg_flat_free(rg_flat *f)
 {
@@ -81,21 +81,23 @@ static rg_status find_middles(rg_flat *f, const rg_mesh *m)
     return RG_OK;
 }
 
-/* Which creases fold. undecided: what those do that are not said. */
-static void find_turns(rg_flat *f, const rg_mesh *m, const double *angle, signed char undecided)
+/* Which creases fold, as far as they are driven; returns how many are not. */
+static int32_t find_turns(rg_flat *f, const rg_mesh *m, const double *angle)
 {
+    int32_t untold = 0;
     f->state = RG_FLAT_END;
     for (int32_t e = 0; e < m->ne; e++) {
         const int32_t i = m->edge_crease[e];
         f->turn[e] = 0;
         if (i < 0 || i >= m->N - m->added) continue;
-        if (isnan(angle[i])) f->turn[e] = undecided;
+        if (isnan(angle[i])) f->turn[e] = RG_TURN_UNTOLD, untold++;
         else if (fabs(fabs(angle[i]) - RG_PI) <= MEANT) f->turn[e] = angle[i] > 0 ? 1 : -1;
         else if (!(fabs(angle[i]) <= MEANT) && f->state == RG_FLAT_END) {
             f->state = RG_FLAT_ANGLE;
             f->at_edge = e;
         }
     }
+    return untold;
 }
 
 /* After q, reflected at the crease from a to b of the pattern. */
@@ -157,13 +159,13 @@ static void place_vertices(rg_flat *f, const rg_mesh *m, int32_t *count)
                 f->gap = d;
                 f->at_vertex = v;
             }
-    if (!(f->gap <= CLOSED * m->size)) f->state = RG_FLAT_OPEN;
     for (int32_t e = 0; e < m->ne; e++) {
         const int32_t g = f->beside[e][0], h = f->beside[e][1];
         if (g < 0 || h < 0 || (f->up[g] == f->up[h]) == (f->turn[e] == 0)) continue;
-        f->state = RG_FLAT_OPEN;
+        f->gap = INFINITY;
         f->at_vertex = m->edge[e][0];
     }
+    if (!(f->gap <= CLOSED * m->size)) f->state = RG_FLAT_OPEN;
 }
 
 rg_status rg_flat_init(rg_flat *f, const rg_memory *mem, const rg_mesh *m, const double *angle)
@@ -189,12 +191,14 @@ rg_status rg_flat_init(rg_flat *f, const rg_memory *mem, const rg_mesh *m, const
         list_edges(f, m);
         s = find_middles(f, m);
     }
-    for (int tries = 0; s == RG_OK && tries < 2; tries++) {
-        find_turns(f, m, angle, tries ? 2 : 0);
-        if (f->state != RG_FLAT_END) break;
+    if (s == RG_OK && find_turns(f, m, angle) && f->state == RG_FLAT_END) {
+        int guessed;
+        s = rg_undriven_decide(m, f->turn, &f->at_vertex, &guessed);
+        if (s == RG_OK && f->at_vertex >= 0) f->state = guessed ? RG_FLAT_UNTOLD : RG_FLAT_OPEN;
+    }
+    if (s == RG_OK && f->state == RG_FLAT_END) {
         place_facets(f, m, scratch);
         place_vertices(f, m, scratch);
-        if (f->state == RG_FLAT_END) break;
     }
     rg_mem_free(mem, scratch);
     return s;

@@ -38,19 +38,10 @@ static const char *rule_name(rg_rule rule)
 
 /* ------------------------------------------------------------------------------------------- what it is ---- */
 
-static void say_not_flat(rg_layers *l)
+static void say_unsolved(rg_layers *l, const char *words)
 {
-    rg_layers_info *i = &l->info;
-    i->state = RG_LAYERS_NOT_FLAT;
-    if (l->flat.state == RG_FLAT_ANGLE) {
-        const int32_t *v = l->mesh.edge[l->flat.at_edge];
-        const rg_vec2 a = l->mesh.X[v[0]], b = l->mesh.X[v[1]];
-        snprintf(i->reason, sizeof i->reason, "the crease from (%.6g, %.6g) to (%.6g, %.6g) ends neither flat nor folded by half a turn",
-                 a.x, a.y, b.x, b.y);
-    } else {
-        const rg_vec2 x = l->mesh.X[l->flat.at_vertex];
-        snprintf(i->reason, sizeof i->reason, "folded flat, the facets about (%.6g, %.6g) do not meet", x.x, x.y);
-    }
+    l->info.state = RG_LAYERS_UNSOLVED;
+    snprintf(l->info.reason, sizeof l->info.reason, "%s", words);
 }
 
 static void name_facets(rg_layers *l, const int32_t *facet, int32_t n)
@@ -85,10 +76,32 @@ static void say_part(rg_layers *l, int32_t part)
     name_facets(l, l->pairs.facet[l->parts.pair[l->parts.start[part]]], 2);
 }
 
-static void say_unsolved(rg_layers *l, const char *words)
+/* The sheet does not lie flat as its creases say: facets about a vertex stand for it. */
+static void say_open(rg_layers *l)
 {
-    l->info.state = RG_LAYERS_UNSOLVED;
-    snprintf(l->info.reason, sizeof l->info.reason, "%s", words);
+    const rg_mesh *m = &l->mesh;
+    const rg_vec2 x = m->X[l->flat.at_vertex];
+    int32_t facet[RG_LAYERS_NAMED], n = 0;
+    for (int32_t i = 0; i < m->nf; i++)
+        for (int32_t j = m->facet_start[i]; j < m->facet_start[i + 1] && n < RG_LAYERS_NAMED; j++) {
+            const int32_t g = l->flat.facet_of[i];
+            int is_there = 0;
+            for (int32_t k = 0; k < n; k++) is_there |= facet[k] == g;
+            if (m->facet_vertex[j] == l->flat.at_vertex && !is_there) facet[n++] = g;
+        }
+    l->info.state = RG_LAYERS_NONE;
+    l->info.rule = "closing";
+    name_facets(l, facet, n);
+    snprintf(l->info.reason, sizeof l->info.reason, "folded flat, the facets round (%.6g, %.6g) do not meet", x.x, x.y);
+}
+
+static void say_not_flat(rg_layers *l)
+{
+    const int32_t *v = l->mesh.edge[l->flat.at_edge];
+    const rg_vec2 a = l->mesh.X[v[0]], b = l->mesh.X[v[1]];
+    l->info.state = RG_LAYERS_NOT_FLAT;
+    snprintf(l->info.reason, sizeof l->info.reason, "the crease from (%.6g, %.6g) to (%.6g, %.6g) ends neither flat nor folded by half a turn",
+             a.x, a.y, b.x, b.y);
 }
 
 /* The product of the parts as decimal digits. */
@@ -163,7 +176,9 @@ rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, const rg_memo
     rg_status s = rg_mesh_copy(m, &l->mesh);
     if (s == RG_OK) s = rg_flat_init(&l->flat, mem, &l->mesh, angle);
     l->info.facets = l->flat.nf;
-    if (s == RG_OK && l->flat.state != RG_FLAT_END) say_not_flat(l);
+    if (s == RG_OK && l->flat.state == RG_FLAT_ANGLE) say_not_flat(l);
+    else if (s == RG_OK && l->flat.state == RG_FLAT_OPEN) say_open(l);
+    else if (s == RG_OK && l->flat.state == RG_FLAT_UNTOLD) say_unsolved(l, "which of the undriven creases fold could not be told");
     else if (s == RG_OK) {
         s = rg_cells_init(&l->cells, mem, &l->mesh, &l->flat, &close);
         if (s == RG_OK) s = rg_pairs_init(&l->pairs, mem, &l->cells, l->flat.nf);

@@ -6,6 +6,8 @@
 
 #include "layers/count.h"
 
+enum { RG_LAYERS_NAMED = 8 }; /* facets that a reason names */
+
 struct rg_layers {
     rg_memory mem;
     rg_mesh mesh;
@@ -18,9 +20,8 @@ struct rg_layers {
     rg_parts parts;
     rg_layers_info info;
     char *count;
-    int32_t where[4];
-    double where_at[4][2];
-    int64_t part_orders;
+    int32_t where[RG_LAYERS_NAMED];
+    double where_at[RG_LAYERS_NAMED][2];
 };
 
 /* Of a sheet whose creases end at angle[m->N], radians; NAN: not said. m: triangulated or not; it is copied. stop: asked now and

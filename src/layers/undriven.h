@@ -1,0 +1,18 @@
+/* undriven.h -- which of the creases without a target are folded where the sheet lies flat, and which are flat.
+ * Source   Kawasaki's theorem: round a vertex that folds flat, angles between folded creases add up to nothing with signs in turn
+ * Uses  mesh.h        Used by  flat.c */
+#ifndef RG_UNDRIVEN_H
+#define RG_UNDRIVEN_H
+
+#include "mesh/mesh.h"
+
+enum { RG_TURN_UNTOLD = 3, RG_TURN_EITHER = 2 };
+
+/* turn[m->ne]: in and out, 0: flat; +1, -1: valley, mountain; RG_TURN_UNTOLD becomes 0 or RG_TURN_EITHER: folded either way.
+ * Vertices that leave no choice are decided first; then the others, with as few folded creases as they allow.
+ *   at       out, an interior vertex (of the mesh) that cannot close; -1: each can
+ *   guessed  out, non-zero: another choice might have closed there
+ * RG_ENOMEM. */
+rg_status rg_undriven_decide(const rg_mesh *m, signed char *turn, int32_t *at, int *guessed);
+
+#endif
