@@ -70,6 +70,10 @@ typedef enum rg_solver { RG_SOLVER_AUTO, RG_SOLVER_CG, RG_SOLVER_CHOLESKY, RG_SO
 typedef enum rg_triangulation { RG_TRIANGULATE_AUTO, RG_TRIANGULATE_NONE, RG_TRIANGULATE_ALL } rg_triangulation;
 
 typedef enum rg_effort { RG_EFFORT_FAST, RG_EFFORT_NORMAL, RG_EFFORT_THOROUGH } rg_effort;
+typedef enum rg_symmetry_kept {
+    RG_SYMMETRY_AUTO, /* the pattern's own, or as much of it as folds */
+    RG_SYMMETRY_OFF
+} rg_symmetry_kept;
 typedef enum rg_format {
     RG_FORMAT_AUTO, /* by content, then by extension */
     RG_FORMAT_OPX,
@@ -95,6 +99,7 @@ typedef struct rg_settings {
     rg_triangulation triangulate; /* added creases; auto: none, and all where that stops short */
     double adjust;                /* gain of crease adjustment (3.3), 0: off, RG_ADJUST_AUTO: where nothing else folds */
     rg_effort effort;             /* how much is tried when the plain way stops short; normal */
+    rg_symmetry_kept symmetry;    /* of the pattern with its mountains and valleys, in every state of the motion; auto */
     rg_method method;             /* auto: chosen, said in the report */
     rg_solver solver;             /* auto: by size and build */
     double step;                  /* largest change of any crease in one step, radians; 5 degrees */
@@ -281,6 +286,8 @@ typedef struct rg_report {
     double max_overfold_deg;
     double max_adjustment;           /* largest displacement of a vertex from the pattern given, over the sheet's size */
     double max_strain_from_original; /* over frames and edges: | 3D length / length in the pattern given - 1 | */
+    int32_t symmetry;            /* order of the largest group of turns and mirrors that every frame has; 1: none */
+    double max_asymmetry_deg;    /* over frames: largest difference of a crease to its image in that group */
     int32_t wrong_side_creases;  /* driven creases that ended on the other side of flat than they should */
     int32_t blocking_vertex_count, blocking_crease_count;
     const int32_t *blocking_vertices, *blocking_creases; /* borrowed; vertex numbers and crease numbers of the mesh */

@@ -364,7 +364,7 @@ static inline int go_back(rg_fold *f, int steps, double *mid, cell *c)
         double *flat = calloc((size_t)f->mesh.N, sizeof *flat);
         rg_settings s = f->settings;
         s.frames = steps + 1;
-        int there = flat && rg_mesh_copy(&f->mesh, &m) == RG_OK && rg_take_flow(&t, &m, &s, &law, f->rho, flat, 60, &watch, &why) == RG_OK;
+        int there = flat && rg_mesh_copy(&f->mesh, &m) == RG_OK && rg_take_flow(&t, &m, &s, &law, f->rho, flat, NULL, 60, &watch, &why) == RG_OK;
         free(flat);
         if (!there) return 0;
         for (int32_t k = 0; k < t.count; k++) {

@@ -97,7 +97,7 @@ static void by_bending(void **state)
         rg_mesh drawn = none;
         rg_take t = bent(&none, NULL);
         rg_cuts c;
-        assert_int_equal(rg_cuts_init(&c, &mem, &none, &t), RG_OK);
+        assert_int_equal(rg_cuts_init(&c, &mem, &none, NULL, &t), RG_OK);
         measured(&c, &t);
         for (int round = 0; round < 4 && c.bends > 1; round++) {
             const int32_t had = c.bends;
@@ -135,7 +135,7 @@ static void around_vertices(void **state)
     rg_mesh none = generated("boxpleat", 6);
     rg_take t = bent(&none, NULL);
     rg_cuts c;
-    assert_int_equal(rg_cuts_init(&c, &mem, &none, &t), RG_OK);
+    assert_int_equal(rg_cuts_init(&c, &mem, &none, NULL, &t), RG_OK);
     rg_cuts_around(&c, none.inner_vertex, 0);
     assert_int_equal(count(&c), 0);
     const int32_t at[2] = {none.inner_vertex[1], none.inner_vertex[none.M - 1]};
@@ -150,6 +150,58 @@ static void around_vertices(void **state)
     rg_mesh_free(&none);
 }
 
+/* By orbit: a facet bends as the one of its orbit does that bends most, and is cut with all of them or not at all. */
+static void by_orbit(void **state)
+{
+    (void)state;
+    static const struct { const char *kind; int32_t n; } made[] = {{"miura", 6}, {"tatou", 0}, {"boxpleat", 16}, {"crane", 0}};
+    const rg_memory mem = rg_mem_default(NULL);
+    for (int k = 0; k < 4; k++) {
+        rg_mesh none = generated(made[k].kind, made[k].n);
+        rg_symmetry G;
+        rg_take t = {.mem = mem, .count = 1};
+        rg_cuts c;
+        double bend[MOST];
+        assert_int_equal(rg_symmetry_find(&G, &mem, &none), RG_OK);
+        assert_true(G.order > 1);
+        assert_int_equal(rg_triangulate_orbits(&none, &G, NULL, 0, &t.mesh), RG_OK);
+        assert_true(t.mesh.added > 0);
+        t.rho = rg_mem_array(&t.mem, (size_t)t.mesh.N, sizeof *t.rho);
+        assert_non_null(t.rho);
+        for (int32_t f = 0; f < none.nf; f++) bend[f] = -1;
+        for (int32_t i = 0; i < t.mesh.N; i++) {
+            t.rho[i] = -1e-3 * (1 + (7919 * i) % t.mesh.N);
+            if (i < none.N) continue;
+            double *of = &bend[facet_of(&none, t.mesh.edge[t.mesh.crease_edge[i]])];
+            *of = fmax(*of, fabs(t.rho[i]));
+        }
+        for (int32_t g = 1; g < G.order; g++) /* the most of an orbit spreads to all of it */
+            for (int round = 0; round < 3; round++)
+                for (int32_t f = 0; f < none.nf; f++) {
+                    double *of = &bend[G.facet[g * none.nf + f]];
+                    *of = bend[f] = fmax(*of, bend[f]);
+                }
+        assert_int_equal(rg_cuts_init(&c, &mem, &none, &G, &t), RG_OK);
+        for (int32_t f = 0; f < none.nf; f++) near(c.bend[f], bend[f], 0);
+        for (int32_t n = 0; n <= c.bends; n++) {
+            rg_cuts_all_but(&c, n);
+            assert_true(count(&c) <= c.bends - n && count(&c) > c.bends - n - G.order);
+            for (int32_t f = 0; f < none.nf; f++) assert_int_equal(c.which[f] != 0, c.which[G.facet_orbit[f]] != 0);
+        }
+        rg_cuts_around(&c, none.inner_vertex, 1);
+        for (int32_t f = 0; f < none.nf; f++) {
+            int at = 0;
+            for (int32_t g = 0; g < G.order; g++) at |= is_corner(&none, G.facet[g * none.nf + f], none.inner_vertex[0]);
+            assert_int_equal(c.which[f] != 0, at && bend[f] >= 0);
+        }
+        count(&c);
+        rg_cuts_free(&c);
+        rg_take_free(&t);
+        rg_symmetry_free(&G);
+        rg_mesh_free(&none);
+    }
+}
+
 static void memory(void **state)
 {
     (void)state;
@@ -160,7 +212,7 @@ static void memory(void **state)
     rg_cuts c;
     for (long k = 0;; k++) {
         n.left = k;
-        const rg_status s = rg_cuts_init(&c, &mem, &none, &t);
+        const rg_status s = rg_cuts_init(&c, &mem, &none, NULL, &t);
         if (s == RG_OK) break;
         assert_int_equal(s, RG_ENOMEM);
         assert_int_equal(n.out, 0);
@@ -173,6 +225,7 @@ static void memory(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(by_bending), cmocka_unit_test(around_vertices), cmocka_unit_test(memory)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(by_bending), cmocka_unit_test(around_vertices), cmocka_unit_test(by_orbit),
+                                       cmocka_unit_test(memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,7 +49,7 @@ static void from_its_end(void **state)
         double *folded = calloc((size_t)m.N, sizeof *folded), *flat = calloc((size_t)m.N, sizeof *flat);
         assert_true(folded && flat);
         for (int32_t i = 0; i < m.N; i++) folded[i] = (s.to < 0 ? -1 : 1) * m.target[m.crease_edge[i]];
-        assert_int_equal(rg_take_flow(&t, &m, &s, &law, folded, flat, 0, &watch, NULL), RG_OK);
+        assert_int_equal(rg_take_flow(&t, &m, &s, &law, folded, flat, NULL, 0, &watch, NULL), RG_OK);
         assert_int_equal(t.outcome, RG_FOLDED);
         rg_take_turn_round(&t, folded);
         assert_int_equal(t.outcome, RG_FOLDED);

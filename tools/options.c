@@ -34,6 +34,7 @@ static const char *const solvers[] = {[RG_SOLVER_AUTO] = "auto", [RG_SOLVER_CG] 
                                       [RG_SOLVER_CHOLESKY] = "cholesky", [RG_SOLVER_SVD] = "svd", NULL};
 static const char *const triangulations[] = {[RG_TRIANGULATE_AUTO] = "auto", [RG_TRIANGULATE_NONE] = "none",
                                              [RG_TRIANGULATE_ALL] = "all", NULL};
+static const char *const symmetries[] = {[RG_SYMMETRY_AUTO] = "auto", [RG_SYMMETRY_OFF] = "off", NULL};
 static const char *const efforts[] = {[RG_EFFORT_FAST] = "fast", [RG_EFFORT_NORMAL] = "normal",
                                       [RG_EFFORT_THOROUGH] = "thorough", NULL};
 
@@ -61,6 +62,8 @@ static const rule rules[] = {
      "added creases; auto: only what the pattern needs (auto):"},
     {FOR_FOLD, "adjust", 0, "GAIN", ADJUST, 0, 0, 1, 1, NULL,
      "move vertices so that closed ones open: auto (where nothing else folds), off, or how strongly, such as 0.1 (auto)"},
+    {FOR_FOLD, "symmetry", 0, "WHAT", CHOICE, AT(symmetry), 0, 0, 1, symmetries,
+     "fold a symmetric pattern by its symmetry, or by as much of it as folds (auto):"},
     {FOR_FOLD, "effort", 0, "HOW", CHOICE, AT(effort), 0, 0, 1, efforts,
      "how much is tried when the plain way stops short (normal):"},
     {FOR_FOLD, "fixed", 0, "FACET", WHOLE, AT(settings.fixed_facet), 0, INT32_MAX, 1, NULL,
@@ -267,6 +270,7 @@ static void settle(options *o)
     o->settings.method = (rg_method)o->method;
     o->settings.solver = (rg_solver)o->solver;
     o->settings.triangulate = (rg_triangulation)o->triangulate;
+    o->settings.symmetry = (rg_symmetry_kept)o->symmetry;
     o->settings.effort = (rg_effort)o->effort;
 }
 

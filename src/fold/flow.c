@@ -101,6 +101,7 @@ rg_status rg_flow_init(rg_flow *F, const rg_mesh *m, const rg_settings *s, const
     double **of_ways[] = {&F->u, &F->old_u, &F->trial_u};
     double **of_both[] = {&F->wish, &F->z, &F->scale, &F->dz};
     int ok = (F->held = rg_mem_array(&mem, n, 1)) != NULL;
+    ok &= (F->spare = rg_mem_array(&mem, (size_t)m->nv, sizeof *F->spare)) != NULL;
     for (int i = 0; i < 8; i++) ok &= (*of_creases[i] = rg_mem_array(&mem, n, sizeof(double))) != NULL;
     for (int i = 0; i < 3; i++) ok &= (*of_ways[i] = rg_mem_array(&mem, u, sizeof(double))) != NULL;
     for (int i = 0; i < 4; i++) ok &= (*of_both[i] = rg_mem_array(&mem, n + u, sizeof(double))) != NULL;
@@ -136,8 +137,8 @@ void rg_flow_free(rg_flow *F)
     rg_adjust_free(&F->adjust);
     rg_limit_free(&F->limit);
     void *block[] = {F->from, F->target, F->end, F->rho, F->old_rho, F->trial, F->loud, F->pull, F->u, F->old_u, F->trial_u,
-                     F->wish, F->z, F->scale, F->dz, F->held};
-    for (int i = 0; i < 16; i++) rg_mem_free(&F->mem, block[i]);
+                     F->wish, F->z, F->scale, F->dz, F->held, F->spare};
+    for (int i = 0; i < 17; i++) rg_mem_free(&F->mem, block[i]);
     memset(F, 0, sizeof *F);
 }
 
@@ -243,6 +244,15 @@ static int32_t hold_what_overfolds(rg_flow *F, const double *dz, double beyond)
     return more;
 }
 
+/* A step, or a state before it is closed: what the symmetry leaves of it. Of steps that an even state allows the mean is
+ * allowed as well. Closing is not averaged: a drawing is symmetric to its own rounding only, and would not close. */
+static void even_out(const rg_flow *F, double *rho, double *u)
+{
+    if (!F->symmetry) return;
+    rg_symmetry_mean(F->symmetry, rho);
+    rg_freedom_mean(&F->freedom, F->symmetry, u, F->spare);
+}
+
 /* wish - A^+ (A wish + r), with the columns of A scaled: eqs. (14), (19). */
 static void project(rg_flow *F)
 {
@@ -254,6 +264,7 @@ static void project(rg_flow *F)
     for (int32_t i = 0; i < F->J.A.rows; i++) F->J.r[i] += F->J.A.z[i];
     rg_step_solve(&F->J.A, F->J.r, F->dz);
     for (int32_t i = 0; i < n; i++) F->dz[i] = F->wish[i] - F->scale[i] * F->dz[i];
+    even_out(F, F->dz, F->dz + F->N);
 }
 
 /* rho + f dz, closed, in F->trial: is it a state to go on from? z keeps dz, as correcting uses dz. */
@@ -261,6 +272,7 @@ static int try_step(rg_flow *F, double f, double longest)
 {
     for (int32_t i = 0; i < F->N; i++) F->trial[i] = F->rho[i] + f * F->z[i];
     for (int32_t i = 0; i < F->U; i++) F->trial_u[i] = F->u[i] + f * F->z[F->N + i];
+    even_out(F, F->trial, F->trial_u);
     if (!correct(F, F->trial, F->trial_u) || !rg_freedom_is_proper(&F->freedom, F->J.X, LEAST_AREA)) return 0;
     double far = 0;
     for (int32_t i = 0; i < F->N; i++) far = fmax(far, fabs(F->trial[i] - F->rho[i] - f * F->z[i]));
@@ -316,6 +328,7 @@ static int begin_again(rg_flow *F)
         if (none) F->loud[i] *= exp2((double)(dice >> 8) / (1 << 24) - 0.5);
         else if (!((F->rho[i] - F->from[i]) / way(F, i) > 0)) F->loud[i] *= LOUDER;
     }
+    for (int32_t i = 0; F->symmetry && i < F->N; i++) F->loud[i] = F->loud[F->symmetry->crease_orbit[i]];
     memcpy(F->rho, F->from, (size_t)F->N * sizeof *F->rho);
     memset(F->u, 0, (size_t)F->U * sizeof *F->u);
     memcpy(F->old_rho, F->from, (size_t)F->N * sizeof *F->rho);
@@ -469,6 +482,7 @@ static int close_chord(rg_flow *F, double t)
 {
     for (int32_t i = 0; i < F->N; i++) F->trial[i] = (1 - t) * F->old_rho[i] + t * F->rho[i];
     for (int32_t i = 0; i < F->U; i++) F->trial_u[i] = (1 - t) * F->old_u[i] + t * F->u[i];
+    even_out(F, F->trial, F->trial_u);
     return close_within_half_turns(F);
 }
 

@@ -35,6 +35,8 @@ typedef struct rg_flow {
     rg_joint J;
     rg_adjust adjust;
     rg_limit limit;
+    const rg_symmetry *symmetry; /* borrowed, on mesh; set after init: kept in every step; NULL: none */
+    rg_vec2 *spare;           /* [nv] scratch */
     double *from, *target;    /* [N] radians; equal: the crease stays where it is; target NAN: wishes nothing */
     double *end;              /* [N] target where there is one, closed on the pattern given if that is possible */
     int32_t driven;

@@ -422,3 +422,22 @@ rg_status rg_triangulate_orbits(const rg_mesh *m, const rg_symmetry *G, const un
     rg_mem_free(&m->mem, next);
     return s;
 }
+
+/* Edges of m keep their numbers and directions; what lies across an added one is of the same facet. */
+void rg_triangulate_trace(const rg_mesh *m, const rg_mesh *cut, int32_t *facet)
+{
+    for (int32_t t = 0; t < cut->nf; t++) facet[t] = -1;
+    for (int32_t e = 0; e < m->ne; e++)
+        for (int side = 0; side < 2; side++)
+            if (cut->edge_facet[e][side] >= 0) facet[cut->edge_facet[e][side]] = m->edge_facet[e][side];
+    for (int more = 1; more;) {
+        more = 0;
+        for (int32_t e = m->ne; e < cut->ne; e++)
+            for (int side = 0; side < 2; side++) {
+                const int32_t here = cut->edge_facet[e][side], there = cut->edge_facet[e][!side];
+                if (facet[here] >= 0 || facet[there] < 0) continue;
+                facet[here] = facet[there];
+                more = 1;
+            }
+    }
+}

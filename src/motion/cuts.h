@@ -1,13 +1,16 @@
-/* cuts.h -- which facets are cut into triangles, and which of them could do without.
+/* cuts.h -- which facets are cut into triangles, and which of them could do without: whole orbits of facets.
  * Paper    section 3.2        Uses  take.h        Used by  strategy.c */
 #ifndef RG_CUTS_H
 #define RG_CUTS_H
 
+#include "mesh/symmetry.h"
 #include "motion/take.h"
 
 typedef struct rg_cuts {
     rg_memory mem;
     const rg_mesh *none;  /* borrowed: the facets as drawn */
+    const rg_symmetry *G; /* borrowed: of none; NULL: facets are cut one by one */
+    int32_t *piece_of;    /* [corners] scratch: facet that a facet of a take's mesh is a piece of */
     unsigned char *which; /* [none->nf] those to cut */
     int32_t cut;          /* how many they are */
     double *bend;         /* [none->nf] radians, of what was measured last: the most that the facet bends; negative: it is whole */
@@ -15,14 +18,14 @@ typedef struct rg_cuts {
 } rg_cuts;
 
 /* all: a take for which all facets were cut, measured. RG_ENOMEM. Owner: the caller, rg_cuts_free. */
-rg_status rg_cuts_init(rg_cuts *c, const rg_memory *mem, const rg_mesh *none, const rg_take *all);
+rg_status rg_cuts_init(rg_cuts *c, const rg_memory *mem, const rg_mesh *none, const rg_symmetry *G, const rg_take *all);
 void rg_cuts_free(rg_cuts *c);
 
 /* How facets bend in the frames of t, for which c->which were cut. */
 void rg_cuts_measure(rg_cuts *c, const rg_take *t);
 
-/* What is to be cut next, of the facets that can bend: those that do by `least` or more; all but the n that do least; those at
- * one of the vertices. */
+/* What is to be cut next, of the facets that can bend: those that do by `least` or more; all but the n that do least, or
+ * more to make orbits whole; those at one of the vertices, and their images. */
 void rg_cuts_bending(rg_cuts *c, double least);
 void rg_cuts_all_but(rg_cuts *c, int32_t n);
 void rg_cuts_around(rg_cuts *c, const int32_t *vertex, int32_t vertices);

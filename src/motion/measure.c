@@ -1,8 +1,14 @@
 #include "motion/measure.h"
 #include "kinematics/loop.h"
 #include "mesh/components.h"
+#include "mesh/symmetry.h"
 
 #include <string.h>
+
+/* A frame has a symmetry when no crease differs by more from its image, radians: too little to be seen, and far above what the
+ * rounding of drawings does. Of so many groups, the largest ones, the first that all frames have is told. */
+static const double SYMMETRIC = 0.01 * RG_DEG;
+enum { MOST_GROUPS = 64 };
 
 /* A new maximum, or NaN as soon as there is one. */
 static double larger(double most, double value)
@@ -98,6 +104,32 @@ static void measure_frame(rg_motion *m, int32_t k, gauge *g)
     r->max_facet_gap = larger(r->max_facet_gap, rg_pose_gap(X, &m->tree, g->place) / m->mesh.size);
 }
 
+static double asymmetry(const rg_motion *m, const rg_symmetry *G)
+{
+    double most = 0;
+    for (int32_t k = 0; k < m->report.frame_count; k++) most = larger(most, rg_symmetry_off(G, rg_motion_angles(m, k)));
+    return most;
+}
+
+static rg_status measure_symmetry(rg_motion *m)
+{
+    rg_symmetry whole, part;
+    rg_subgroup list[MOST_GROUPS];
+    m->report.symmetry = 1;
+    rg_status s = rg_symmetry_find(&whole, &m->mem, &m->mesh);
+    if (s != RG_OK) return s;
+    const int32_t n = rg_symmetry_subgroups(&whole, list, MOST_GROUPS);
+    for (int32_t k = 0; s == RG_OK && m->report.symmetry == 1 && k < n && list[k].order > 1; k++) {
+        s = rg_symmetry_part(&part, &whole, list[k].every, list[k].mirror);
+        if (s != RG_OK) break;
+        const double off = asymmetry(m, &part);
+        if (off <= SYMMETRIC) m->report.symmetry = part.order, m->report.max_asymmetry_deg = off / RG_DEG;
+        rg_symmetry_free(&part);
+    }
+    rg_symmetry_free(&whole);
+    return s;
+}
+
 rg_status rg_measure_frames(rg_motion *m)
 {
     gauge g = {0};
@@ -106,5 +138,5 @@ rg_status rg_measure_frames(rg_motion *m)
     for (int32_t k = 0; ok && k < m->report.frame_count; k++) measure_frame(m, k, &g);
     void *block[] = {g.rho, g.theta, g.sector, g.place, g.x, g.part};
     for (int i = 0; i < 6; i++) rg_mem_free(&m->mem, block[i]);
-    return ok ? RG_OK : RG_ENOMEM;
+    return ok ? measure_symmetry(m) : RG_ENOMEM;
 }

@@ -253,7 +253,7 @@ static rg_status flow(const rg_states *q, const leg *w, const rg_flow_law *law, 
             from[i] = added ? 0 : back ? w->to[i] : w->from[i];
             to[i] = added ? NAN : back ? w->from[i] : w->to[i];
         }
-        s = rg_take_flow(t, &m, &settings, law, from, to, work, watch, why);
+        s = rg_take_flow(t, &m, &settings, law, from, to, NULL, work, watch, why);
     } else {
         rg_mesh_free(&m);
         s = RG_ENOMEM;

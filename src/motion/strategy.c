@@ -44,12 +44,13 @@ static const int32_t LESS_GIVE[] = {0, 2, 5};
 /* How often fewer cuts are tried then, of a flow and straight on; a facet that bends by less (radians) may stay whole, if no
  * vertex goes much farther. */
 static const int32_t FEWER_CUTS[] = {0, 3, 8}, FEWER_STRAIGHT[] = {0, 8, 24};
+/* Groups that are tried: the largest ones, and at last the one that asks for nothing. */
+enum { MOST_GROUPS = 4 };
 static const double HARDLY_BENT = 10 * RG_DEG, LITTLE_MORE = 1.1;
 
-static rg_status copy_mesh(const rg_mesh *m, cut how, const unsigned char *which, rg_mesh *out)
+static rg_status copy_mesh(const rg_mesh *m, cut how, const unsigned char *which, const rg_symmetry *G, rg_mesh *out)
 {
-    if (which && how) return rg_triangulate_some(m, which, how == SHORT, out);
-    return how == SPLITTING ? rg_triangulate_all(m, out) : how == SHORT ? rg_triangulate_short(m, out) : rg_mesh_copy(m, out);
+    return how ? rg_triangulate_orbits(m, G, which, how == SHORT, out) : rg_mesh_copy(m, out);
 }
 
 static void add_cost(rg_cost *sum, const rg_cost *c)
@@ -98,9 +99,10 @@ static int consider(rg_choice *c, rg_take *t, const char *triangulation, const c
     return folds;
 }
 
-/* What is tried, besides the law: how facets are cut, and which, NULL: all; straight on, with no law; whether the motion is
+/* What is tried, besides the law: the symmetry kept; how facets are cut, and which, NULL: all; straight on, with no law; whether the motion is
  * found from its end; and the work that is left, and may be spent on one try. */
 typedef struct way {
+    const rg_symmetry *G;
     cut how;
     const unsigned char *which;
     int straight, back;
@@ -112,7 +114,7 @@ static rg_status straight_once(rg_take *t, const rg_mesh *none, const rg_setting
     rg_mesh m;
     rg_settings mine = *s;
     mine.triangulate = w->how ? RG_TRIANGULATE_ALL : RG_TRIANGULATE_NONE;
-    const rg_status status = copy_mesh(none, w->how, w->which, &m);
+    const rg_status status = copy_mesh(none, w->how, w->which, w->G, &m);
     return status == RG_OK ? rg_take_straight(t, &m, &mine, watch, why) : status;
 }
 
@@ -123,7 +125,7 @@ static rg_status flow_once(rg_take *t, const rg_mesh *none, const rg_settings *s
     const rg_memory mem = rg_mem_default(s->memory);
     const double sign = s->to < 0 ? -1 : 1, budget = fmin(w->left, w->work);
     rg_mesh m;
-    rg_status status = copy_mesh(none, w->how, w->which, &m);
+    rg_status status = copy_mesh(none, w->how, w->which, w->G, &m);
     if (status != RG_OK) return status;
     double *target = rg_mem_array(&mem, (size_t)m.N, sizeof *target), *end = rg_mem_array(&mem, (size_t)m.N, sizeof *end);
     double *flat = rg_mem_array(&mem, (size_t)m.N, sizeof *flat);
@@ -133,10 +135,10 @@ static rg_status flow_once(rg_take *t, const rg_mesh *none, const rg_settings *s
             end[i] = isnan(target[i]) ? 0 : target[i];
         }
         if (!w->back) {
-            status = rg_take_flow(t, &m, s, law, NULL, target, budget, watch, why);
+            status = rg_take_flow(t, &m, s, law, NULL, target, w->G, budget, watch, why);
         } else {
             for (int32_t i = 0; i < m.N; i++) flat[i] = isnan(target[i]) ? NAN : 0;
-            status = rg_take_flow(t, &m, s, law, end, flat, budget, watch, why);
+            status = rg_take_flow(t, &m, s, law, end, flat, w->G, budget, watch, why);
             if (status == RG_OK) rg_take_turn_round(t, target);
         }
     } else {
@@ -210,13 +212,13 @@ static rg_status straight(rg_choice *c, const rg_mesh *none, const rg_settings *
     return RG_OK;
 }
 
-static rg_status straight_cut(rg_choice *c, const rg_mesh *none, const rg_settings *s, int may_leave, rg_watch *watch,
-                              rg_diag *why, int *done)
+static rg_status straight_cut(rg_choice *c, const rg_mesh *none, const rg_settings *s, const rg_symmetry *G, int may_leave,
+                              rg_watch *watch, rg_diag *why, int *done)
 {
     const rg_memory mem = rg_mem_default(s->memory);
     const int32_t vertices = c->take.vertices;
     int32_t *vertex = rg_mem_array(&mem, (size_t)vertices, sizeof *vertex);
-    way w = {.how = SPLITTING, .straight = 1, .left = 1};
+    way w = {.G = G, .how = SPLITTING, .straight = 1, .left = 1};
     rg_take t;
     rg_cuts cuts;
     if (!vertex) return RG_ENOMEM;
@@ -225,7 +227,7 @@ static rg_status straight_cut(rg_choice *c, const rg_mesh *none, const rg_settin
     if (status == RG_OK)
         *done = consider(c, &t, "all", may_leave ? "stops short without added creases" : "asked for", "straight on, triangulated");
     if (status == RG_OK && *done && may_leave) {
-        status = rg_cuts_init(&cuts, &mem, none, &c->take);
+        status = rg_cuts_init(&cuts, &mem, none, w.G, &c->take);
         if (status == RG_OK) {
             rg_cuts_around(&cuts, vertex, vertices); /* that may be all it takes */
             status = prune(c, &cuts, s, &w, watch, why);
@@ -277,7 +279,7 @@ static rg_status prune_flow(rg_choice *c, const rg_mesh *none, const rg_settings
 {
     const rg_memory mem = rg_mem_default(s->memory);
     rg_cuts cuts;
-    rg_status status = rg_cuts_init(&cuts, &mem, none, &c->take);
+    rg_status status = rg_cuts_init(&cuts, &mem, none, w->G, &c->take);
     if (status == RG_OK && c->take.mesh.added > 0) {
         rg_cuts_bending(&cuts, HARDLY_BENT);
         status = prune(c, &cuts, s, w, watch, why);
@@ -286,15 +288,16 @@ static rg_status prune_flow(rg_choice *c, const rg_mesh *none, const rg_settings
     return status;
 }
 
-static rg_status flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, int all, int may_leave, rg_watch *watch,
-                      rg_diag *why)
+static rg_status flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, const rg_symmetry *G, int all, int may_leave,
+                      rg_watch *watch, rg_diag *why, int *done)
 {
     int folds = 0;
     rg_flow_law law;
     rg_status status = RG_OK;
-    way w = {.how = AS_DRAWN, .left = MOST_WORK[s->effort]};
+    way w = {.G = G, .how = AS_DRAWN, .left = MOST_WORK[s->effort]};
     if (all && may_leave && rg_strategy_law(s, 0, &law, &w.work) > 0) {
         status = try_flow(c, none, s, &law, &w, watch, why, &folds);
+        *done |= folds;
         if (status != RG_OK || folds) return status;
     }
     for (int32_t n = 0, use; (use = rg_strategy_law(s, n, &law, &w.work)) >= 0; n++)
@@ -308,11 +311,59 @@ static rg_status flow(rg_choice *c, const rg_mesh *none, const rg_settings *s, i
             status = try_flow(c, none, s, &law, &w, watch, why, &folds);
             if (status != RG_OK) return status;
             if (!folds) continue;
+            *done = 1;
             if (law.give > 0) status = economise(c, none, s, law, &w, watch, why);
             if (status == RG_OK && may_leave) status = prune_flow(c, none, s, &w, watch, why);
             return status;
         }
     return RG_OK;
+}
+
+static rg_status in_group(rg_choice *c, const rg_mesh *none, const rg_settings *s, const rg_symmetry *G, int triangles,
+                          rg_watch *watch, rg_diag *why, int *done)
+{
+    const int may_add = s->triangulate != RG_TRIANGULATE_NONE, may_leave = s->triangulate != RG_TRIANGULATE_ALL;
+    rg_status status = RG_OK;
+    if (may_add && !triangles) status = straight_cut(c, none, s, G, may_leave, watch, why, done);
+    /* Who asks for a method and no adjustment asks for that and nothing else. */
+    if (status == RG_OK && !*done && !(s->method != RG_METHOD_AUTO && s->adjust == 0))
+        status = flow(c, none, s, G, may_add && !triangles, may_leave, watch, why, done);
+    return status;
+}
+
+/* Who asks for triangles gets them: groups under which a facet has to stay whole are no answer then. */
+static rg_status leaves_whole(const rg_mesh *none, const rg_symmetry *G, int *whole)
+{
+    rg_mesh m;
+    const rg_status status = rg_triangulate_orbits(none, G, NULL, 0, &m);
+    if (status != RG_OK) return status;
+    *whole = 0;
+    for (int32_t f = 0; f < m.nf; f++) *whole |= m.facet_start[f + 1] - m.facet_start[f] > 3;
+    rg_mesh_free(&m);
+    return RG_OK;
+}
+
+/* The pattern's symmetry is kept, or as much of it as folds. */
+static rg_status by_groups(rg_choice *c, const rg_mesh *none, const rg_settings *s, int triangles, rg_watch *watch, rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(s->memory);
+    rg_symmetry whole, G;
+    rg_subgroup list[MOST_GROUPS];
+    int done = 0;
+    rg_status status = rg_symmetry_find(&whole, &mem, none);
+    if (status != RG_OK) return status;
+    int32_t n = rg_symmetry_subgroups(&whole, list, MOST_GROUPS);
+    if (s->symmetry == RG_SYMMETRY_OFF) n = 1;
+    if (s->symmetry == RG_SYMMETRY_OFF || list[n - 1].order > 1) list[n - 1] = (rg_subgroup){whole.turns, -1, 1};
+    for (int32_t k = 0; status == RG_OK && k < n && !done && !watch->cancelled; k++) {
+        status = rg_symmetry_part(&G, &whole, list[k].every, list[k].mirror);
+        int skipped = 0;
+        if (status == RG_OK && G.order > 1 && s->triangulate == RG_TRIANGULATE_ALL) status = leaves_whole(none, &G, &skipped);
+        if (status == RG_OK && !skipped) status = in_group(c, none, s, &G, triangles, watch, why, &done);
+        rg_symmetry_free(&G);
+    }
+    rg_symmetry_free(&whole);
+    return status;
 }
 
 rg_status rg_strategy_run(rg_choice *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why)
@@ -324,11 +375,7 @@ rg_status rg_strategy_run(rg_choice *c, const rg_mesh *none, const rg_settings *
     rg_status status = RG_OK;
     if (may_leave || triangles)
         status = straight(c, none, s, may_add && may_leave, watch, why, &done);
-    if (status == RG_OK && !done && may_add && !triangles)
-        status = straight_cut(c, none, s, may_leave, watch, why, &done);
-    /* Who asks for a method and no adjustment asks for that and nothing else. */
-    if (status == RG_OK && !done && !(s->method != RG_METHOD_AUTO && s->adjust == 0))
-        status = flow(c, none, s, may_add && !triangles, may_leave, watch, why);
+    if (status == RG_OK && !done) status = by_groups(c, none, s, triangles, watch, why);
     if (status == RG_OK && c->take.outcome != RG_FOLDED && strcmp(c->triangulation, "none") == 0 && may_add && may_leave && !triangles)
         c->why_triangulated = "added creases get it no further";
     /* Of a search that was cut short the best so far is kept, which need not be the try that was cut short. */

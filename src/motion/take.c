@@ -65,14 +65,19 @@ static double overfold(const rg_take *t)
     return most;
 }
 
-/* Facets that pass through each other at a crease are no motion: one that stops, stops before that. */
+/* Facets that pass through each other at a crease are no motion: it stops before that, wherever it would have come out. */
 static void cut_back(rg_take *t)
 {
-    const int32_t had = t->count;
-    while (t->outcome == RG_STOPPED && t->count > 1 && !(beyond(t, t->count - 1) <= MOST_OVER)) t->count--;
-    const size_t used = strlen(t->reason);
-    if (t->count < had)
+    int32_t good = 0;
+    while (good < t->count && beyond(t, good) <= MOST_OVER) good++;
+    if (good == t->count) return;
+    t->count = good > 0 ? good : 1;
+    if (t->outcome == RG_FOLDED) snprintf(t->reason, sizeof t->reason, "creases go past half a turn on the way");
+    else {
+        const size_t used = strlen(t->reason);
         snprintf(t->reason + used, sizeof t->reason - used, "; from there on creases go past half a turn");
+    }
+    t->outcome = RG_STOPPED;
 }
 
 /* Short of the whole way, a mean is what is asked for: is it one of creases that are all on their way? Those on the wrong
@@ -180,7 +185,7 @@ static void keep_passed(rg_take *t, rg_flow *F, double first, int32_t frames, in
 }
 
 rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, const rg_flow_law *law, const double *from,
-                       const double *target, double budget, rg_watch *watch, rg_diag *why)
+                       const double *target, const rg_symmetry *G, double budget, rg_watch *watch, rg_diag *why)
 {
     const double begun = rg_seconds();
     /* From folded, the way is the whole of it, of which the last part is asked for. */
@@ -188,6 +193,7 @@ rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, cons
     const int32_t given = first > 0 ? 0 : 1;
     rg_settings mine = *settings;
     rg_flow F;
+    rg_symmetry on = {0};
     int32_t frame = given, attempt = 0;
     if (from) mine.to = copysign(1, settings->to);
     memset(t, 0, sizeof *t);
@@ -197,12 +203,15 @@ rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, cons
     memset(m, 0, sizeof *m);
     t->law = *law;
     rg_status s = make_room(t, &t->mesh, settings->frames, law->gain > 0 || law->give > 0);
+    if (s == RG_OK && G && G->order > 1) s = rg_symmetry_on(&on, G, &t->mesh);
     if (s == RG_OK) s = rg_flow_init(&F, &t->mesh, &mine, law, from, target);
     if (s != RG_OK) {
+        rg_symmetry_free(&on);
         rg_take_free(t);
         return rg_fail(s, why, 0, "%s", rg_status_text(s));
     }
     F.budget = budget;
+    F.symmetry = on.order > 1 ? &on : NULL;
     memcpy(t->target, target, (size_t)F.N * sizeof *target);
     memcpy(t->from, F.from, (size_t)F.N * sizeof *target);
     if (given) keep(t, F.rho, F.J.X);
@@ -239,6 +248,7 @@ rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, cons
         t->cost = (rg_cost){F.steps, F.J.A.solves, F.J.A.iterations, F.J.A.factorizations, F.assemblies, 0};
     }
     rg_flow_free(&F);
+    rg_symmetry_free(&on);
     if (s != RG_OK) {
         rg_take_free(t);
         return rg_fail(s, why, 0, "%s", rg_status_text(s));

@@ -41,9 +41,10 @@ typedef struct rg_watch {
 void rg_take_free(rg_take *t);
 /* Straight on along the motion that closes exactly: rg_fold. *m is taken over, also on failure. */
 rg_status rg_take_straight(rg_take *t, rg_mesh *m, const rg_settings *s, rg_watch *watch, rg_diag *why);
-/* Where that is blocked: rg_flow, from `from` (NULL: flat). budget: of its work. */
+/* Where that is blocked: rg_flow, from `from` (NULL: flat). G: on a mesh with the same vertices, kept; NULL: none. budget: of its
+ * work. */
 rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *s, const rg_flow_law *law, const double *from,
-                       const double *target, double budget, rg_watch *watch, rg_diag *why);
+                       const double *target, const rg_symmetry *G, double budget, rg_watch *watch, rg_diag *why);
 /* A flow from `target` to flat that came there, as the motion from flat to `target` that it is backwards: its frames the other
  * way round. One that did not come there is no such motion: its score is then nothing. */
 void rg_take_turn_round(rg_take *t, const double *target);

@@ -92,6 +92,8 @@ static void result(rg_json *j, const rg_motion *m, int32_t ways)
     rg_json_number(j, "max_overfold_deg", r->max_overfold_deg);
     rg_json_number(j, "max_adjustment", r->max_adjustment);
     rg_json_number(j, "max_strain_from_original", r->max_strain_from_original);
+    rg_json_integer(j, "symmetry", r->symmetry);
+    rg_json_number(j, "max_asymmetry_deg", r->max_asymmetry_deg);
     rg_json_integer(j, "wrong_side_creases", r->wrong_side_creases);
     mobility(j, "mobility_at_end", ways);
     blocking(j, r);
