@@ -1,0 +1,263 @@
+#include "contact/near.h"
+
+#include <string.h>
+
+/* Of the longer of two edges: what is shorter is a point. And sine squared of edges that count as parallel. */
+static const double NO_LENGTH = 1e-14, PARALLEL = 1e-14;
+
+/* ------------------------------------------------------------------------------------------- nearest points ---- */
+
+static double part_of(double x) { return x > 0 ? x < 1 ? x : 1 : 0; }
+
+static double apart(rg_vec3 d, rg_vec3 *n)
+{
+    const double length = rg_vec3_length(d);
+    *n = length > 0 ? rg_vec3_scale(1 / length, d) : (rg_vec3){0, 0, 0};
+    return length;
+}
+
+/* The nearest point of a segment: how far along it. */
+static double along(rg_vec3 p, rg_vec3 a, rg_vec3 b)
+{
+    const rg_vec3 e = rg_vec3_sub(b, a);
+    const double length = rg_vec3_dot(e, e);
+    return length > 0 ? part_of(rg_vec3_dot(e, rg_vec3_sub(p, a)) / length) : 0;
+}
+
+static rg_vec3 from_triangle(rg_vec3 p, rg_vec3 a, rg_vec3 b, rg_vec3 c, const double w[3])
+{
+    return rg_vec3_axpy(-w[0], a, rg_vec3_axpy(-w[1], b, rg_vec3_axpy(-w[2], c, p)));
+}
+
+/* Above the triangle the foot of p is nearest; beside it a point of one of the sides. */
+double rg_near_triangle(rg_vec3 p, rg_vec3 a, rg_vec3 b, rg_vec3 c, double weight[3], rg_vec3 *n)
+{
+    const rg_vec3 e = rg_vec3_sub(b, a), f = rg_vec3_sub(c, a), r = rg_vec3_sub(p, a), m = rg_vec3_cross(e, f);
+    const double area = rg_vec3_dot(m, m);
+    if (area > 0) {
+        const double v = rg_vec3_dot(m, rg_vec3_cross(r, f)) / area, w = rg_vec3_dot(m, rg_vec3_cross(e, r)) / area;
+        if (v >= 0 && w >= 0 && v + w <= 1) {
+            weight[0] = 1 - v - w, weight[1] = v, weight[2] = w;
+            return apart(from_triangle(p, a, b, c, weight), n);
+        }
+    }
+    const rg_vec3 corner[3] = {a, b, c};
+    double least = INFINITY;
+    for (int k = 0; k < 3; k++) {
+        double w[3] = {0, 0, 0};
+        rg_vec3 m_k;
+        w[(k + 1) % 3] = along(p, corner[k], corner[(k + 1) % 3]);
+        w[k] = 1 - w[(k + 1) % 3];
+        const double d = apart(from_triangle(p, a, b, c, w), &m_k);
+        if (!(d < least)) continue;
+        least = d;
+        *n = m_k;
+        memcpy(weight, w, sizeof w);
+    }
+    return least;
+}
+
+/* The point of the line of the first that is nearest to the line of the second, kept on the segment; then the nearest point
+ * of the second, kept on it, and once more the first (Lumelsky 1985). */
+double rg_near_segments(rg_vec3 a, rg_vec3 b, rg_vec3 c, rg_vec3 d, double *s, double *t, rg_vec3 *n)
+{
+    const rg_vec3 e = rg_vec3_sub(b, a), g = rg_vec3_sub(d, c), r = rg_vec3_sub(a, c);
+    const double ee = rg_vec3_dot(e, e), gg = rg_vec3_dot(g, g), eg = rg_vec3_dot(e, g), least = NO_LENGTH * fmax(ee, gg);
+    const double slant = ee * gg - eg * eg;
+    *s = slant > PARALLEL * ee * gg ? part_of((eg * rg_vec3_dot(g, r) - gg * rg_vec3_dot(e, r)) / slant) : 0;
+    *t = gg > least ? (eg * *s + rg_vec3_dot(g, r)) / gg : 0;
+    if (!(*t >= 0 && *t <= 1) || !(slant > PARALLEL * ee * gg)) {
+        *t = part_of(*t);
+        *s = ee > least ? part_of((eg * *t - rg_vec3_dot(e, r)) / ee) : 0;
+    }
+    return apart(rg_vec3_sub(rg_vec3_axpy(*s, e, a), rg_vec3_axpy(*t, g, c)), n);
+}
+
+/* --------------------------------------------------------------------------------------------------- all of them ---- */
+
+rg_status rg_near_work_init(const rg_plates *p, rg_near_work *w)
+{
+    const rg_mesh *m = p->mesh;
+    memset(w, 0, sizeof *w);
+    w->mem = p->mem;
+    w->box = rg_mem_array(&p->mem, (size_t)p->nodes, sizeof *w->box);
+    w->leaf = rg_mem_array(&p->mem, (size_t)p->parts, sizeof *w->leaf);
+    w->corner_part = rg_mem_array(&p->mem, (size_t)m->nv, sizeof *w->corner_part);
+    w->edge_part = rg_mem_array(&p->mem, (size_t)m->ne, sizeof *w->edge_part);
+    w->side = rg_mem_array(&p->mem, (size_t)p->start[p->parts], sizeof *w->side);
+    if (!w->box || !w->leaf || !w->corner_part || !w->edge_part || !w->side) {
+        rg_near_work_free(w);
+        return RG_ENOMEM;
+    }
+    for (int32_t i = 0; i < p->nodes; i++)
+        if (p->node[i].part >= 0) w->leaf[p->node[i].part] = i;
+    for (int32_t v = 0; v < m->nv; v++) w->corner_part[v] = -1;
+    for (int32_t e = 0; e < m->ne; e++) w->edge_part[e] = -1;
+    for (int32_t a = 0; a < p->parts; a++)
+        for (int32_t j = p->start[a]; j < p->start[a + 1]; j++) {
+            const int32_t f = p->facet[a], v = p->vertex[j], u = p->vertex[j + 1 < p->start[a + 1] ? j + 1 : p->start[a]];
+            if (w->corner_part[v] < 0) w->corner_part[v] = a;
+            w->side[j] = -1;
+            for (int32_t i = m->facet_start[f]; i < m->facet_start[f + 1]; i++) {
+                const int32_t next = m->facet_vertex[i + 1 < m->facet_start[f + 1] ? i + 1 : m->facet_start[f]];
+                if (m->facet_vertex[i] == v && next == u) w->side[j] = m->facet_edge[i];
+            }
+            if (w->side[j] >= 0 && w->edge_part[w->side[j]] < 0) w->edge_part[w->side[j]] = a;
+        }
+    return RG_OK;
+}
+
+void rg_near_work_free(rg_near_work *w)
+{
+    if (!w->mem.resize) return;
+    void *block[] = {w->box, w->leaf, w->corner_part, w->edge_part, w->side};
+    for (int i = 0; i < 5; i++) rg_mem_free(&w->mem, block[i]);
+    memset(w, 0, sizeof *w);
+}
+
+typedef struct search {
+    const rg_plates *p;
+    const rg_vec3 *x;
+    const rg_near_work *w;
+    double reach;
+    rg_near_pair *pair;
+    int32_t room, count;
+} search;
+
+static int has_corner(const rg_mesh *m, int32_t f, int32_t v)
+{
+    for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++)
+        if (m->facet_vertex[j] == v) return 1;
+    return 0;
+}
+
+static int32_t across(const rg_mesh *m, int32_t f, int32_t e)
+{
+    return m->edge_facet[e][0] == f ? m->edge_facet[e][1] : m->edge_facet[e][0];
+}
+
+/* Is v a corner of facet f or of one over a crease of it? */
+static int about(const rg_mesh *m, int32_t f, int32_t v)
+{
+    if (has_corner(m, f, v)) return 1;
+    for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) {
+        const int32_t g = across(m, f, m->facet_edge[j]);
+        if (g >= 0 && has_corner(m, g, v)) return 1;
+    }
+    return 0;
+}
+
+/* The same facet, or the two of one crease. */
+static int hinged(const rg_mesh *m, int32_t f, int32_t g)
+{
+    if (f == g) return 1;
+    for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++)
+        if (across(m, f, m->facet_edge[j]) == g) return 1;
+    return 0;
+}
+
+static int edges_belong(const rg_mesh *m, int32_t d, int32_t e)
+{
+    const int32_t *a = m->edge[d], *b = m->edge[e];
+    if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) return 1;
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2; k++)
+            if (m->edge_facet[d][i] >= 0 && m->edge_facet[e][k] >= 0 && hinged(m, m->edge_facet[d][i], m->edge_facet[e][k])) return 1;
+    return 0;
+}
+
+static void keep(search *s, const rg_near_pair *pair)
+{
+    if (s->count < s->room) s->pair[s->count] = *pair;
+    s->count++;
+}
+
+/* Corners of part a, as far as they are looked at there, against part b. */
+static void corners(search *s, int32_t a, int32_t b)
+{
+    const rg_plates *p = s->p;
+    const rg_box box = s->w->box[s->w->leaf[b]];
+    const int32_t *t = p->vertex + p->start[b], n = p->start[b + 1] - p->start[b], f = p->facet[b];
+    for (int32_t j = p->start[a]; j < p->start[a + 1]; j++) {
+        const int32_t v = p->vertex[j];
+        const rg_vec3 at = s->x[v];
+        if (s->w->corner_part[v] != a || at.x - s->reach > box.high.x || at.x + s->reach < box.low.x || at.y - s->reach > box.high.y ||
+            at.y + s->reach < box.low.y || at.z - s->reach > box.high.z || at.z + s->reach < box.low.z || about(p->mesh, f, v))
+            continue;
+        rg_near_pair best = {.kind = RG_NEAR_CORNER, .facet = {p->facet[a], f}, .distance = INFINITY};
+        for (int32_t k = 1; k + 1 < n; k++) {
+            double w[3];
+            rg_vec3 m;
+            const double d = rg_near_triangle(at, s->x[t[0]], s->x[t[k]], s->x[t[k + 1]], w, &m);
+            if (!(d < best.distance)) continue;
+            best.distance = d;
+            best.n = m;
+            best.v[0] = v, best.v[1] = t[0], best.v[2] = t[k], best.v[3] = t[k + 1];
+            best.weight[0] = 1, best.weight[1] = -w[0], best.weight[2] = -w[1], best.weight[3] = -w[2];
+        }
+        if (best.distance < s->reach) keep(s, &best);
+    }
+}
+
+static void edges(search *s, int32_t a, int32_t b)
+{
+    const rg_plates *p = s->p;
+    const rg_mesh *m = p->mesh;
+    for (int32_t i = p->start[a]; i < p->start[a + 1]; i++) {
+        const int32_t d = s->w->side[i];
+        if (d < 0 || s->w->edge_part[d] != a) continue;
+        for (int32_t k = p->start[b]; k < p->start[b + 1]; k++) {
+            const int32_t e = s->w->side[k];
+            if (e < 0 || s->w->edge_part[e] != b) continue;
+            const int32_t *u = m->edge[d], *v = m->edge[e];
+            double at, other;
+            rg_vec3 n;
+            const double distance = rg_near_segments(s->x[u[0]], s->x[u[1]], s->x[v[0]], s->x[v[1]], &at, &other, &n);
+            if (!(distance < s->reach) || !(at > 0 && at < 1 && other > 0 && other < 1) || edges_belong(m, d, e)) continue;
+            keep(s, &(rg_near_pair){RG_NEAR_EDGES, {p->facet[a], p->facet[b]}, {u[0], u[1], v[0], v[1]},
+                                    {1 - at, at, other - 1, -other}, distance, n});
+        }
+    }
+}
+
+static int are_near(const rg_box *a, const rg_box *b, double reach)
+{
+    return a->low.x - b->high.x <= reach && b->low.x - a->high.x <= reach && a->low.y - b->high.y <= reach &&
+           b->low.y - a->high.y <= reach && a->low.z - b->high.z <= reach && b->low.z - a->high.z <= reach;
+}
+
+static void visit_two(search *s, int32_t i, int32_t k)
+{
+    if (!are_near(&s->w->box[i], &s->w->box[k], s->reach)) return;
+    const rg_plates_node *a = &s->p->node[i], *b = &s->p->node[k];
+    if (a->part >= 0 && b->part >= 0) {
+        if (s->p->facet[a->part] == s->p->facet[b->part]) return;
+        corners(s, a->part, b->part);
+        corners(s, b->part, a->part);
+        edges(s, a->part, b->part);
+    } else if (b->part >= 0 || (a->part < 0 && a->end - i >= b->end - k)) {
+        visit_two(s, i + 1, k);
+        visit_two(s, a->right, k);
+    } else {
+        visit_two(s, i, k + 1);
+        visit_two(s, i, b->right);
+    }
+}
+
+static void visit(search *s, int32_t i)
+{
+    const rg_plates_node *n = &s->p->node[i];
+    if (n->part >= 0) return;
+    visit(s, i + 1);
+    visit(s, n->right);
+    visit_two(s, i + 1, n->right);
+}
+
+int32_t rg_near_find(const rg_plates *p, const rg_vec3 *x, double reach, rg_near_work *w, rg_near_pair *pair, int32_t room)
+{
+    search s = {.p = p, .x = x, .w = w, .reach = reach, .pair = pair, .room = room};
+    if (p->parts < 2) return 0;
+    rg_plates_boxes(p, x, w->box);
+    visit(&s, 0);
+    return s.count;
+}

@@ -1,0 +1,494 @@
+#include "contact/sweep.h"
+#include "contact/near.h"
+
+#include <string.h>
+
+/* A facet that turns by more, as another one sees it, has leapt: there is no telling which way it went. */
+static const double LEAP = RG_PI / 2;
+/* Of the depth that is allowed, or of the distance that is kept: what is nearer than this is contact. It keeps steps from
+ * getting ever shorter; what is told as contact is off by no more. */
+static const double CLOSE = 0.01;
+/* A pair that takes more is given up. Each advances at least by the root of what is left over what turning adds, so that even
+ * quarter turns take some dozens. */
+enum { ADVANCEMENTS = 400 };
+
+rg_status rg_sweep_work_init(const rg_plates *p, rg_sweep_work *w)
+{
+    memset(w, 0, sizeof *w);
+    w->mem = p->mem;
+    w->box = rg_mem_array(&p->mem, (size_t)p->nodes, sizeof *w->box);
+    w->back = rg_mem_array(&p->mem, (size_t)p->mesh->nf, sizeof *w->back);
+    w->angle = rg_mem_array(&p->mem, (size_t)p->mesh->nf, sizeof *w->angle);
+    if (w->box && w->back && w->angle && rg_front_work_init(p, &w->front) == RG_OK) return RG_OK;
+    rg_sweep_work_free(w);
+    return RG_ENOMEM;
+}
+
+void rg_sweep_work_free(rg_sweep_work *w)
+{
+    if (!w->mem.resize) return;
+    rg_mem_free(&w->mem, w->box);
+    rg_mem_free(&w->mem, w->back);
+    rg_mem_free(&w->mem, w->angle);
+    rg_front_work_free(&w->front);
+    memset(w, 0, sizeof *w);
+}
+
+static double larger(double a, double b) { return a > b ? a : b; }
+
+/* ------------------------------------------------------------------------------------------- one pair, moving ---- */
+
+/* All as the first facet sees it. The second's corners: y = p + t dp + turn(t) (r + t dr). */
+typedef struct pair {
+    int32_t na, nb;
+    rg_vec2 a[RG_PLATE_CORNERS], da[RG_PLATE_CORNERS], r[RG_PLATE_CORNERS], dr[RG_PLATE_CORNERS];
+    rg_vec3 p, dp, omega; /* omega: the axis, as long as the angle */
+    rg_mat3 Q;            /* of the second as it begins */
+    double angle, reach;  /* reach: the farthest corner from the point that goes straight, at any time */
+    double stretch;       /* the longest dr */
+    int stiff;            /* zero: the first changes its shape too */
+    /* now */
+    rg_vec3 x[2 * RG_PLATE_CORNERS], v[2 * RG_PLATE_CORNERS]; /* the first's corners, then the second's: places, velocities */
+} pair;
+
+static rg_mat3 transposed_times(rg_mat3 A, rg_mat3 B)
+{
+    rg_mat3 C;
+    for (int k = 0; k < 3; k++)
+        C.c[k] = (rg_vec3){rg_vec3_dot(A.c[0], B.c[k]), rg_vec3_dot(A.c[1], B.c[k]), rg_vec3_dot(A.c[2], B.c[k])};
+    return C;
+}
+
+static rg_mat3 transpose(rg_mat3 A)
+{
+    return (rg_mat3){{{A.c[0].x, A.c[1].x, A.c[2].x}, {A.c[0].y, A.c[1].y, A.c[2].y}, {A.c[0].z, A.c[1].z, A.c[2].z}}};
+}
+
+/* The axis of a rotation, as long as its angle; none near half a turn. */
+static rg_vec3 turn_of(rg_mat3 R)
+{
+    const rg_vec3 skew = {R.c[1].z - R.c[2].y, R.c[2].x - R.c[0].z, R.c[0].y - R.c[1].x};
+    const double sine = rg_vec3_length(skew) / 2, cosine = (R.c[0].x + R.c[1].y + R.c[2].z - 1) / 2;
+    const double angle = atan2(sine, cosine);
+    return sine > 0 ? rg_vec3_scale(angle / (2 * sine), skew) : (rg_vec3){angle > 1 ? angle : 0, 0, 0};
+}
+
+static rg_vec3 lifted(rg_mat3 Q, rg_vec2 r) { return rg_vec3_axpy(r.x, Q.c[0], rg_vec3_scale(r.y, Q.c[1])); }
+
+static rg_vec2 between(rg_vec2 from, rg_vec2 to, double t) { return (rg_vec2){from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)}; }
+
+/* The place of the second facet as the first sees it. */
+static rg_place seen_from(const rg_plates_state *s, int32_t f, int32_t g)
+{
+    const rg_place *A = &s->place[f], *B = &s->place[g];
+    const rg_vec3 d = rg_vec3_sub(B->t, A->t);
+    return (rg_place){transposed_times(A->R, B->R), {rg_vec3_dot(A->R.c[0], d), rg_vec3_dot(A->R.c[1], d), rg_vec3_dot(A->R.c[2], d)}};
+}
+
+/* corner: the one that the two facets share, -1: none. Returns zero: it leaps. */
+static int set_pair(pair *m, const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, int32_t a, int32_t b, int32_t corner)
+{
+    const int32_t *va = p->vertex + p->start[a], *vb = p->vertex + p->start[b];
+    const rg_place begin = seen_from(from, p->facet[a], p->facet[b]), end = seen_from(to, p->facet[a], p->facet[b]);
+    m->na = p->start[a + 1] - p->start[a];
+    m->nb = p->start[b + 1] - p->start[b];
+    m->Q = begin.R;
+    m->omega = turn_of(rg_mat3_mul(end.R, transpose(begin.R)));
+    m->angle = rg_vec3_length(m->omega);
+    if (!(m->angle <= LEAP)) return 0;
+    rg_vec2 pivot = {0, 0}, pivot_to = {0, 0};
+    if (corner >= 0) {
+        pivot = from->X[corner], pivot_to = to->X[corner];
+        m->p = (rg_vec3){pivot.x, pivot.y, 0};
+        m->dp = (rg_vec3){pivot_to.x - pivot.x, pivot_to.y - pivot.y, 0};
+    } else {
+        for (int32_t k = 0; k < m->nb; k++) {
+            pivot = (rg_vec2){pivot.x + from->X[vb[k]].x / m->nb, pivot.y + from->X[vb[k]].y / m->nb};
+            pivot_to = (rg_vec2){pivot_to.x + to->X[vb[k]].x / m->nb, pivot_to.y + to->X[vb[k]].y / m->nb};
+        }
+        m->p = rg_vec3_add(begin.t, lifted(begin.R, pivot));
+        m->dp = rg_vec3_sub(rg_vec3_add(end.t, lifted(end.R, pivot_to)), m->p);
+    }
+    m->stiff = 1;
+    for (int32_t k = 0; k < m->na; k++) {
+        m->a[k] = from->X[va[k]];
+        m->da[k] = rg_vec2_sub(to->X[va[k]], m->a[k]);
+        m->stiff = m->stiff && m->da[k].x == 0 && m->da[k].y == 0;
+    }
+    m->reach = m->stretch = 0;
+    for (int32_t k = 0; k < m->nb; k++) {
+        m->r[k] = rg_vec2_sub(from->X[vb[k]], pivot);
+        m->dr[k] = rg_vec2_sub(rg_vec2_sub(to->X[vb[k]], pivot_to), m->r[k]);
+        m->reach = fmax(m->reach, sqrt(fmax(rg_vec2_dot(m->r[k], m->r[k]), rg_vec2_dot(between(m->r[k], rg_vec2_sub(to->X[vb[k]], pivot_to), 1), rg_vec2_sub(to->X[vb[k]], pivot_to)))));
+        m->stretch = fmax(m->stretch, sqrt(rg_vec2_dot(m->dr[k], m->dr[k])));
+    }
+    return 1;
+}
+
+/* Rodrigues' formula. */
+static rg_vec3 turned(rg_vec3 axis, double c, double s, rg_vec3 x)
+{
+    return rg_vec3_axpy(c, x, rg_vec3_axpy(s, rg_vec3_cross(axis, x), rg_vec3_scale((1 - c) * rg_vec3_dot(axis, x), axis)));
+}
+
+static void go_to(pair *m, double t)
+{
+    const double c = cos(t * m->angle), s = sin(t * m->angle);
+    const rg_vec3 axis = m->angle > 0 ? rg_vec3_scale(1 / m->angle, m->omega) : (rg_vec3){0, 0, 0};
+    const rg_mat3 Q = {{turned(axis, c, s, m->Q.c[0]), turned(axis, c, s, m->Q.c[1]), turned(axis, c, s, m->Q.c[2])}};
+    for (int32_t k = 0; k < m->na; k++) {
+        m->x[k] = (rg_vec3){m->a[k].x + t * m->da[k].x, m->a[k].y + t * m->da[k].y, 0};
+        m->v[k] = (rg_vec3){m->da[k].x, m->da[k].y, 0};
+    }
+    const rg_vec3 p = rg_vec3_axpy(t, m->dp, m->p);
+    for (int32_t k = 0; k < m->nb; k++) {
+        const rg_vec3 arm = lifted(Q, (rg_vec2){m->r[k].x + t * m->dr[k].x, m->r[k].y + t * m->dr[k].y});
+        m->x[m->na + k] = rg_vec3_add(p, arm);
+        m->v[m->na + k] = rg_vec3_add(rg_vec3_add(m->dp, lifted(Q, m->dr[k])), rg_vec3_cross(m->omega, arm));
+    }
+}
+
+/* How long s + v h - c h^2 / 2 stays above 0. */
+static double while_positive(double s, double v, double c)
+{
+    if (!(s > 0)) return 0;
+    if (!(c > 0)) return v < 0 ? s / -v : INFINITY;
+    return v >= 0 ? (v + sqrt(v * v + 2 * c * s)) / c : 2 * s / (sqrt(v * v + 2 * c * s) - v);
+}
+
+/* Along the unit vector u, the second plate being on its side: how long they are surely no nearer than `limit`. *gap: out, now. */
+static double holds(const pair *m, rg_vec3 u, double limit, double *gap)
+{
+    const rg_vec3 lever = rg_vec3_cross(m->omega, u);
+    /* u . y'' = u . (omega x (omega x arm)) + 2 u . (omega x Q dr), and u . (omega x z) = (u x omega) . z. */
+    const double c = rg_vec3_length(lever) * (m->angle * m->reach + 2 * m->stretch);
+    double top = -INFINITY, least = INFINITY, time = INFINITY;
+    for (int32_t k = 0; k < m->na; k++) top = fmax(top, rg_vec3_dot(u, m->x[k]));
+    for (int32_t i = m->na; i < m->na + m->nb; i++) {
+        const double s = rg_vec3_dot(u, m->x[i]), v = rg_vec3_dot(u, m->v[i]);
+        if (s < least) least = s;
+        if (m->stiff) time = fmin(time, while_positive(s - top - limit, v, c));
+        for (int32_t k = 0; k < m->na && !m->stiff; k++)
+            time = fmin(time, while_positive(s - rg_vec3_dot(u, m->x[k]) - limit, v - rg_vec3_dot(u, m->v[k]), c));
+    }
+    *gap = least - top;
+    return time;
+}
+
+/* What the axes tried so far give. */
+typedef struct best { double time, gap; rg_vec3 axis; } best;
+
+static int try_axis(const pair *m, rg_vec3 u, double limit, double enough, best *b)
+{
+    for (int side = 0; side < 2; side++) {
+        double gap;
+        const double time = holds(m, u, limit, &gap);
+        if (gap > b->gap) b->gap = gap;
+        if (time > b->time) b->time = time, b->axis = u;
+        if (b->time >= enough) return 1;
+        u = rg_vec3_scale(-1, u);
+    }
+    return 0;
+}
+
+static int try_direction(const pair *m, rg_vec3 d, double shortest, double limit, double enough, best *b)
+{
+    const double length = rg_vec3_length(d);
+    return length > shortest && try_axis(m, rg_vec3_scale(1 / length, d), limit, enough, b);
+}
+
+static rg_vec3 side_of(const pair *m, int32_t first, int32_t n, int32_t k)
+{
+    return rg_vec3_sub(m->x[first + (k + 1) % n], m->x[first + k]);
+}
+
+static rg_vec3 normal_of(const pair *m, int32_t first, int32_t n)
+{
+    rg_vec3 sum = {0, 0, 0};
+    for (int32_t i = 1; i + 1 < n; i++)
+        sum = rg_vec3_add(sum, rg_vec3_cross(rg_vec3_sub(m->x[first + i], m->x[first]), rg_vec3_sub(m->x[first + i + 1], m->x[first])));
+    return sum;
+}
+
+/* Sine of edges that count as parallel. */
+static const double PARALLEL = 1e-9;
+
+/* All axes of the separating-axis theorem, the last good one and the line of the middles first; no more than needed. */
+static void try_axes(const pair *m, double limit, double enough, best *b)
+{
+    rg_vec3 middle = {0, 0, 0};
+    for (int32_t k = 0; k < m->na; k++) middle = rg_vec3_axpy(-1.0 / m->na, m->x[k], middle);
+    for (int32_t k = 0; k < m->nb; k++) middle = rg_vec3_axpy(1.0 / m->nb, m->x[m->na + k], middle);
+    if (try_direction(m, b->axis, 0, limit, enough, b) || try_direction(m, middle, 0, limit, enough, b)) return;
+    if (try_direction(m, normal_of(m, 0, m->na), 0, limit, enough, b)) return;
+    if (try_direction(m, normal_of(m, m->na, m->nb), 0, limit, enough, b)) return;
+    for (int32_t i = 0; i < m->na; i++) {
+        const rg_vec3 e = side_of(m, 0, m->na, i);
+        for (int32_t k = 0; k < m->nb; k++) {
+            const rg_vec3 g = side_of(m, m->na, m->nb, k);
+            if (try_direction(m, rg_vec3_cross(e, g), PARALLEL * rg_vec3_length(e) * rg_vec3_length(g), limit, enough, b)) return;
+        }
+    }
+}
+
+/* The distance of two plates that do not cross, and the direction from the first to the second. */
+static double distance_of(const pair *m, rg_vec3 *n)
+{
+    double least = INFINITY, w[3], s, t;
+    rg_vec3 u;
+    for (int side = 0; side < 2; side++) {
+        const int32_t first = side ? 0 : m->na, count = side ? m->na : m->nb, other = side ? m->na : 0, others = side ? m->nb : m->na;
+        for (int32_t i = 0; i < count; i++)
+            for (int32_t k = 1; k + 1 < others; k++) {
+                const double d = rg_near_triangle(m->x[first + i], m->x[other], m->x[other + k], m->x[other + k + 1], w, &u);
+                if (d < least) least = d, *n = rg_vec3_scale(side ? -1 : 1, u);
+            }
+    }
+    for (int32_t i = 0; i < m->na; i++)
+        for (int32_t k = 0; k < m->nb; k++) {
+            const double d = rg_near_segments(m->x[m->na + k], m->x[m->na + (k + 1) % m->nb], m->x[i], m->x[(i + 1) % m->na], &s, &t, &u);
+            if (d < least) least = d, *n = u;
+        }
+    return least;
+}
+
+/* ------------------------------------------------------------------------------------------------- one pair, all ---- */
+
+typedef struct sweep {
+    const rg_plates *p;
+    const rg_plates_state *from, *to;
+    const rg_sweep_rule *rule;
+    const rg_sweep_work *w;
+    double across; /* of the largest facet */
+    int rigid;     /* non-zero: no facet changes its shape */
+    rg_sweep_found found;
+    pair m;
+} sweep;
+
+static void end_at(sweep *s, rg_sweep_verdict verdict, double time, int32_t a, int32_t b, rg_vec3 axis)
+{
+    if (!(time < s->found.time) && s->found.verdict != RG_SWEEP_FREE) return;
+    const rg_place *A = &s->from->place[s->p->facet[a]];
+    s->found.verdict = verdict;
+    s->found.time = time;
+    s->found.facet[0] = s->p->facet[a];
+    s->found.facet[1] = s->p->facet[b];
+    s->found.axis = rg_vec3_scale(-1, rg_mat3_mul_vec(A->R, axis));
+}
+
+static void advance(sweep *s, int32_t a, int32_t b, int32_t corner)
+{
+    pair *m = &s->m;
+    best now = {0, -INFINITY, {0, 0, 0}};
+    double t = 0, limit = -s->rule->depth * s->p->size, close;
+    const int keeps = s->rule->keep > 0 && corner < 0;
+    s->found.pairs++;
+    if (!set_pair(m, s->p, s->from, s->to, a, b, corner)) {
+        end_at(s, RG_SWEEP_GAVE_UP, 0, a, b, (rg_vec3){0, 0, 0});
+        return;
+    }
+    go_to(m, 0);
+    close = -CLOSE * limit;
+    if (keeps) {
+        const double distance = distance_of(m, &now.axis);
+        limit = s->rule->keep * distance;
+        close = CLOSE * (distance - limit);
+    }
+    for (int32_t n = 0; n < ADVANCEMENTS; n++) {
+        const double enough = s->found.time - t;
+        now.time = 0;
+        now.gap = -INFINITY;
+        if (n > 0) go_to(m, t);
+        if (n > 0 && keeps) distance_of(m, &now.axis);
+        s->found.advancements++;
+        try_axes(m, limit, enough, &now);
+        if (now.time >= enough) return;
+        if (!(now.gap - limit > close)) {
+            end_at(s, RG_SWEEP_CONTACT, t, a, b, now.axis);
+            return;
+        }
+        t += now.time;
+    }
+    end_at(s, RG_SWEEP_GAVE_UP, t, a, b, now.axis);
+}
+
+/* The angle between two facets about their common edge e, as the first sees it. */
+static double fold_of(const rg_plates_state *s, int32_t f, int32_t g, const int32_t *e)
+{
+    const rg_vec3 n = seen_from(s, f, g).R.c[2];
+    const rg_vec2 d = rg_vec2_sub(s->X[e[1]], s->X[e[0]]);
+    return atan2((d.y * n.x - d.x * n.y) / rg_vec2_length(d), n.z);
+}
+
+/* A crease that goes through half a turn, either way. A hinge can do nothing else. */
+static void close_hinge(sweep *s, int32_t a, int32_t b, int32_t e)
+{
+    const int32_t f = s->p->facet[a], g = s->p->facet[b], *end = s->p->mesh->edge[e];
+    const double before = fold_of(s->from, f, g, end), after = fold_of(s->to, f, g, end);
+    s->found.pairs++;
+    if (!(fabs(after - before) > RG_PI)) return;
+    /* What it is beyond is as deep as the smaller facet reaches. */
+    double reach = INFINITY;
+    for (int side = 0; side < 2; side++) {
+        const int32_t part = side ? b : a;
+        double most = 0;
+        for (int32_t j = s->p->start[part]; j < s->p->start[part + 1]; j++) {
+            const rg_vec2 x = s->from->X[s->p->vertex[j]];
+            most = fmax(most, fabs(rg_vec2_turn(s->from->X[end[0]], s->from->X[end[1]], x)) /
+                                  rg_vec2_length(rg_vec2_sub(s->from->X[end[1]], s->from->X[end[0]])));
+        }
+        reach = fmin(reach, most);
+    }
+    if (!(fmin(RG_PI - fabs(before), RG_PI - fabs(after)) * reach > s->rule->depth * s->p->size)) return;
+    const double beyond = RG_PI - fabs(before);
+    end_at(s, RG_SWEEP_CONTACT, fmin(1, beyond / (2 * RG_PI - fabs(before) - fabs(after))), a, b, (rg_vec3){0, 0, 0});
+}
+
+/* The crease of two facets, if these parts have it both; -1: none. */
+static int32_t hinge_of(const rg_plates *p, int32_t a, int32_t b)
+{
+    const rg_mesh *m = p->mesh;
+    const int32_t f = p->facet[a], g = p->facet[b];
+    for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) {
+        const int32_t e = m->facet_edge[j];
+        if (m->edge_facet[e][0] != g && m->edge_facet[e][1] != g) continue;
+        int found = 0;
+        for (int side = 0; side < 2; side++)
+            for (int32_t k = p->start[side ? b : a]; k < p->start[(side ? b : a) + 1]; k++)
+                found += p->vertex[k] == m->edge[e][0] || p->vertex[k] == m->edge[e][1];
+        if (found == 4) return e;
+    }
+    return -1;
+}
+
+/* As the first facet sees it, so that it stays where it is: do the second's corners stay on one side of it? They go straight but
+ * for the height of an arc. */
+static int stays_away(const sweep *s, int32_t a, int32_t b)
+{
+    const rg_plates *p = s->p;
+    const rg_place *back = &s->w->back[p->facet[a]];
+    const rg_vec3 *x = s->from->x, *y = s->to->x;
+    const double angle = s->w->angle[p->facet[a]] + s->w->angle[p->facet[b]], by = s->across * angle * angle / 8;
+    const int32_t *v = p->vertex + p->start[a], n = p->start[a + 1] - p->start[a];
+    rg_box A = {x[v[0]], x[v[0]]}, B = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (int32_t k = 1; k < n; k++) rg_box_take_in(&A, x[v[k]]);
+    for (int32_t j = p->start[b]; j < p->start[b + 1]; j++) {
+        rg_box_take_in(&B, x[p->vertex[j]]);
+        rg_box_take_in(&B, rg_vec3_add(rg_mat3_mul_vec(back->R, y[p->vertex[j]]), back->t));
+    }
+    return A.low.x - B.high.x > by || B.low.x - A.high.x > by || A.low.y - B.high.y > by || B.low.y - A.high.y > by ||
+           A.low.z - B.high.z > by || B.low.z - A.high.z > by;
+}
+
+static void meet(sweep *s, int32_t a, int32_t b)
+{
+    const rg_plates *p = s->p;
+    int32_t corner;
+    if (p->facet[a] == p->facet[b]) return;
+    if (p->facet[a] > p->facet[b]) {
+        const int32_t swap = a;
+        a = b, b = swap;
+    }
+    if (s->rule->skip && s->rule->skip(s->rule->ctx, p->facet[a], p->facet[b])) return;
+    const int32_t shared = rg_plates_shared(p->mesh, p->facet[a], p->facet[b], &corner);
+    const int32_t hinge = shared > 1 ? hinge_of(p, a, b) : -1;
+    if (hinge >= 0) close_hinge(s, a, b, hinge);
+    else if (shared > 0 || !s->rigid || !stays_away(s, a, b)) advance(s, a, b, corner);
+}
+
+static int boxes_meet(const rg_box *a, const rg_box *b)
+{
+    return a->low.x <= b->high.x && b->low.x <= a->high.x && a->low.y <= b->high.y && b->low.y <= a->high.y &&
+           a->low.z <= b->high.z && b->low.z <= a->high.z;
+}
+
+static void visit_two(sweep *s, int32_t i, int32_t k)
+{
+    if (!boxes_meet(&s->w->box[i], &s->w->box[k])) return;
+    const rg_plates_node *a = &s->p->node[i], *b = &s->p->node[k];
+    if (a->part >= 0 && b->part >= 0) {
+        meet(s, a->part, b->part);
+    } else if (b->part >= 0 || (a->part < 0 && a->end - i >= b->end - k)) {
+        visit_two(s, i + 1, k);
+        visit_two(s, a->right, k);
+    } else {
+        visit_two(s, i, k + 1);
+        visit_two(s, i, b->right);
+    }
+}
+
+static void visit(sweep *s, int32_t i)
+{
+    const rg_plates_node *n = &s->p->node[i];
+    if (n->part >= 0) return;
+    visit(s, i + 1);
+    visit(s, n->right);
+    visit_two(s, i + 1, n->right);
+}
+
+/* ------------------------------------------------------------------------------------------------------- step ---- */
+
+/* The most that any facet turns, that any corner goes, the diameter of the largest facet, the most that one changes its shape. */
+typedef struct extremes { double angle, way, across, stretch; } extremes;
+
+static extremes find_extremes(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double *angle)
+{
+    const rg_mesh *m = p->mesh;
+    extremes x = {0, 0, 0, 0};
+    double way = 0, across = 0, stretch = 0; /* squared */
+    for (int32_t v = 0; v < m->nv; v++) {
+        const rg_vec3 d = rg_vec3_sub(to->x[v], from->x[v]);
+        const rg_vec2 e = rg_vec2_sub(to->X[v], from->X[v]);
+        way = larger(way, rg_vec3_dot(d, d));
+        stretch = larger(stretch, rg_vec2_dot(e, e));
+    }
+    for (int32_t f = 0; f < m->nf; f++) {
+        rg_vec2 low = from->X[m->facet_vertex[m->facet_start[f]]], high = low;
+        for (int32_t j = m->facet_start[f] + 1; j < m->facet_start[f + 1]; j++) {
+            const rg_vec2 c = from->X[m->facet_vertex[j]];
+            low = (rg_vec2){c.x < low.x ? c.x : low.x, c.y < low.y ? c.y : low.y};
+            high = (rg_vec2){larger(high.x, c.x), larger(high.y, c.y)};
+        }
+        const rg_vec2 diagonal = rg_vec2_sub(high, low);
+        angle[f] = rg_front_angle(&from->place[f].R, &to->place[f].R);
+        across = larger(across, rg_vec2_dot(diagonal, diagonal));
+        x.angle = larger(x.angle, angle[f]);
+    }
+    x.way = sqrt(way), x.stretch = 2 * sqrt(stretch);
+    x.across = sqrt(across) + x.stretch;
+    return x;
+}
+
+/* How far a plate can be, at any time, from where its corners would be if they went straight; all turn about the first of a pair
+ * as it turns about its middle, and the pair meets. With P(t) the first's place, P = (1 - t) P0 + t P1 + E, where |E y| is at
+ * most |y| angle^2 / 8, the height of the arc; y(t) is as near to straight; and ((1 - t) P0 + t P1) ((1 - t) y0 + t y1) is off
+ * by t (1 - t) (P1 - P0) (y1 - y0). A point of the second that meets the first is within a diameter of the first's middle, and so is any other within two. */
+static double bulge(extremes x)
+{
+    if (!(x.angle < 0.5)) return INFINITY;
+    const double height = x.across * x.angle * x.angle / 2; /* of the second's arc: it turns by up to twice as much, seen from the first */
+    const double far = 2 * x.across + height, go = (2 * x.way + far * x.angle + x.stretch) / (1 - x.angle);
+    return height + far * x.angle * x.angle / 8 + x.angle * (go + x.stretch) / 4 + x.angle * x.stretch;
+}
+
+rg_sweep_found rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, const rg_sweep_rule *rule,
+                             rg_sweep_work *w)
+{
+    sweep s = {.p = p, .from = from, .to = to, .rule = rule, .w = w};
+    s.found = (rg_sweep_found){.verdict = RG_SWEEP_FREE, .time = 1, .facet = {-1, -1}};
+    if (p->parts < 2) return s.found;
+    if (!(rule->keep > 0) && !rule->skip && rg_front_shows_moving(p, from, to, rule->depth * p->size, &w->front)) {
+        s.found.in_front = 1;
+        return s.found;
+    }
+    const extremes x = find_extremes(p, from, to, w->angle);
+    s.across = x.across;
+    s.rigid = x.stretch == 0;
+    for (int32_t f = 0; f < p->mesh->nf; f++) {
+        w->back[f].R = rg_mat3_mul(from->place[f].R, transpose(to->place[f].R));
+        w->back[f].t = rg_vec3_sub(from->place[f].t, rg_mat3_mul_vec(w->back[f].R, to->place[f].t));
+    }
+    rg_plates_sweep_boxes(p, from->x, to->x, bulge(x), w->box);
+    visit(&s, 0);
+    return s.found;
+}

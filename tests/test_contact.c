@@ -1,0 +1,705 @@
+/* contact/: crossings, their depth, contact on the way and nearest points, against brute force on plain arrays. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "near.h"
+
+#include "counted.h"
+#include "folded.h"
+#include "contact/contact.h"
+#include "contact/near.h"
+#include "contact/sweep.h"
+
+/* ------------------------------------------------------------------------------------------------ brute force ---- */
+
+typedef double point[3];
+typedef point triangle[3];
+
+static double inner(const point a, const point b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static void minus(const point a, const point b, point out)
+{
+    for (int k = 0; k < 3; k++) out[k] = a[k] - b[k];
+}
+
+static void outer(const point a, const point b, point out)
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/* Six times the volume of a tetrahedron: which side of abc d lies on. */
+static double volume(const point a, const point b, const point c, const point d)
+{
+    point e, f, g, n;
+    minus(b, a, e), minus(c, a, f), minus(d, a, g);
+    outer(e, f, n);
+    return inner(n, g);
+}
+
+/* The segment pq goes through the inside of the triangle. */
+static int pierces(const point p, const point q, triangle t)
+{
+    const double s = volume(t[0], t[1], t[2], p), e = volume(t[0], t[1], t[2], q);
+    if (!(s * e < 0)) return 0;
+    const double a = volume(p, q, t[0], t[1]), b = volume(p, q, t[1], t[2]), c = volume(p, q, t[2], t[0]);
+    return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
+}
+
+static int cross(triangle a, triangle b)
+{
+    for (int k = 0; k < 3; k++)
+        if (pierces(a[k], a[(k + 1) % 3], b) || pierces(b[k], b[(k + 1) % 3], a)) return 1;
+    return 0;
+}
+
+static void random_point(unsigned *seed, point p)
+{
+    for (int k = 0; k < 3; k++) p[k] = noise(seed);
+}
+
+static void random_triangle(unsigned *seed, triangle t)
+{
+    for (int k = 0; k < 3; k++) random_point(seed, t[k]);
+}
+
+static double depth(triangle a, triangle b, rg_vec3 *axis)
+{
+    static const int32_t three[2][3] = {{0, 1, 2}, {3, 4, 5}};
+    rg_vec3 x[6];
+    memcpy(x, a, sizeof(triangle));
+    memcpy(x + 3, b, sizeof(triangle));
+    const rg_plate A = {3, three[0], x, rg_depth_normal(x, three[0], 3)}, B = {3, three[1], x, rg_depth_normal(x, three[1], 3)};
+    return rg_depth_of(&A, &B, 0, axis);
+}
+
+static void moved(triangle t, rg_vec3 u, double by, triangle out)
+{
+    for (int k = 0; k < 3; k++) {
+        out[k][0] = t[k][0] + by * u.x;
+        out[k][1] = t[k][1] + by * u.y;
+        out[k][2] = t[k][2] + by * u.z;
+    }
+}
+
+/* Crossing is a matter of edges that go through insides; the depth is what parts, and nothing shorter does. */
+static void random_pairs(void **state)
+{
+    (void)state;
+    unsigned seed = 11;
+    int crossing = 0, apart = 0;
+    for (int k = 0; k < 20000; k++) {
+        triangle a, b, c;
+        rg_vec3 axis = {0, 0, 0};
+        random_triangle(&seed, a);
+        random_triangle(&seed, b);
+        const double d = depth(a, b, &axis);
+        assert_true(d >= 0);
+        if (cross(a, b) != (d > 0)) assert_true(d < 1e-12 && !cross(a, b));
+        crossing += d > 0;
+        apart += d == 0;
+        if (!(d > 1e-9)) continue;
+        near(rg_vec3_length(axis), 1, 1e-12);
+        for (int q = 0; q < 5; q++) {
+            rg_vec3 u = {noise(&seed), noise(&seed), noise(&seed)};
+            u = rg_vec3_scale(1 / rg_vec3_length(u), u);
+            moved(b, u, 0.999 * d, c);
+            assert_true(cross(a, c));
+        }
+        moved(b, axis, 1.001 * d, c);
+        int parted = !cross(a, c);
+        moved(b, axis, -1.001 * d, c);
+        assert_true(parted || !cross(a, c));
+    }
+    assert_true(crossing > 1000 && apart > 1000);
+}
+
+/* Touching is no depth: layers in one plane, a common corner, a common edge, a corner on a face, an edge on an edge. */
+static void degenerate_pairs(void **state)
+{
+    (void)state;
+    unsigned seed = 12;
+    for (int k = 0; k < 4000; k++) {
+        triangle a, b;
+        double w[3] = {1 + noise(&seed), 1 + noise(&seed), 1 + noise(&seed)};
+        const double all = w[0] + w[1] + w[2];
+        random_triangle(&seed, a);
+        random_triangle(&seed, b);
+        point n, e, f, d;
+        minus(a[1], a[0], e), minus(a[2], a[0], f);
+        outer(e, f, n);
+        const double area = sqrt(inner(n, n));
+        if (!(area > 0.05)) continue;
+        if (k % 4 == 0) { /* in a's plane */
+            for (int i = 0; i < 3; i++) {
+                const double s = noise(&seed), t = noise(&seed);
+                for (int q = 0; q < 3; q++) b[i][q] = a[0][q] + s * e[q] + t * f[q];
+            }
+        } else if (k % 4 == 1) { /* hinged at an edge, at any angle */
+            memcpy(b[0], a[0], sizeof(point));
+            memcpy(b[1], a[1], sizeof(point));
+        } else { /* all on one side of a's plane, one corner in it: inside a, or at a corner of it */
+            for (int i = 0; i < 3; i++) {
+                minus(b[i], a[0], d);
+                const double h = inner(d, n) / area;
+                for (int q = 0; q < 3; q++) b[i][q] += (fabs(h) - h) * n[q] / area;
+            }
+            for (int q = 0; q < 3; q++) b[0][q] = k % 4 == 2 ? (w[0] * a[0][q] + w[1] * a[1][q] + w[2] * a[2][q]) / all : a[2][q];
+        }
+        below(depth(a, b, NULL), 1e-12);
+        below(depth(b, a, NULL), 1e-12);
+    }
+}
+
+static void known_depths(void **state)
+{
+    (void)state;
+    triangle floor = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, knife = {{1, 0.8, -0.1}, {1, 1.2, -0.1}, {1, 1, 1}};
+    near(depth(floor, knife, NULL), 0.1, 1e-12);
+    /* From a common corner on, through the middle: cos and sin of the half angle over the distance. */
+    triangle a = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, b = {{0, 0, 0}, {1, 1, -0.5}, {1, 1, 0.5}};
+    near(depth(a, b, NULL), 0.5 / sqrt(4.5), 1e-12);
+}
+
+/* ------------------------------------------------------------------------------------------------------ sheets ---- */
+
+/* A strip of facets between slanted creases: any fold angles close, as there is no vertex inside. */
+static rg_mesh strip(int n, unsigned *seed)
+{
+    rg_lines l = drawing();
+    double low = 0, high = 0.1;
+    draw(&l, RG_BORDER, low, 0, high, 1);
+    for (int k = 0; k < n; k++) {
+        const double next = low + 0.5 + 0.3 * noise(seed), top = high + 0.5 + 0.3 * noise(seed);
+        draw(&l, RG_BORDER, low, 0, next, 0);
+        draw(&l, RG_BORDER, high, 1, top, 1);
+        draw(&l, k + 1 < n ? RG_VALLEY : RG_BORDER, next, 0, top, 1);
+        low = next, high = top;
+    }
+    rg_pattern *p = pattern_of(&l);
+    rg_mesh m = mesh_of(p);
+    rg_pattern_destroy(p);
+    return m;
+}
+
+enum { MOST = 64 };
+typedef struct posed { rg_place place[MOST]; rg_vec3 x[2 * MOST]; } posed;
+
+static void pose(const rg_mesh *m, const rg_tree *t, const double *rho, posed *p)
+{
+    assert_true(m->nf <= MOST && m->nv <= 2 * MOST);
+    rg_pose_facets(m, m->X, t, rho, p->place);
+    rg_pose_vertices(m, m->X, t, p->place, p->x);
+}
+
+/* The tree leaves nothing out, counts nothing twice, and what is told to show its front does not cross. */
+static void strips_cross_as_their_pairs_do(void **state)
+{
+    (void)state;
+    unsigned seed = 5;
+    int crossing = 0, fronts = 0;
+    for (int k = 0; k < 60; k++) {
+        rg_mesh m = strip(4 + k % 20, &seed);
+        rg_tree t;
+        rg_plates p;
+        rg_contact_work w;
+        double rho[MOST];
+        posed s;
+        assert_int_equal(rg_tree_init(&m, -1, &t), RG_OK);
+        assert_int_equal(rg_plates_init(&m, &p), RG_OK);
+        assert_int_equal(rg_contact_work_init(&p, &w), RG_OK);
+        for (int32_t i = 0; i < m.N; i++) rho[i] = (k % 3 ? 3.1 : 0.6) * noise(&seed);
+        pose(&m, &t, rho, &s);
+        rg_contact_hit hit[MOST * MOST], deepest, again;
+        const int32_t n = rg_contact_pairs(&p, s.x, 1e-4, &w, hit, MOST * MOST, &deepest);
+        int32_t found = 0;
+        double most = 0;
+        for (int32_t f = 0; f < m.nf; f++)
+            for (int32_t g = f + 1; g < m.nf; g++) {
+                const double d = rg_contact_depth(&p, s.x, f, g, 1e-4);
+                int32_t listed = -1;
+                for (int32_t i = 0; i < n; i++)
+                    if (hit[i].facet[0] == f && hit[i].facet[1] == g) listed = i;
+                assert_int_equal(listed >= 0, d > 0);
+                if (d > 0) near(hit[listed].depth, d, 1e-12);
+                found += d > 0;
+                most = fmax(most, d);
+            }
+        assert_int_equal(n, found);
+        near(deepest.depth, most, 1e-12);
+        assert_int_equal(rg_contact_deepest(&p, s.x, 1e-4, &w, &again), n > 0);
+        if (n > 0) near(again.depth, most, 1e-12);
+        crossing += n > 0;
+        const int front = rg_front_shows(&p, s.x, w.normal, p.parts, &w.front);
+        if (front) assert_int_equal(n, 0);
+        fronts += front;
+        rg_contact_work_free(&w);
+        rg_plates_free(&p);
+        rg_tree_free(&t);
+        rg_mesh_free(&m);
+    }
+    assert_true(crossing > 10 && fronts > 5);
+}
+
+/* A facet that is not convex: what stands in its notch does not cross it, what goes through its arm does. One sheet: an L, and
+ * a square tongue on one of its arms that is folded round. */
+static void notches_are_open(void **state)
+{
+    (void)state;
+    rg_lines l = drawing();
+    const double at[8][2] = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}, {0, 0}, {0, 0}};
+    for (int k = 0; k < 6; k++) draw(&l, RG_BORDER, at[k][0], at[k][1], at[(k + 1) % 6][0], at[(k + 1) % 6][1]);
+    rg_pattern *pattern = pattern_of(&l);
+    rg_mesh m = mesh_of(pattern);
+    rg_plates p;
+    assert_int_equal(rg_plates_init(&m, &p), RG_OK);
+    assert_int_equal(m.nf, 1);
+    assert_int_equal(p.parts, 2);
+    double area = 0;
+    for (int32_t a = 0; a < p.parts; a++)
+        for (int32_t j = p.start[a] + 1; j + 1 < p.start[a + 1]; j++)
+            area += rg_vec2_turn(m.X[p.vertex[p.start[a]]], m.X[p.vertex[j]], m.X[p.vertex[j + 1]]) / 2;
+    near(area, 5, 1e-12);
+    rg_plates_free(&p);
+    rg_mesh_free(&m);
+    rg_pattern_destroy(pattern);
+}
+
+/* A Miura-ori shows its front all the way, whatever its size, and so do its steps, up to the flat end. */
+static void miura_shows_its_front(void **state)
+{
+    (void)state;
+    const double alpha = 1.1;
+    rg_pattern *pattern = draw_miura(6, alpha);
+    rg_mesh m = mesh_of(pattern);
+    rg_tree t;
+    rg_plates p;
+    rg_contact_work w;
+    rg_sweep_work sw;
+    double rho[200];
+    posed s[2];
+    assert_true(m.N <= 200);
+    assert_int_equal(rg_tree_init(&m, -1, &t), RG_OK);
+    assert_int_equal(rg_plates_init(&m, &p), RG_OK);
+    assert_int_equal(rg_contact_work_init(&p, &w), RG_OK);
+    assert_int_equal(rg_sweep_work_init(&p, &sw), RG_OK);
+    const rg_sweep_rule rule = {RG_CONTACT_TOLERANCE, 0, NULL, NULL};
+    enum { STEPS = 200 };
+    for (int k = 0; k <= STEPS; k++) {
+        miura_angles(&m, alpha, RG_PI * k / STEPS, rho);
+        pose(&m, &t, rho, &s[k % 2]);
+        assert_int_equal(rg_contact_pairs(&p, s[k % 2].x, RG_CONTACT_TOLERANCE, &w, NULL, 0, NULL), 0);
+        assert_int_equal(rg_front_shows(&p, s[k % 2].x, w.normal, p.parts, &w.front), k < STEPS);
+        if (k == 0) continue;
+        const rg_plates_state from = {m.X, s[(k + 1) % 2].place, s[(k + 1) % 2].x}, to = {m.X, s[k % 2].place, s[k % 2].x};
+        const rg_sweep_found found = rg_sweep_step(&p, &from, &to, &rule, &sw);
+        assert_int_equal(found.verdict, RG_SWEEP_FREE);
+        assert_true(found.in_front);
+    }
+    rg_sweep_work_free(&sw);
+    rg_contact_work_free(&w);
+    rg_plates_free(&p);
+    rg_tree_free(&t);
+    rg_mesh_free(&m);
+    rg_pattern_destroy(pattern);
+}
+
+/* --------------------------------------------------------------------------------------------- two loose plates ---- */
+
+/* Two triangles of one "sheet" that nothing holds together, or a common corner: the mesh as far as contact/ looks at it. */
+typedef struct loose {
+    rg_mesh m;
+    rg_vec2 X[6];
+    int32_t edge[6][2], side[6][2], start[3], vertex[6], facet_edge[6], crease[6];
+} loose;
+
+static void make_loose(loose *l, const rg_vec2 X[6], int shared)
+{
+    memset(l, 0, sizeof *l);
+    memcpy(l->X, X, sizeof l->X);
+    for (int k = 0; k < 6; k++) {
+        l->vertex[k] = k == 3 && shared ? 0 : k;
+        l->crease[k] = -1;
+        l->facet_edge[k] = k;
+        l->side[k][0] = k / 3;
+        l->side[k][1] = -1;
+    }
+    for (int k = 0; k < 6; k++) {
+        l->edge[k][0] = l->vertex[k];
+        l->edge[k][1] = l->vertex[k / 3 * 3 + (k + 1) % 3];
+    }
+    l->start[1] = 3, l->start[2] = 6;
+    l->m = (rg_mesh){.mem = rg_mem_default(NULL), .nv = 6, .ne = 6, .nf = 2, .X = l->X, .edge = l->edge, .edge_facet = l->side,
+                     .facet_start = l->start, .facet_vertex = l->vertex, .facet_edge = l->facet_edge, .edge_crease = l->crease};
+}
+
+static rg_mat3 turned_about(rg_vec3 axis, double angle)
+{
+    const double c = cos(angle), s = sin(angle), k = 1 - c, n = rg_vec3_length(axis), x = axis.x / n, y = axis.y / n, z = axis.z / n;
+    return (rg_mat3){{{c + x * x * k, x * y * k + z * s, x * z * k - y * s},
+                      {x * y * k - z * s, c + y * y * k, y * z * k + x * s},
+                      {x * z * k + y * s, y * z * k - x * s, c + z * z * k}}};
+}
+
+static void place_all(const loose *l, const rg_place place[2], rg_vec3 x[6])
+{
+    for (int f = 0; f < 2; f++)
+        for (int k = 0; k < 3; k++) {
+            const int32_t v = l->vertex[3 * f + k];
+            x[v] = rg_vec3_add(rg_mat3_mul_vec(place[f].R, (rg_vec3){l->X[v].x, l->X[v].y, 0}), place[f].t);
+        }
+}
+
+/* Two plates are no sheet of which the front could be seen at once: with a rule of their own they are looked at as a pair. */
+static int no_skip(void *ctx, int32_t f, int32_t g)
+{
+    (void)ctx, (void)f, (void)g;
+    return 0;
+}
+
+static rg_sweep_found sweep_of(const loose *l, const rg_place from[2], const rg_place to[2], const rg_sweep_rule *rule, double *size)
+{
+    rg_plates p;
+    rg_sweep_work w;
+    rg_vec3 x[6] = {{0, 0, 0}}, y[6] = {{0, 0, 0}};
+    assert_int_equal(rg_plates_init(&l->m, &p), RG_OK);
+    assert_int_equal(rg_sweep_work_init(&p, &w), RG_OK);
+    place_all(l, from, x);
+    place_all(l, to, y);
+    const rg_plates_state a = {l->X, from, x}, b = {l->X, to, y};
+    const rg_sweep_found found = rg_sweep_step(&p, &a, &b, rule, &w);
+    *size = p.size;
+    rg_sweep_work_free(&w);
+    rg_plates_free(&p);
+    return found;
+}
+
+static rg_vec3 middle_of(const loose *l, int f)
+{
+    rg_vec3 m = {0, 0, 0};
+    for (int k = 0; k < 3; k++) {
+        m.x += l->X[l->vertex[3 * f + k]].x / 3;
+        m.y += l->X[l->vertex[3 * f + k]].y / 3;
+    }
+    return m;
+}
+
+/* The second triangle turns about an axis through its middle, which goes straight, and both together swing about some other
+ * axis, which says nothing: sampled densely, what is free never crosses, and contact is where it is told to be. */
+static void moving_pairs(void **state)
+{
+    (void)state;
+    unsigned seed = 3;
+    int outcome[3] = {0, 0, 0};
+    for (int k = 0; k < 20000; k++) {
+        const int shared = k % 3 == 0;
+        rg_vec2 X[6];
+        for (int i = 0; i < 6; i++) X[i] = (rg_vec2){noise(&seed), noise(&seed)};
+        if (!(rg_vec2_turn(X[0], X[1], X[2]) > 0.1 && rg_vec2_turn(shared ? X[0] : X[3], X[4], X[5]) > 0.1)) continue;
+        loose l;
+        make_loose(&l, X, shared);
+        const rg_vec3 axis = {noise(&seed), noise(&seed), noise(&seed)}, swing = {noise(&seed), noise(&seed), noise(&seed)};
+        const rg_vec3 tilt = {noise(&seed), noise(&seed), noise(&seed)};
+        const rg_vec3 begin = {noise(&seed), noise(&seed), 1.5 * noise(&seed)}, way = {noise(&seed), noise(&seed), noise(&seed)};
+        const double angle = 0.7 * (1 + noise(&seed)), by = 1.5 * noise(&seed);
+        const rg_vec3 pivot = shared ? (rg_vec3){X[0].x, X[0].y, 0} : middle_of(&l, 1);
+        const rg_mat3 Q = turned_about(tilt, 3 * noise(&seed));
+        rg_place at[2][2];
+        triangle a, b;
+        double size;
+        /* The place at time t, as the first sees it: turned(t) Q (x - pivot) + where the pivot is. */
+        for (int end = 0; end < 2; end++) {
+            const rg_mat3 R = rg_mat3_mul(turned_about(axis, end * angle), Q), G = turned_about(swing, end * by);
+            const rg_vec3 where = shared ? pivot : rg_vec3_axpy(end, way, begin);
+            at[end][0] = (rg_place){G, {end * 0.3, 0, 0}};
+            at[end][1].R = rg_mat3_mul(G, R);
+            at[end][1].t = rg_vec3_add(rg_mat3_mul_vec(G, rg_vec3_sub(where, rg_mat3_mul_vec(R, pivot))), at[end][0].t);
+        }
+        const double allowed = 1e-3;
+        const rg_sweep_rule rule = {allowed, 0, no_skip, NULL};
+        const rg_sweep_found found = sweep_of(&l, at[0], at[1], &rule, &size);
+        if (found.time > 0) outcome[found.verdict]++;
+        assert_true(found.time >= 0 && found.time <= 1);
+        enum { SAMPLES = 200 };
+        for (int i = 0; i <= SAMPLES + 1; i++) {
+            const double t = i <= SAMPLES ? found.time * i / SAMPLES : found.time;
+            const rg_mat3 R = rg_mat3_mul(turned_about(axis, t * angle), Q);
+            const rg_vec3 where = shared ? pivot : rg_vec3_axpy(t, way, begin);
+            for (int c = 0; c < 3; c++) {
+                const rg_vec2 p = X[l.vertex[c]], q = X[l.vertex[3 + c]];
+                const rg_vec3 y = rg_vec3_add(where, rg_mat3_mul_vec(R, rg_vec3_sub((rg_vec3){q.x, q.y, 0}, pivot)));
+                a[c][0] = p.x, a[c][1] = p.y, a[c][2] = 0;
+                b[c][0] = y.x, b[c][1] = y.y, b[c][2] = y.z;
+            }
+            if (found.time > 0) below(depth(a, b, NULL), allowed * size * (1 + 1e-9)); /* else it begins with a crossing */
+        }
+        /* At the time told it is as deep as is allowed, to one part in fifty. */
+        if (found.verdict == RG_SWEEP_CONTACT) assert_true(depth(a, b, NULL) >= 0.98 * allowed * size);
+    }
+    assert_true(outcome[RG_SWEEP_FREE] > 200 && outcome[RG_SWEEP_CONTACT] > 200);
+    assert_int_equal(outcome[RG_SWEEP_GAVE_UP], 0);
+}
+
+/* Falling flat onto the other: with `keep` the time is that when the distance is down to that part. */
+static void keeps_its_distance(void **state)
+{
+    (void)state;
+    loose l;
+    double size;
+    make_loose(&l, (const rg_vec2[6]){{0, 0}, {1, 0}, {0, 1}, {0.1, 0.1}, {0.6, 0.1}, {0.1, 0.6}}, 0);
+    rg_place from[2] = {{rg_mat3_identity(), {0, 0, 0}}, {rg_mat3_identity(), {0, 0, 0.5}}}, to[2];
+    memcpy(to, from, sizeof to);
+    to[1].t.z = -0.5;
+    rg_sweep_rule rule = {RG_CONTACT_TOLERANCE, 0.1, NULL, NULL};
+    rg_sweep_found found = sweep_of(&l, from, to, &rule, &size);
+    assert_int_equal(found.verdict, RG_SWEEP_CONTACT);
+    near(found.time, 0.45, 0.006);
+    assert_true(found.time <= 0.45);
+    near(found.axis.z, -1, 1e-9);
+    /* Layers as near as this that move together are passed in few steps. */
+    for (int f = 0; f < 2; f++) {
+        from[f].t = (rg_vec3){0, 0, 2e-5 * f};
+        to[f].R = turned_about((rg_vec3){1, 2, 0.5}, 0.6);
+        to[f].t = rg_vec3_add(rg_mat3_mul_vec(to[f].R, from[f].t), (rg_vec3){0.2, 0, 0});
+    }
+    found = sweep_of(&l, from, to, &rule, &size);
+    assert_int_equal(found.verdict, RG_SWEEP_FREE);
+    below(found.advancements, 4);
+    /* A leap is none of both. */
+    to[1].R = turned_about((rg_vec3){1, 2, 0.5}, 2.6);
+    found = sweep_of(&l, from, to, &rule, &size);
+    assert_int_equal(found.verdict, RG_SWEEP_GAVE_UP);
+}
+
+/* A hinge that goes past half a turn goes through itself, though no state shows it. */
+static void hinges_stop_at_half_a_turn(void **state)
+{
+    (void)state;
+    unsigned seed = 9;
+    rg_mesh m = strip(2, &seed);
+    rg_tree t;
+    rg_plates p;
+    rg_sweep_work w;
+    posed s[2];
+    assert_int_equal(rg_tree_init(&m, 0, &t), RG_OK);
+    assert_int_equal(rg_plates_init(&m, &p), RG_OK);
+    assert_int_equal(rg_sweep_work_init(&p, &w), RG_OK);
+    const rg_sweep_rule rule = {RG_CONTACT_TOLERANCE, 0, NULL, NULL};
+    const rg_plates_state from = {m.X, s[0].place, s[0].x}, to = {m.X, s[1].place, s[1].x};
+    pose(&m, &t, (const double[]){3.0}, &s[0]);
+    pose(&m, &t, (const double[]){RG_PI}, &s[1]);
+    assert_int_equal(rg_sweep_step(&p, &from, &to, &rule, &w).verdict, RG_SWEEP_FREE);
+    pose(&m, &t, (const double[]){3.3}, &s[1]);
+    const rg_sweep_found found = rg_sweep_step(&p, &from, &to, &rule, &w);
+    assert_int_equal(found.verdict, RG_SWEEP_CONTACT);
+    near(found.time, (RG_PI - 3.0) / 0.3, 1e-9);
+    pose(&m, &t, (const double[]){-3.1}, &s[0]);
+    pose(&m, &t, (const double[]){-3.1}, &s[1]);
+    assert_int_equal(rg_sweep_step(&p, &from, &to, &rule, &w).verdict, RG_SWEEP_FREE);
+    rg_sweep_work_free(&w);
+    rg_plates_free(&p);
+    rg_tree_free(&t);
+    rg_mesh_free(&m);
+}
+
+/* ------------------------------------------------------------------------------------------------------ nearest ---- */
+
+/* A nearest point of a triangle: no corner of it lies on p's side of the plane through it across the way to p. Of two edges:
+ * the way stands on both. */
+static void nearest_points(void **state)
+{
+    (void)state;
+    unsigned seed = 21;
+    int inside = 0, beside = 0, both = 0;
+    for (int k = 0; k < 20000; k++) {
+        rg_vec3 x[4], n;
+        for (int i = 0; i < 4; i++) x[i] = (rg_vec3){noise(&seed), noise(&seed), noise(&seed)};
+        double w[3], s, t;
+        double d = rg_near_triangle(x[0], x[1], x[2], x[3], w, &n);
+        rg_vec3 q = rg_vec3_axpy(w[0], x[1], rg_vec3_axpy(w[1], x[2], rg_vec3_scale(w[2], x[3])));
+        near(w[0] + w[1] + w[2], 1, 1e-12);
+        assert_true(w[0] >= -1e-15 && w[1] >= -1e-15 && w[2] >= -1e-15);
+        near(rg_vec3_dot(n, rg_vec3_sub(x[0], q)), d, 1e-12);
+        for (int i = 1; i < 4; i++) below(rg_vec3_dot(rg_vec3_sub(x[0], q), rg_vec3_sub(x[i], q)), 1e-12);
+        inside += w[0] > 0 && w[1] > 0 && w[2] > 0;
+        beside += !(w[0] > 0 && w[1] > 0 && w[2] > 0);
+        d = rg_near_segments(x[0], x[1], x[2], x[3], &s, &t, &n);
+        const rg_vec3 p = rg_vec3_axpy(s, rg_vec3_sub(x[1], x[0]), x[0]);
+        q = rg_vec3_axpy(t, rg_vec3_sub(x[3], x[2]), x[2]);
+        assert_true(s >= 0 && s <= 1 && t >= 0 && t <= 1);
+        const rg_vec3 v = rg_vec3_sub(p, q);
+        near(rg_vec3_dot(n, v), d, 1e-12);
+        near(rg_vec3_length(v), d, 1e-12);
+        for (int i = 0; i < 2; i++) {
+            assert_true(rg_vec3_dot(v, rg_vec3_sub(x[i], p)) >= -1e-12);
+            below(rg_vec3_dot(v, rg_vec3_sub(x[2 + i], q)), 1e-12);
+        }
+        both += s > 0 && s < 1 && t > 0 && t < 1;
+    }
+    assert_true(inside > 500 && beside > 500 && both > 500);
+}
+
+static int joined(const rg_mesh *m, int32_t f, int32_t g)
+{
+    for (int32_t e = 0; e < m->ne; e++)
+        if ((m->edge_facet[e][0] == f && m->edge_facet[e][1] == g) || (m->edge_facet[e][0] == g && m->edge_facet[e][1] == f)) return 1;
+    return f == g;
+}
+
+static int corner_of(const rg_mesh *m, int32_t f, int32_t v)
+{
+    for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++)
+        if (m->facet_vertex[j] == v) return 1;
+    return 0;
+}
+
+/* All corners against all facets, all edges against all edges. */
+static void near_pairs_are_all_there(void **state)
+{
+    (void)state;
+    unsigned seed = 31;
+    int32_t corners = 0, edges = 0;
+    for (int k = 0; k < 20; k++) {
+        rg_mesh plain = strip(12, &seed), m;
+        assert_int_equal(rg_triangulate_all(&plain, &m), RG_OK);
+        rg_tree t;
+        rg_plates p;
+        rg_near_work w;
+        posed s;
+        double rho[MOST];
+        static rg_near_pair pair[4000];
+        const double reach = 0.3;
+        assert_int_equal(rg_tree_init(&m, -1, &t), RG_OK);
+        assert_int_equal(rg_plates_init(&m, &p), RG_OK);
+        assert_int_equal(rg_near_work_init(&p, &w), RG_OK);
+        for (int32_t i = 0; i < m.N; i++) rho[i] = i < plain.N ? (i % 2 ? -2.8 : 2.8) + 0.3 * noise(&seed) : 0.1 * noise(&seed);
+        pose(&m, &t, rho, &s);
+        const int32_t n = rg_near_find(&p, s.x, reach, &w, pair, 4000);
+        assert_true(n <= 4000);
+        int32_t want = 0;
+        for (int32_t v = 0; v < m.nv; v++)
+            for (int32_t f = 0; f < m.nf; f++) {
+                int about = 0;
+                for (int32_t g = 0; g < m.nf; g++) about |= joined(&m, f, g) && corner_of(&m, g, v);
+                double weight[3];
+                rg_vec3 u;
+                const int32_t *c = m.facet_vertex + m.facet_start[f];
+                const double d = rg_near_triangle(s.x[v], s.x[c[0]], s.x[c[1]], s.x[c[2]], weight, &u);
+                if (about || !(d < reach)) continue;
+                want++;
+                int found = 0;
+                for (int32_t i = 0; i < n; i++) {
+                    if (pair[i].kind != RG_NEAR_CORNER || pair[i].v[0] != v || pair[i].facet[1] != f) continue;
+                    found++;
+                    near(pair[i].distance, d, 1e-12);
+                }
+                assert_int_equal(found, 1);
+                corners++;
+            }
+        for (int32_t d = 0; d < m.ne; d++)
+            for (int32_t e = 0; e < d; e++) {
+                const int32_t *a = m.edge[d], *b = m.edge[e];
+                int about = a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
+                for (int i = 0; i < 4; i++) {
+                    const int32_t f = m.edge_facet[d][i / 2], g = m.edge_facet[e][i % 2];
+                    about |= f >= 0 && g >= 0 && joined(&m, f, g);
+                }
+                double at, other;
+                rg_vec3 u;
+                const double away = rg_near_segments(s.x[a[0]], s.x[a[1]], s.x[b[0]], s.x[b[1]], &at, &other, &u);
+                if (about || !(away < reach) || !(at > 0 && at < 1 && other > 0 && other < 1)) continue;
+                want++;
+                edges++;
+            }
+        assert_int_equal(n, want);
+        for (int32_t i = 0; i < n; i++) {
+            rg_vec3 sum = {0, 0, 0};
+            double all = 0;
+            for (int q = 0; q < 4; q++) {
+                sum = rg_vec3_axpy(pair[i].weight[q], s.x[pair[i].v[q]], sum);
+                all += pair[i].weight[q];
+            }
+            near(all, 0, 1e-12);
+            near(rg_vec3_dot(sum, pair[i].n), pair[i].distance, 1e-12);
+        }
+        rg_near_work_free(&w);
+        rg_plates_free(&p);
+        rg_tree_free(&t);
+        rg_mesh_free(&m);
+        rg_mesh_free(&plain);
+    }
+    assert_true(corners > 100 && edges > 100);
+}
+
+/* ------------------------------------------------------------------------------------------------------- memory ---- */
+
+static void starves_cleanly_and_looks_for_nothing(void **state)
+{
+    (void)state;
+    unsigned seed = 77;
+    rg_mesh m = strip(9, &seed);
+    rg_tree t;
+    posed s;
+    double rho[MOST];
+    assert_int_equal(rg_tree_init(&m, -1, &t), RG_OK);
+    for (int32_t i = 0; i < m.N; i++) rho[i] = 3 * noise(&seed);
+    pose(&m, &t, rho, &s);
+    for (long left = 0;; left++) {
+        counted c = {left, 0, 0};
+        rg_mesh starved = m;
+        starved.mem = (rg_memory){counted_resize, &c};
+        rg_plates p = {0};
+        rg_contact_work w = {0};
+        rg_sweep_work sw = {0};
+        rg_near_work nw = {0};
+        rg_status status = rg_plates_init(&starved, &p);
+        if (status == RG_OK) status = rg_contact_work_init(&p, &w);
+        if (status == RG_OK) status = rg_sweep_work_init(&p, &sw);
+        if (status == RG_OK) status = rg_near_work_init(&p, &nw);
+        if (status == RG_OK) {
+            const long asked = c.asked;
+            const rg_plates_state at = {m.X, s.place, s.x};
+            const rg_sweep_rule rule = {RG_CONTACT_TOLERANCE, 0.1, NULL, NULL};
+            rg_contact_hit deepest;
+            rg_contact_pairs(&p, s.x, RG_CONTACT_TOLERANCE, &w, NULL, 0, &deepest);
+            rg_contact_deepest(&p, s.x, RG_CONTACT_TOLERANCE, &w, &deepest);
+            rg_sweep_step(&p, &at, &at, &rule, &sw);
+            rg_near_find(&p, s.x, 0.1, &nw, NULL, 0);
+            assert_int_equal(c.asked, asked);
+        }
+        rg_near_work_free(&nw);
+        rg_sweep_work_free(&sw);
+        rg_contact_work_free(&w);
+        rg_plates_free(&p);
+        assert_int_equal(c.out, 0);
+        if (status == RG_OK) break;
+        assert_int_equal(status, RG_ENOMEM);
+    }
+    rg_tree_free(&t);
+    rg_mesh_free(&m);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(random_pairs),
+        cmocka_unit_test(degenerate_pairs),
+        cmocka_unit_test(known_depths),
+        cmocka_unit_test(strips_cross_as_their_pairs_do),
+        cmocka_unit_test(notches_are_open),
+        cmocka_unit_test(miura_shows_its_front),
+        cmocka_unit_test(moving_pairs),
+        cmocka_unit_test(keeps_its_distance),
+        cmocka_unit_test(hinges_stop_at_half_a_turn),
+        cmocka_unit_test(nearest_points),
+        cmocka_unit_test(near_pairs_are_all_there),
+        cmocka_unit_test(starves_cleanly_and_looks_for_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
