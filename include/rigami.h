@@ -292,6 +292,9 @@ typedef struct rg_report {
     int32_t blocking_vertex_count, blocking_crease_count;
     const int32_t *blocking_vertices, *blocking_creases; /* borrowed; vertex numbers and crease numbers of the mesh */
     const double (*blocking_at)[2];                      /* where those vertices are, file coordinates */
+    const char *layers;        /* of the flat end: "valid", "none", "unsolved" or "not flat" */
+    const char *layer_orders;  /* how many, as rg_layers_info.count; "" unless valid */
+    const char *layers_reason; /* in words, unless valid */
     int32_t frame_count;
     const rg_frame *frames; /* borrowed */
     int32_t states, states_reached; /* of a sequence of states; 0: the motion is of one pattern */

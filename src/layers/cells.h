@@ -2,8 +2,8 @@
  * Uses  flat.h planar.h faces.h        Used by  pairs.c constraint.c
  *
  * The same facets lie over all of a cell; the same edges lie along all of a segment. */
-#ifndef RG_CELLS_H
-#define RG_CELLS_H
+#ifndef RG_LAYERS_CELLS_H
+#define RG_LAYERS_CELLS_H
 
 #include "layers/flat.h"
 #include "pattern/faces.h"

@@ -8,8 +8,8 @@
  *   taco A B, tortilla T             o(A,T) o(B,T) = 1                  T is not between A and B
  *   tortillas T T', U U'             o(T,U) o(T',U') = 1                they do not cross
  * So each is an equation of signs; only transitivity is not. */
-#ifndef RG_CONSTRAINT_H
-#define RG_CONSTRAINT_H
+#ifndef RG_LAYERS_CONSTRAINT_H
+#define RG_LAYERS_CONSTRAINT_H
 
 #include "layers/pairs.h"
 

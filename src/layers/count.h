@@ -3,8 +3,8 @@
  *
  * Pairs that constraints with two unknown orders join are a part; parts don't touch each other, so the orders of the whole are
  * products. Within a part one pair is tried both ways; what is left falls into parts again, and those are counted each for itself. */
-#ifndef RG_COUNT_H
-#define RG_COUNT_H
+#ifndef RG_LAYERS_COUNT_H
+#define RG_LAYERS_COUNT_H
 
 #include "layers/propagate.h"
 

@@ -13,7 +13,7 @@ void rg_flat_free(rg_flat *f)
 {
     if (!f->mem.resize) return;
     const rg_memory mem = f->mem;
-    void *block[] = {f->facet_of, f->start, f->edge, f->beside, f->up, f->turn, f->place, f->x, f->middle};
+    void *block[] = {f->facet_of, f->part_start, f->part, f->start, f->edge, f->beside, f->up, f->turn, f->place, f->x, f->middle};
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&mem, block[i]);
     memset(f, 0, sizeof *f);
 }
@@ -28,6 +28,9 @@ static void number_facets(rg_flat *f, const rg_mesh *m)
     }
     for (int32_t i = 0; i < m->nf; i++) f->facet_of[i] = rg_class_of(f->facet_of, i);
     for (int32_t i = 0; i < m->nf; i++) f->facet_of[i] = f->facet_of[i] == i ? f->nf++ : f->facet_of[f->facet_of[i]];
+    for (int32_t i = 0; i < m->nf; i++) f->part_start[f->facet_of[i] + 2]++; /* as in list_edges */
+    for (int32_t g = 2; g <= f->nf; g++) f->part_start[g] += f->part_start[g - 1];
+    for (int32_t i = 0; i < m->nf; i++) f->part[f->part_start[f->facet_of[i] + 1]++] = i;
 }
 
 static void list_edges(rg_flat *f, const rg_mesh *m)
@@ -175,6 +178,8 @@ rg_status rg_flat_init(rg_flat *f, const rg_memory *mem, const rg_mesh *m, const
     const size_t nf = (size_t)m->nf, ne = (size_t)m->ne, nv = (size_t)m->nv;
     int32_t *scratch = rg_mem_array(mem, nf + nv, sizeof *scratch);
     f->facet_of = rg_mem_array(mem, nf, sizeof *f->facet_of);
+    f->part_start = rg_mem_array(mem, nf + 2, sizeof *f->part_start);
+    f->part = rg_mem_array(mem, nf, sizeof *f->part);
     f->start = rg_mem_array(mem, nf + 2, sizeof *f->start);
     f->edge = rg_mem_array(mem, 2 * ne, sizeof *f->edge);
     f->beside = rg_mem_array(mem, ne, sizeof *f->beside);
@@ -183,7 +188,7 @@ rg_status rg_flat_init(rg_flat *f, const rg_memory *mem, const rg_mesh *m, const
     f->place = rg_mem_array(mem, nf, sizeof *f->place);
     f->x = rg_mem_array(mem, nv, sizeof *f->x);
     f->middle = rg_mem_array(mem, nf, sizeof *f->middle);
-    rg_status s = scratch && f->facet_of && f->start && f->edge && f->beside && f->up && f->turn && f->place && f->x && f->middle
+    rg_status s = scratch && f->facet_of && f->part_start && f->part && f->start && f->edge && f->beside && f->up && f->turn && f->place && f->x && f->middle
                       ? RG_OK
                       : RG_ENOMEM;
     if (s == RG_OK) {

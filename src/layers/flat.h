@@ -3,8 +3,8 @@
  * Uses  undriven.h        Used by  cells.c constraint.c layers.c
  *
  * The facets here are those that were drawn: facets of the mesh that only added creases part are one. */
-#ifndef RG_FLAT_H
-#define RG_FLAT_H
+#ifndef RG_LAYERS_FLAT_H
+#define RG_LAYERS_FLAT_H
 
 #include "layers/undriven.h"
 
@@ -28,6 +28,7 @@ typedef struct rg_flat {
     int32_t at_edge, at_vertex;
     int32_t nf;
     int32_t *facet_of;     /* [mesh nf] the facet here that a facet of the mesh is part of */
+    int32_t *part_start, *part; /* [nf + 1]: facets of the mesh that each is made of */
     int32_t *start, *edge; /* [nf + 1], mesh edges round each facet, added ones left out */
     int32_t (*beside)[2];  /* [mesh ne] as edge_facet of the mesh, of the facets here; both the same: an added crease */
     signed char *up;       /* [nf] +1: the front is up, as it is for facet `root`; -1: the back */

@@ -254,3 +254,67 @@ rg_status rg_layers_order(rg_layers *l, const uint64_t *which, rg_layers_pair *p
     }
     return RG_OK;
 }
+
+/* ------------------------------------------------------------------------------------- looking at it ---- */
+
+/* How far apart two facets of the mesh are across a side of the first one, negative: they are not. */
+static double apart(const rg_layers *l, int32_t i, int32_t j)
+{
+    const rg_mesh *m = &l->mesh;
+    const rg_vec2 *x = l->flat.x;
+    const int32_t *v = m->facet_vertex + m->facet_start[i], n = m->facet_start[i + 1] - m->facet_start[i];
+    double most = -INFINITY;
+    for (int32_t k = 0; k < n; k++) {
+        const rg_vec2 a = x[v[k]], d = rg_vec2_sub(x[v[(k + 1) % n]], a);
+        const double length = rg_vec2_length(d), out = -l->flat.up[l->flat.facet_of[i]] / length;
+        double least = INFINITY;
+        for (int32_t q = m->facet_start[j]; q < m->facet_start[j + 1]; q++)
+            least = fmin(least, out * rg_vec2_cross(d, rg_vec2_sub(x[m->facet_vertex[q]], a)));
+        most = fmax(most, least);
+    }
+    return most;
+}
+
+/* Facets that were drawn whole are as the pair says. Triangles of cut ones may lie beside each other. */
+int rg_layers_above_of_mesh(const rg_layers *l, int32_t i, int32_t j)
+{
+    const int32_t f = l->flat.facet_of[i], g = l->flat.facet_of[j];
+    const int above = rg_layers_above(l, f, g);
+    const int whole = l->flat.part_start[f + 1] - l->flat.part_start[f] == 1 && l->flat.part_start[g + 1] - l->flat.part_start[g] == 1;
+    return above && (whole || (apart(l, i, j) < -l->cells.tol && apart(l, j, i) < -l->cells.tol)) ? above : 0;
+}
+
+int32_t rg_layers_levels(const rg_layers *l, int32_t *level, int32_t *cuts)
+{
+    const rg_pairs *p = &l->pairs;
+    const int32_t nf = l->flat.nf;
+    int32_t *under = rg_mem_array(&l->mem, 2 * (size_t)nf, sizeof *under), *queue = under + nf, head = 0, tail = 0, top = 0, cut = 0;
+    if (!under) return -1;
+    for (int32_t i = 0; i < p->count; i++) under[p->facet[i][l->orders.value[i] > 0]]++;
+    for (int32_t f = 0; f < nf; f++) {
+        level[f] = 0;
+        if (!under[f]) queue[tail++] = f;
+    }
+    for (; head < nf; head++) {
+        if (head == tail) { /* a circle: of those that wait, the one with the fewest under it, on top of all before */
+            int32_t best = -1;
+            for (int32_t f = 0; f < nf; f++)
+                if (under[f] > 0 && (best < 0 || under[f] < under[best])) best = f;
+            under[best] = 0;
+            level[best] = top + 1;
+            queue[tail++] = best;
+            cut++;
+        }
+        const int32_t f = queue[head];
+        if (level[f] > top) top = level[f];
+        for (int32_t j = p->start[f]; j < p->start[f + 1]; j++) {
+            const int32_t pair = p->number[j], g = p->facet[pair][p->facet[pair][0] == f];
+            if (under[g] <= 0 || rg_layers_above(l, f, g) < 0) continue;
+            if (level[g] <= level[f]) level[g] = level[f] + 1;
+            if (--under[g] == 0) queue[tail++] = g;
+        }
+    }
+    rg_mem_free(&l->mem, under);
+    if (cuts) *cuts = cut;
+    return top + 1;
+}

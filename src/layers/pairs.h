@@ -1,7 +1,7 @@
 /* pairs.h -- facets that lie on each other, and threes of them that have a common place.
  * Uses  cells.h        Used by  constraint.c propagate.c layers.c */
-#ifndef RG_PAIRS_H
-#define RG_PAIRS_H
+#ifndef RG_LAYERS_PAIRS_H
+#define RG_LAYERS_PAIRS_H
 
 #include "layers/cells.h"
 

@@ -3,8 +3,8 @@
  *
  * An equation of signs gives its last unknown one. Transitivity: of a < b follows, for every facet c that has a common place with
  * both, a < c where b < c and c < b where c < a; facets being bits of a row, 64 of them at once. */
-#ifndef RG_PROPAGATE_H
-#define RG_PROPAGATE_H
+#ifndef RG_LAYERS_PROPAGATE_H
+#define RG_LAYERS_PROPAGATE_H
 
 #include "layers/constraint.h"
 

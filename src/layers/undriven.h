@@ -1,8 +1,8 @@
 /* undriven.h -- which of the creases without a target are folded where the sheet lies flat, and which are flat.
  * Source   Kawasaki's theorem: round a vertex that folds flat, angles between folded creases add up to nothing with signs in turn
  * Uses  mesh.h        Used by  flat.c */
-#ifndef RG_UNDRIVEN_H
-#define RG_UNDRIVEN_H
+#ifndef RG_LAYERS_UNDRIVEN_H
+#define RG_LAYERS_UNDRIVEN_H
 
 #include "mesh/mesh.h"
 

@@ -1,6 +1,7 @@
 #include "motion/assemble.h"
 #include "base/clock.h"
 #include "base/status.h"
+#include "motion/ending.h"
 #include "motion/measure.h"
 
 #include <stdio.h>
@@ -229,7 +230,8 @@ static rg_status make(rg_motion *m, const rg_states *q, const rg_pattern *last, 
     s = rg_tree_init(&m->mesh, m->settings.fixed_facet, &m->tree);
     if (s == RG_EARG)
         rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)m->settings.fixed_facet, (int)m->mesh.nf - 1);
-    return s == RG_OK ? measure(m) : s;
+    if (s == RG_OK) s = measure(m);
+    return s == RG_OK ? rg_ending_find(m, why) : s;
 }
 
 rg_status rg_motion_create_states(const rg_pattern *const *states, int32_t count, const rg_settings *settings,

@@ -3,6 +3,7 @@
 #include "base/status.h"
 #include "kinematics/mobility.h"
 #include "motion/diagnose.h"
+#include "motion/ending.h"
 #include "motion/measure.h"
 #include "motion/strategy.h"
 
@@ -18,6 +19,7 @@ void rg_motion_destroy(rg_motion *m)
     void *block[] = {m->target, m->from, m->rho, m->flat, m->frame, m->blocking_vertex, m->blocking_crease, m->blocking_at,
                      m->state_frame, m->by_flat};
     for (int i = 0; i < 10; i++) rg_mem_free(&m->mem, block[i]);
+    rg_layers_destroy(m->layers);
     rg_mem_free(&mem, m->title);
     rg_mem_free(&mem, m->author);
     rg_mem_free(&mem, m);
@@ -186,6 +188,7 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_
     if (s == RG_EARG && m->mesh.nf > 0)
         rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)settings->fixed_facet, (int)m->mesh.nf - 1);
     if (s == RG_OK) s = rg_measure_frames(m);
+    if (s == RG_OK) s = rg_ending_find(m, why);
     if (s == RG_OK && !watch.cancelled) s = explain(m, p);
     rg_mesh_free(&none);
     if (s != RG_OK) {

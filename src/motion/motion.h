@@ -20,6 +20,8 @@ struct rg_motion {
     int32_t *blocking_vertex, *blocking_crease;
     double (*blocking_at)[2];
     int32_t *state_frame, *by_flat; /* of a sequence of states, as in the report; NULL: of one pattern */
+    rg_layers *layers;     /* of its flat end, see ending.h; NULL: not looked for */
+    int ends_flat;         /* non-zero: the last frame is folded flat */
     rg_report report;
 };
 

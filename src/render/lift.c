@@ -1,4 +1,5 @@
 #include "render/lift.h"
+#include "motion/ending.h"
 #include "render/coplanar.h"
 #include "render/stack.h"
 
@@ -91,6 +92,21 @@ static rg_status lift_group(rg_lift *l, int32_t g, const rg_vec3 *x, rg_vec3 *li
     return RG_OK;
 }
 
+/* The flat end, whose order is known: each facet along its stack's normal, by its level. */
+static rg_status lift_end(rg_lift *l, const rg_layers *known, rg_vec3 *lift)
+{
+    const rg_mesh *m = &l->motion->mesh;
+    const rg_flat *flat = &known->flat;
+    const int32_t levels = rg_layers_levels(known, l->level, NULL);
+    if (levels < 0) return RG_ENOMEM;
+    const double step = levels < 2 ? 0 : fmin(STEP, 2 * RG_LIFT_MOST / (levels - 1)) * m->size;
+    for (int32_t f = 0; f < m->nf; f++) {
+        const int32_t g = flat->facet_of[f];
+        lift[f] = rg_vec3_scale((l->level[g] - 0.5 * (levels - 1)) * step * flat->up[g], l->place[f].R.c[2]);
+    }
+    return RG_OK;
+}
+
 rg_status rg_lift_next(rg_lift *l, rg_vec3 *x, rg_vec3 *lift)
 {
     const rg_mesh *m = &l->motion->mesh;
@@ -98,11 +114,14 @@ rg_status rg_lift_next(rg_lift *l, rg_vec3 *x, rg_vec3 *lift)
     const rg_vec2 *X = rg_motion_pattern(l->motion, l->frame);
     rg_pose_facets(m, X, &l->motion->tree, rg_motion_angles(l->motion, l->frame), l->place);
     rg_pose_vertices(m, X, &l->motion->tree, l->place, x);
-    look_back(l, X);
-    rg_coplanar_find(&l->coplanar, l->place, x);
+    const rg_layers *known = rg_ending_layers(l->motion, l->frame);
     for (int32_t f = 0; f < m->nf; f++) lift[f] = (rg_vec3){0, 0, 0};
-    rg_status s = RG_OK;
-    for (int32_t g = 0; s == RG_OK && g < l->coplanar.groups; g++) s = lift_group(l, g, x, lift);
+    rg_status s = known ? lift_end(l, known, lift) : RG_OK;
+    if (!known) {
+        look_back(l, X);
+        rg_coplanar_find(&l->coplanar, l->place, x);
+    }
+    for (int32_t g = 0; !known && s == RG_OK && g < l->coplanar.groups; g++) s = lift_group(l, g, x, lift);
     for (int32_t f = 0; f < m->nf; f++) l->lift[f] = rg_vec3_dot(lift[f], l->place[f].R.c[2]);
     l->frame++;
     return s;

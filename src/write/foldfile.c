@@ -1,5 +1,6 @@
 #include "write/foldfile.h"
 #include "base/json.h"
+#include "motion/ending.h"
 
 #include <string.h>
 
@@ -72,6 +73,23 @@ static void key_frame(rg_json *j, const rg_mesh *m)
     rg_json_close(j);
 }
 
+/* Of the facets of this file, which may be parts of those that the layers know. */
+static void face_orders(rg_json *j, const rg_layers *l)
+{
+    const rg_flat *f = &l->flat;
+    rg_json_open(j, "faceOrders", '[');
+    for (int32_t i = 0; i < l->pairs.count; i++) {
+        const int32_t low = l->pairs.facet[i][0], high = l->pairs.facet[i][1];
+        for (int32_t a = f->part_start[low]; a < f->part_start[low + 1]; a++)
+            for (int32_t b = f->part_start[high]; b < f->part_start[high + 1]; b++) {
+                const int above = rg_layers_above_of_mesh(l, f->part[a], f->part[b]);
+                /* On which side of `low` the other one lies, by the normal of `low`. */
+                if (above) rg_json_integers(j, NULL, (const int32_t[]){f->part[b], f->part[a], above * f->up[low]}, 3);
+            }
+    }
+    rg_json_close(j);
+}
+
 static void one_frame(rg_json *j, const rg_motion *m, int32_t k, const rg_vec3 *x)
 {
     const rg_mesh *mesh = &m->mesh;
@@ -91,6 +109,8 @@ static void one_frame(rg_json *j, const rg_motion *m, int32_t k, const rg_vec3 *
         rg_json_number(j, NULL, i < 0 ? 0 : rho[i] / RG_DEG);
     }
     rg_json_close(j);
+    const rg_layers *layers = rg_ending_layers(m, k);
+    if (layers) face_orders(j, layers);
     if (memcmp(X, mesh->X, (size_t)mesh->nv * sizeof *X) != 0) coords2(j, "rigami:vertices_flatCoords", X, mesh->nv);
     rg_json_close(j);
 }

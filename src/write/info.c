@@ -1,5 +1,6 @@
 /* What is known of a pattern before it is folded, as JSON and for people. */
 #include "base/file.h"
+#include "layers/layers.h"
 #include "pattern/alike.h"
 #include "pattern/pattern.h"
 #include "write/report.h"
@@ -82,20 +83,70 @@ static void symmetry(rg_json *j, const rg_alike *a)
     rg_json_close(j);
 }
 
+static const char *state_name(rg_layers_state s)
+{
+    switch (s) {
+    case RG_LAYERS_VALID: return "valid";
+    case RG_LAYERS_NONE: return "none";
+    case RG_LAYERS_UNSOLVED: return "unsolved";
+    case RG_LAYERS_NOT_FLAT: return "not flat";
+    }
+    return "";
+}
+
+/* NULL: no sheet that could be folded. */
+static rg_status find_layers(const rg_pattern *p, rg_layers **l, rg_diag *why)
+{
+    rg_settings s = rg_settings_default();
+    s.memory = &p->mem;
+    *l = NULL;
+    return p->info.is_disk ? rg_layers_create(p, &s, l, why) : RG_OK;
+}
+
+static void layers(rg_json *j, const rg_layers *l)
+{
+    rg_layers_info i;
+    if (!l) return;
+    rg_layers_get_info(l, &i);
+    rg_json_string(j, "layers", state_name(i.state));
+    rg_json_string(j, "layer_orders", i.state == RG_LAYERS_VALID ? i.count : NULL);
+    rg_json_open_line(j, "layer_orders_by_part", '[');
+    for (int32_t k = 0; k < i.parts; k++) rg_json_number(j, NULL, (double)rg_layers_part(l, k));
+    rg_json_close(j);
+    rg_json_integer(j, "layer_pairs", i.pairs);
+    rg_json_string(j, "layers_rule", i.state == RG_LAYERS_NONE ? i.rule : NULL);
+    rg_json_string(j, "layers_reason", i.state == RG_LAYERS_VALID ? NULL : i.reason);
+    rg_json_open(j, "layers_where", '[');
+    for (int32_t k = 0; k < i.where_count; k++) {
+        rg_json_open_line(j, NULL, '{');
+        rg_json_integer(j, "facet", i.where[k]);
+        point(j, "coordinates", i.where_at[k][0], i.where_at[k][1]);
+        rg_json_close(j);
+    }
+    rg_json_close(j);
+}
+
 rg_status rg_info_write(const rg_pattern *p, const char *file, rg_diag *why)
 {
     rg_json j;
     rg_file out;
     rg_alike alike;
+    rg_layers *l = NULL;
     rg_status s = rg_alike_find(p, &alike);
+    if (s == RG_OK) s = find_layers(p, &l, why);
     if (s == RG_OK) s = rg_file_begin(&out, &p->mem, file, why);
-    if (s != RG_OK) return s;
+    if (s != RG_OK) {
+        rg_layers_destroy(l);
+        return s;
+    }
     rg_json_begin(&j, out.stream);
     rg_json_open(&j, NULL, '{');
     rg_json_string(&j, "rigami", RG_VERSION);
     rg_report_pattern(&j, &p->info);
     if (p->info.is_disk) rg_json_integer(&j, "triangulating_adds", triangulating_adds(&p->info));
     symmetry(&j, &alike);
+    layers(&j, l);
+    rg_layers_destroy(l);
     rg_json_open(&j, "closed", '[');
     for (int32_t k = 0; k < p->closed_triples; k++) closed(&j, &p->closed[k]);
     rg_json_close(&j);
@@ -199,6 +250,25 @@ static void closed_vertices(const rg_pattern *p, FILE *out)
     }
 }
 
+static void flat_folding(const rg_layers *l, FILE *out)
+{
+    rg_layers_info i;
+    if (!l) return;
+    rg_layers_get_info(l, &i);
+    fprintf(out, "layers      ");
+    switch (i.state) {
+    case RG_LAYERS_VALID:
+        fprintf(out, "folds flat in %s %s of %d facets", i.count, strcmp(i.count, "1") == 0 ? "order" : "orders", (int)i.facets);
+        for (int32_t k = 0; i.parts > 1 && k < i.parts; k++)
+            fprintf(out, "%s%.0f", k ? " x " : ": ", (double)rg_layers_part(l, k));
+        fputc('\n', out);
+        break;
+    case RG_LAYERS_NONE: fprintf(out, "no flat folding: %s\n", i.reason); break;
+    case RG_LAYERS_UNSOLVED: fprintf(out, "not solved: %s\n", i.reason); break;
+    case RG_LAYERS_NOT_FLAT: fprintf(out, "its end is not flat: %s\n", i.reason); break;
+    }
+}
+
 static void warnings(const rg_pattern *p, FILE *out)
 {
     if (p->lines.warnings) fprintf(out, "warnings    %d\n", (int)p->lines.warnings);
@@ -209,11 +279,15 @@ static void warnings(const rg_pattern *p, FILE *out)
     }
 }
 
-static const char *verdict(const rg_pattern_info *i, int32_t bad)
+static const char *verdict(const rg_pattern_info *i, int32_t bad, const rg_layers *l)
 {
+    rg_layers_info layers = {.state = RG_LAYERS_UNSOLVED};
+    if (l) rg_layers_get_info(l, &layers);
     if (!i->is_disk) return "It cannot be folded here: it is not one sheet without holes.";
     if (i->creases == 0) return "There is no crease to fold.";
     if (bad) return "It does not fold flat, for the vertices named cannot; it may fold part of the way.";
+    if (layers.state == RG_LAYERS_NONE)
+        return "Each vertex folds flat by itself, the sheet does not without passing through itself; it may fold part of the way.";
     if (i->mountains + i->valleys == 0) return "No crease says which way it folds: nothing will move.";
     if (i->closed_vertices)
         return "Each vertex folds flat by itself, but the closed ones lock rigid facets: it needs creases added or adjusted.";
@@ -228,9 +302,14 @@ rg_status rg_info_text(const rg_pattern *p, const char *file, rg_diag *why)
     const int32_t bad = unfoldable_vertices(p);
     rg_file f;
     rg_alike alike;
+    rg_layers *l = NULL;
     rg_status s = rg_alike_find(p, &alike);
+    if (s == RG_OK) s = find_layers(p, &l, why);
     if (s == RG_OK) s = rg_file_begin(&f, &p->mem, file, why);
-    if (s != RG_OK) return s;
+    if (s != RG_OK) {
+        rg_layers_destroy(l);
+        return s;
+    }
     FILE *out = f.stream;
     title(i, out);
     counts(i, out);
@@ -239,7 +318,9 @@ rg_status rg_info_text(const rg_pattern *p, const char *file, rg_diag *why)
     symmetries(&alike, out);
     vertices(p, bad, out);
     closed_vertices(p, out);
+    flat_folding(l, out);
     warnings(p, out);
-    fprintf(out, "\n%s\n", verdict(i, bad));
+    fprintf(out, "\n%s\n", verdict(i, bad, l));
+    rg_layers_destroy(l);
     return rg_file_commit(&f, why);
 }
