@@ -9,6 +9,9 @@ static const double MEANT = 0.01 * RG_DEG;
  * Drawings that are meant to fold flat come to 1e-5, one drawn by eye to 3e-4. */
 static const double CLOSED = 1e-4;
 
+/* Sector angles of a vertex that fail to cancel by less, radians, are rounding. */
+static const double BLAME = 1e-6;
+
 void rg_flat_free(rg_flat *f)
 {
     if (!f->mem.resize) return;
@@ -168,7 +171,16 @@ static void place_vertices(rg_flat *f, const rg_mesh *m, int32_t *count)
         f->gap = INFINITY;
         f->at_vertex = m->edge[e][0];
     }
-    if (!(f->gap <= CLOSED * m->size)) f->state = RG_FLAT_OPEN;
+    if (f->gap <= CLOSED * m->size) return;
+    f->state = RG_FLAT_OPEN;
+    /* The vertex that is to blame most, if one is: errors add up far from where they are made. */
+    double worst = BLAME;
+    for (int32_t k = 0; k < m->M; k++) {
+        const double off = rg_undriven_off(m, k, f->turn);
+        if (!(off > worst)) continue;
+        worst = off;
+        f->at_vertex = m->inner_vertex[k];
+    }
 }
 
 rg_status rg_flat_init(rg_flat *f, const rg_memory *mem, const rg_mesh *m, const double *angle)

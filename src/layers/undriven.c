@@ -10,20 +10,20 @@ typedef struct choice { int32_t edge[MOST_UNTOLD], n; unsigned any, all, fewest,
 
 static int bits(unsigned x) { return __builtin_popcount(x); }
 
-/* Whether vertex k closes with the creases folded that are, and of those untold the ones in `folded`. */
-static int closes(const rg_mesh *m, int32_t k, const signed char *turn, unsigned folded)
+/* By how much vertex k does not close with the creases folded that are, and of those untold the ones in `folded`. */
+static double off_by(const rg_mesh *m, int32_t k, const signed char *turn, unsigned folded)
 {
     double sum = 0;
-    int sign = 1, next = 0;
+    int sign = 1, next = 0, folds = 0;
     for (int32_t j = m->loop_start[k]; j < m->loop_start[k + 1]; j++) {
         const int t = turn[m->crease_edge[m->loop_crease[j]]];
-        if (t == RG_TURN_UNTOLD ? folded >> next++ & 1 : t != 0) sign = -sign;
+        if (t == RG_TURN_UNTOLD ? folded >> next++ & 1 : t != 0) sign = -sign, folds++;
         sum += sign * m->loop_theta[j];
     }
-    /* No fold: once round, in the plane. */
-    const int none = sign > 0 && fabs(fabs(sum) - 2 * RG_PI) <= CANCEL;
-    return sign > 0 && (fabs(sum) <= CANCEL || none);
+    return sign < 0 ? INFINITY : folds ? fabs(sum) : 0; /* no fold: once round, in the plane */
 }
+
+double rg_undriven_off(const rg_mesh *m, int32_t k, const signed char *turn) { return off_by(m, k, turn, 0); }
 
 /* The ways in which vertex k can close: creases folded in any, in all of them, and the way with the fewest. 0: too many creases. */
 static int look(const rg_mesh *m, int32_t k, const signed char *turn, choice *c)
@@ -36,7 +36,7 @@ static int look(const rg_mesh *m, int32_t k, const signed char *turn, choice *c)
         c->edge[c->n++] = e;
     }
     for (unsigned folded = 0; folded < 1u << c->n; folded++) {
-        if (!closes(m, k, turn, folded)) continue;
+        if (!(off_by(m, k, turn, folded) <= CANCEL)) continue;
         if (!c->ways++ || bits(folded) < bits(c->fewest)) c->fewest = folded;
         c->any |= folded;
         c->all &= folded;

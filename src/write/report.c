@@ -98,7 +98,7 @@ static void result(rg_json *j, const rg_motion *m, int32_t ways)
     mobility(j, "mobility_at_end", ways);
     blocking(j, r);
     rg_json_string(j, "layers", r->layers);
-    rg_json_string(j, "layer_orders", *r->layer_orders ? r->layer_orders : NULL);
+    rg_json_string(j, "layer_orders", r->layer_orders && *r->layer_orders ? r->layer_orders : NULL);
     rg_json_string(j, "layers_reason", r->layers_reason);
     rg_json_number(j, "first_contact_frame", NAN); /* null: contact of facets is not looked for */
     rg_json_close(j);
