@@ -50,7 +50,7 @@ static void reach_from(counter *c, int32_t pair)
             const size_t w = (size_t)p->common_word[i];
             uint64_t bits = p->common[i] & row[w] & ~above[w] & ~below[w];
             c->o->work++;
-            for (; bits; bits &= bits - 1) reach(c, rg_pairs_find(p, f, (int32_t)(64 * w) + __builtin_ctzll(bits)));
+            for (; bits; bits &= bits - 1) reach(c, rg_pairs_find(p, f, p->of_bit[(int32_t)(64 * w) + __builtin_ctzll(bits)]));
         }
     }
 }

@@ -10,13 +10,14 @@ void rg_pairs_free(rg_pairs *p)
 {
     if (!p->mem.resize) return;
     const rg_memory mem = p->mem;
-    void *block[] = {p->facet, p->row, p->before, p->start, p->number, p->common_start, p->common_word, p->common};
+    void *block[] = {p->bit, p->of_bit, p->facet, p->row, p->before, p->start, p->number, p->common_start, p->common_word, p->common};
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&mem, block[i]);
     memset(p, 0, sizeof *p);
 }
 
 static uint64_t *row_of(const rg_pairs *p, uint64_t *rows, int32_t f) { return rows + (size_t)f * (size_t)p->words; }
-static void set(uint64_t *row, int32_t g) { row[g >> 6] |= UINT64_C(1) << (g & 63); }
+static void set(uint64_t *row, int32_t bit) { row[bit >> 6] |= UINT64_C(1) << (bit & 63); }
+static void clear(uint64_t *row, int32_t bit) { row[bit >> 6] &= ~(UINT64_C(1) << (bit & 63)); }
 
 /* Cells whose facets are those of another cell as well tell nothing new. */
 typedef struct stack { const int32_t *facet; int32_t n; } stack;
@@ -40,6 +41,18 @@ static int32_t different_stacks(const rg_cells *c, stack *s)
     return kept;
 }
 
+/* Bits by the first cell that each facet is over. */
+static void stand_together(rg_pairs *p, const rg_cells *c)
+{
+    int32_t n = 0;
+    for (int32_t f = 0; f < p->nf; f++) p->bit[f] = -1;
+    for (int32_t j = 0; j < c->over_start[c->faces.count]; j++)
+        if (p->bit[c->over[j]] < 0) p->bit[c->over[j]] = n++;
+    for (int32_t f = 0; f < p->nf; f++)
+        if (p->bit[f] < 0) p->bit[f] = n++; /* no wider than rounding */
+    for (int32_t f = 0; f < p->nf; f++) p->of_bit[p->bit[f]] = f;
+}
+
 static rg_status number_pairs(rg_pairs *p)
 {
     int64_t twice = 0;
@@ -51,13 +64,13 @@ static rg_status number_pairs(rg_pairs *p)
     p->facet = rg_mem_array(&p->mem, (size_t)twice / 2, sizeof *p->facet);
     p->number = rg_mem_array(&p->mem, (size_t)twice, sizeof *p->number);
     if (!p->facet || !p->number) return RG_ENOMEM;
-    /* Rising by the lower facet, then by the other: each finds its place in the row of the other in the same order. */
+    /* Rising by the lower facet, then by the bit of the other. */
     int32_t at = 0;
     for (int32_t f = 0; f < p->nf; f++) {
         p->start[f + 1] = p->start[f];
         for (int32_t w = 0; w < p->words; w++)
             for (uint64_t bits = row_of(p, p->row, f)[w]; bits; bits &= bits - 1) {
-                const int32_t g = 64 * w + __builtin_ctzll(bits);
+                const int32_t g = p->of_bit[64 * w + __builtin_ctzll(bits)];
                 if (g > f) {
                     p->facet[p->count][0] = f, p->facet[p->count][1] = g;
                     p->number[at++] = p->count++;
@@ -82,7 +95,7 @@ static rg_status find_common(rg_pairs *p, const stack *s, int32_t stacks)
     rg_status status = start && bits && sum ? RG_OK : RG_ENOMEM;
     for (int32_t i = 0; status == RG_OK && i < stacks; i++)
         for (int32_t j = 0; j < s[i].n; j++) {
-            set(bits + (size_t)i * words, s[i].facet[j]);
+            set(bits + (size_t)i * words, p->bit[s[i].facet[j]]);
             start[s[i].facet[j] + 2]++;
             total++;
         }
@@ -108,7 +121,7 @@ static rg_status find_common(rg_pairs *p, const stack *s, int32_t stacks)
             status = rg_mem_grow(&p->mem, (void **)&p->common_word, &word_room, (size_t)n + words, sizeof *p->common_word);
             if (status == RG_OK) status = rg_mem_grow(&p->mem, (void **)&p->common, &common_room, (size_t)n + words, sizeof *p->common);
             if (status != RG_OK) break;
-            from[f >> 6] &= ~(UINT64_C(1) << (f & 63)), from[g >> 6] &= ~(UINT64_C(1) << (g & 63));
+            clear(from, p->bit[f]), clear(from, p->bit[g]);
             for (size_t w = 0; w < words; w++) {
                 if (from[w]) p->common_word[n] = (int32_t)w, p->common[n++] = from[w];
                 from[w] = 0;
@@ -132,16 +145,19 @@ rg_status rg_pairs_init(rg_pairs *p, const rg_memory *mem, const rg_cells *c, in
     p->words = (nf + 63) / 64;
     const size_t size = (size_t)nf * (size_t)p->words;
     stack *s = rg_mem_array(mem, (size_t)c->faces.count, sizeof *s);
+    p->bit = rg_mem_array(mem, (size_t)nf, sizeof *p->bit);
+    p->of_bit = rg_mem_array(mem, (size_t)nf, sizeof *p->of_bit);
     p->row = rg_mem_array(mem, size, sizeof *p->row);
     p->before = rg_mem_array(mem, size, sizeof *p->before);
     p->start = rg_mem_array(mem, (size_t)nf + 1, sizeof *p->start);
-    rg_status status = s && p->row && p->before && p->start ? RG_OK : RG_ENOMEM;
+    rg_status status = s && p->bit && p->of_bit && p->row && p->before && p->start ? RG_OK : RG_ENOMEM;
+    if (status == RG_OK) stand_together(p, c);
     const int32_t stacks = status == RG_OK ? different_stacks(c, s) : 0;
     for (int32_t i = 0; i < stacks; i++)
         for (int32_t j = 0; j < s[i].n; j++)
             for (int32_t k = j + 1; k < s[i].n; k++) {
-                set(row_of(p, p->row, s[i].facet[j]), s[i].facet[k]);
-                set(row_of(p, p->row, s[i].facet[k]), s[i].facet[j]);
+                set(row_of(p, p->row, s[i].facet[j]), p->bit[s[i].facet[k]]);
+                set(row_of(p, p->row, s[i].facet[k]), p->bit[s[i].facet[j]]);
             }
     if (status == RG_OK) status = number_pairs(p);
     if (status == RG_OK && !(p->common_start = rg_mem_array(mem, (size_t)p->count + 1, sizeof *p->common_start))) status = RG_ENOMEM;

@@ -32,9 +32,10 @@ static void flip(rg_orders *o, int32_t pair)
         const int32_t swap = low;
         low = high, high = swap;
     }
+    const int32_t *bit = o->pairs->bit, l = bit[low], h = bit[high];
     const size_t words = (size_t)o->pairs->words;
-    o->above[(size_t)low * words + (size_t)(high >> 6)] ^= UINT64_C(1) << (high & 63);
-    o->below[(size_t)high * words + (size_t)(low >> 6)] ^= UINT64_C(1) << (low & 63);
+    o->above[(size_t)low * words + (size_t)(h >> 6)] ^= UINT64_C(1) << (h & 63);
+    o->below[(size_t)high * words + (size_t)(l >> 6)] ^= UINT64_C(1) << (l & 63);
 }
 
 int rg_orders_set(rg_orders *o, int32_t pair, int value)
@@ -81,11 +82,11 @@ static int draw_transitivity(rg_orders *o, int32_t pair)
     for (int64_t i = first; i < last; i++) {
         const size_t w = (size_t)p->common_word[i];
         for (uint64_t bits = p->common[i] & above_b[w] & ~above_a[w]; bits; bits &= bits - 1) {
-            const int32_t c = (int32_t)(64 * w) + __builtin_ctzll(bits);
+            const int32_t c = p->of_bit[(int32_t)(64 * w) + __builtin_ctzll(bits)];
             if (!set_order(o, a, c)) return in_circle(o, a, b, c);
         }
         for (uint64_t bits = p->common[i] & below_a[w] & ~below_b[w]; bits; bits &= bits - 1) {
-            const int32_t c = (int32_t)(64 * w) + __builtin_ctzll(bits);
+            const int32_t c = p->of_bit[(int32_t)(64 * w) + __builtin_ctzll(bits)];
             if (!set_order(o, c, b)) return in_circle(o, a, b, c);
         }
     }

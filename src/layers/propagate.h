@@ -15,7 +15,7 @@ typedef struct rg_orders {
     const rg_pairs *pairs;
     const rg_constraints *constraints;
     signed char *value;      /* [pairs] +1: the second facet lies above the first, -1 below; 0: not known */
-    uint64_t *above, *below; /* [nf][words] bit g of row f: g is known to lie above f, below f */
+    uint64_t *above, *below; /* [nf][words] bit of g in row f: g is known to lie above f, below f */
     int32_t *trail, known;   /* pairs in the order in which they came to be known */
     int32_t done;            /* of the trail, what all is drawn from */
     int64_t work;            /* words and cases looked at, since the beginning */
