@@ -7,7 +7,7 @@ typedef struct counter {
     rg_orders *o;
     int32_t *list;        /* parts, each after its length, as far as `used` */
     size_t used, room;
-    unsigned char *mark;  /* [pairs] 1: of the list that is being divided, and in no part yet */
+    uint64_t *open;       /* [nf][words] as rows of pairs: those of the list that is being divided that are in no part yet */
     int64_t limit;        /* of o->work */
     int out_of_work;
     rg_status status;
@@ -25,32 +25,48 @@ static void push(counter *c, int32_t i)
     if (c->status == RG_OK) c->list[c->used++] = i;
 }
 
+/* Turns the pair's two bits over. */
+static void turn(counter *c, int32_t pair)
+{
+    const rg_pairs *p = c->o->pairs;
+    for (int end = 0; end < 2; end++) {
+        const int32_t f = p->facet[pair][end], b = p->bit[p->facet[pair][!end]];
+        c->open[(size_t)f * (size_t)p->words + (size_t)(b >> 6)] ^= UINT64_C(1) << (b & 63);
+    }
+}
+
+static int is_open(const counter *c, int32_t pair)
+{
+    const rg_pairs *p = c->o->pairs;
+    const int32_t b = p->bit[p->facet[pair][1]];
+    return c->open[(size_t)p->facet[pair][0] * (size_t)p->words + (size_t)(b >> 6)] >> (b & 63) & 1;
+}
+
 static void reach(counter *c, int32_t pair)
 {
-    if (!c->mark[pair]) return;
-    c->mark[pair] = 0;
+    turn(c, pair);
     push(c, pair);
 }
 
 /* Pairs that one and the same constraint leaves open together with this one. */
 static void reach_from(counter *c, int32_t pair)
 {
-    const rg_orders *o = c->o;
-    const rg_pairs *p = o->pairs;
-    const rg_constraints *k = o->constraints;
+    const rg_pairs *p = c->o->pairs;
+    const rg_constraints *k = c->o->constraints;
     const size_t words = (size_t)p->words;
     for (int32_t j = k->start[pair]; j < k->start[pair + 1]; j++) {
         const rg_constraint_case *x = &k->item[k->of[j]];
-        for (int i = 0; i < x->n; i++) reach(c, x->pair[i]);
+        for (int i = 0; i < x->n; i++)
+            if (is_open(c, x->pair[i])) reach(c, x->pair[i]);
     }
     for (int end = 0; end < 2; end++) {
         const int32_t f = p->facet[pair][end];
-        const uint64_t *row = p->row + (size_t)f * words, *above = o->above + (size_t)f * words, *below = o->below + (size_t)f * words;
+        const uint64_t *row = c->open + (size_t)f * words;
+        c->o->work += p->common_start[pair + 1] - p->common_start[pair];
         for (int64_t i = p->common_start[pair]; i < p->common_start[pair + 1]; i++) {
             const size_t w = (size_t)p->common_word[i];
-            uint64_t bits = p->common[i] & row[w] & ~above[w] & ~below[w];
-            c->o->work++;
-            for (; bits; bits &= bits - 1) reach(c, rg_pairs_find(p, f, p->of_bit[(int32_t)(64 * w) + __builtin_ctzll(bits)]));
+            for (uint64_t bits = p->common[i] & row[w]; bits; bits &= bits - 1)
+                reach(c, rg_pairs_find(p, f, p->of_bit[(int32_t)(64 * w) + __builtin_ctzll(bits)]));
         }
     }
 }
@@ -60,11 +76,11 @@ static void divide(counter *c, const size_t *from, int32_t n)
 {
     for (int32_t i = 0; i < n; i++) {
         const int32_t pair = from ? c->list[*from + (size_t)i] : i;
-        c->mark[pair] = !c->o->value[pair];
+        if (!c->o->value[pair]) turn(c, pair);
     }
     for (int32_t i = 0; c->status == RG_OK && i < n; i++) {
         const int32_t pair = from ? c->list[*from + (size_t)i] : i;
-        if (!c->mark[pair]) continue;
+        if (!is_open(c, pair)) continue;
         const size_t head = c->used;
         push(c, 0);
         reach(c, pair);
@@ -115,13 +131,13 @@ static rg_status begin(counter *c, rg_orders *o, int64_t work)
     memset(c, 0, sizeof *c);
     c->o = o;
     c->limit = work > INT64_MAX - o->work ? INT64_MAX : o->work + work;
-    c->mark = rg_mem_array(&o->mem, (size_t)o->pairs->count, 1);
-    return c->mark ? RG_OK : RG_ENOMEM;
+    c->open = rg_mem_array(&o->mem, (size_t)o->pairs->nf * (size_t)o->pairs->words, sizeof *c->open);
+    return c->open ? RG_OK : RG_ENOMEM;
 }
 
 static void end(counter *c)
 {
-    rg_mem_free(&c->o->mem, c->mark);
+    rg_mem_free(&c->o->mem, c->open);
     rg_mem_free(&c->o->mem, c->list);
 }
 
