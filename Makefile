@@ -35,13 +35,13 @@ gl_egl    := egl gl
 pkgs += $(gl_$(GL))
 
 # In lower case what the project needs; CPPFLAGS, CFLAGS, LDFLAGS, LDLIBS stay the caller's.
-cppflags := -Iinclude -Isrc -D_XOPEN_SOURCE=700 -DRG_GL_$(GL)=1 $(shell pkg-config --cflags $(pkgs) 2>/dev/null)
+cppflags := -Iinclude -Isrc -D_XOPEN_SOURCE=700 -DRG_GL_$(GL)=1 -I/usr/include/suitesparse $(shell pkg-config --cflags $(pkgs) 2>/dev/null)
 cflags   := -std=c11 -fPIC -fvisibility=hidden -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes \
             -Wmissing-prototypes -Wvla -Wpointer-arith -Wwrite-strings
-libs     := $(shell pkg-config --libs $(pkgs) 2>/dev/null) -lgif -lpthread -lm
+libs     := -lcamd -lsuitesparseconfig $(shell pkg-config --libs $(pkgs) 2>/dev/null) -lgif -lpthread -lm
 ifeq ($(GPL),1)
-cppflags += -DRG_GPL=1 -I/usr/include/suitesparse
-libs     := -lspqr -lcholmod -lsuitesparseconfig -lgsl -lgslcblas $(libs)
+cppflags += -DRG_GPL=1
+libs     := -lspqr -lcholmod -lgsl -lgslcblas $(libs)
 endif
 ifeq ($(WERROR),1)
 cflags   += -Werror

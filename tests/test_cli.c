@@ -462,9 +462,9 @@ static void options_are_taken(void **state)
         {"--frames", "2"}, {"--frames", "17"}, {"--to", "-100"}, {"--to", "62.5"}, {"--to", "0"}, {"--to", "+1e1"},
         {"--targets", NULL}, {"--no-targets", NULL}, {"--method", "auto"}, {"--method", "euler"}, {"--method", "newton"},
         {"--method", "heun"}, {"--method", "rk4"}, {"--method", "adaptive"}, {"--step", "2.5"}, {"--step", "180"},
-        {"--tol", "1e-9"}, {"--solver", "auto"}, {"--solver", "cg"},
+        {"--tol", "1e-9"}, {"--solver", "auto"}, {"--solver", "cg"}, {"--solver", "cholesky"},
 #if RG_GPL
-        {"--solver", "cholesky"}, {"--solver", "svd"},
+        {"--solver", "svd"},
 #endif
         {"--triangulate", "auto"}, {"--triangulate", "none"}, {"--triangulate", "all"}, {"--adjust", "auto"},
         {"--adjust", "off"}, {"--adjust", "0.125"}, {"--adjust", "0"}, {"--effort", "fast"}, {"--effort", "normal"},

@@ -205,7 +205,7 @@ static void locked(rg_pattern *p, int triangulated, const rg_flow_law *law, int 
     go(&r);
     assert_int_equal(r.F.outcome, RG_STOPPED);
     assert_true(strlen(r.F.reason) > 10);
-    if (rg_supernodal_built()) below(r.beyond, 0.1 * RG_DEG); /* without a factor what is held may slip a little more */
+    below(r.beyond, 0.1 * RG_DEG);
     double least = INFINITY;
     for (int32_t i = 0; i < r.m.N - r.m.added; i++) least = fmin(least, r.F.rho[i] / r.target[i]);
     below(least, 0.6);

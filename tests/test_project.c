@@ -45,7 +45,7 @@ static double length(int32_t n, const double *a)
     return sqrt(sum);
 }
 
-static int built(rg_solver s) { return s == RG_SOLVER_CG || (s == RG_SOLVER_SVD ? rg_pinv_built() : rg_cholesky_built()); }
+static int built(rg_solver s) { return s != RG_SOLVER_SVD || rg_pinv_built(); }
 
 /* On the way of the Miura-ori, exactly closed: straight creases follow the zigzag ones. */
 static void fold_miura(const sheet *s, double zigzag, double *rho)

@@ -107,7 +107,6 @@ static rg_status all_curves(rg_chart *c, const rg_mesh *m, watch *w, rg_diag *wh
     for (int j = 0; j < 5; j++)
         for (int k = 0; k < 3; k++) {
             const rg_solver solver = solvers[k];
-            if (solver == RG_SOLVER_CHOLESKY && !rg_cholesky_built()) continue;
             if (solver == RG_SOLVER_SVD && (!rg_pinv_built() || m->N > SVD_UP_TO)) continue;
             if (s == RG_OK && !w->cancelled) s = curve(c, m, methods[j], solver, w, why);
         }

@@ -52,8 +52,8 @@ static double passes_of_one(const rg_fold *f, double pass)
 {
     double sum = ASSEMBLY_PASSES * (double)f->assemblies + 2 * (double)f->P.solves + 2 * (double)f->P.iterations;
     if (f->P.solver == RG_SOLVER_CHOLESKY)
-        sum += ((double)f->P.cholesky.factorizations * f->P.cholesky.L.flops +
-                4 * (double)f->P.cholesky.triangular * f->P.cholesky.L.entries) / pass;
+        sum += ((double)f->P.cholesky.factorizations * f->P.cholesky.L.S.flops +
+                4 * (double)f->P.cholesky.triangular * f->P.cholesky.L.S.entries) / pass;
     if (f->P.solver == RG_SOLVER_SVD) { /* Golub and Reinsch's count, 4 m^2 n + 8 m n^2 + 9 n^3 */
         const double a = 3.0 * f->mesh.M, b = f->mesh.N, big = fmax(a, b), small = fmin(a, b);
         sum += (double)f->P.factorizations * (4 * big * big * small + 8 * big * small * small + 9 * small * small * small) / pass;

@@ -145,7 +145,7 @@ void rg_flow_free(rg_flow *F)
 static void renew(rg_flow *F)
 {
     /* A factorisation is worth its flops; filling and solving go with the entries. */
-    F->work += 1.5e-9 * F->J.A.L.flops + 6e-7 * F->J.A.start[F->J.A.columns];
+    F->work += 1.5e-9 * F->J.A.L.S.flops + 6e-7 * F->J.A.start[F->J.A.columns];
     rg_joint_renew(&F->J, F->scale);
 }
 

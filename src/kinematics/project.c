@@ -18,7 +18,7 @@ rg_status rg_project_init(rg_project *P, const rg_memory *mem, const rg_constrai
     const int32_t M = K->C.M, N = K->C.N;
     memset(P, 0, sizeof *P);
     P->mem = *mem;
-    if (solver == RG_SOLVER_AUTO) solver = N >= CHOLESKY_FROM && rg_cholesky_built() ? RG_SOLVER_CHOLESKY : RG_SOLVER_CG;
+    if (solver == RG_SOLVER_AUTO) solver = N >= CHOLESKY_FROM ? RG_SOLVER_CHOLESKY : RG_SOLVER_CG;
     P->solver = solver;
     rg_status s = rg_jacobi_init(&P->jacobi, mem, M);
     if (s == RG_OK) s = rg_cg_work_init(&P->cg, mem, M, N);

@@ -11,8 +11,6 @@ static const double BETA_GROWTH = 100, BETA_LARGEST = 1e-2;
 /* A vertex of that many creases makes so large a clique of columns that both shapes are tried. */
 static const int32_t HIGH_DEGREE = 10;
 
-int rg_cholesky_built(void) { return rg_supernodal_built(); }
-
 /* Calls visit(ctx, i, j) for each product of two numbers of B that is added to the matrix at (i, j), in the order in which
  * add_columns and add_rows add them. */
 typedef void visitor(void *ctx, int32_t i, int32_t j);
@@ -176,7 +174,7 @@ rg_status rg_cholesky_init(rg_cholesky *P, const rg_memory *mem, const rg_sparse
     if (s == RG_OK && shape == RG_SHAPE_AUTO && largest_degree(B) >= HIGH_DEGREE) {
         rg_cholesky rows;
         s = init_shape(&rows, mem, B, RG_SHAPE_ROWS);
-        int better = s == RG_OK && rows.L.flops < P->L.flops;
+        int better = s == RG_OK && rows.L.S.flops < P->L.S.flops;
         rg_cholesky dearer = better ? *P : rows;
         if (better) *P = rows;
         rg_cholesky_free(&dearer);

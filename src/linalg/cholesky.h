@@ -28,10 +28,8 @@ typedef struct rg_cholesky {
     double *x;            /* [N] scratch */
 } rg_cholesky;
 
-int rg_cholesky_built(void); /* non-zero: this build has it */
-
 /* B gives the pattern; its numbers may change, its place may not. AUTO: the shape that costs less.
- * RG_EABSENT in a build without CHOLMOD, RG_ENOMEM. */
+ * RG_ENOMEM. */
 rg_status rg_cholesky_init(rg_cholesky *P, const rg_memory *mem, const rg_sparse *B, rg_shape shape);
 void rg_cholesky_free(rg_cholesky *P);
 /* Factors anew. Allocates nothing. */

@@ -33,8 +33,9 @@ rg_status rg_qr_rank(const rg_sparse *B, double cut, int32_t *rank)
     cc.print = 0;
     cc.SPQR_nthreads = 1;
     cholmod_sparse *A = upright(B, &cc);
+    /* The default may ask METIS, which takes the process's signals. */
     const SuiteSparse_long found =
-        A ? SuiteSparseQR_C(SPQR_ORDERING_DEFAULT, cut, 0, 0, A, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, &cc) : -1;
+        A ? SuiteSparseQR_C(SPQR_ORDERING_COLAMD, cut, 0, 0, A, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, &cc) : -1;
     const int failed = found < 0 || cc.status < CHOLMOD_OK;
     cholmod_l_free_sparse(&A, &cc);
     cholmod_l_finish(&cc);

@@ -6,11 +6,11 @@
 static const double BETA = 1e-11;
 /* Where a pivot fails all the same, beta grows by the first and the factorisation is repeated, up to the second. */
 static const double BETA_GROWTH = 100, BETA_LARGEST = 1;
-/* A factor is right but for its beta: it needs two or three iterations; a diagonal needs many. */
-static const int32_t ITERATIONS_WITH_FACTOR = 6, ITERATIONS_PER_ROW = 4;
+/* A factor is right but for its beta: it needs two or three iterations. */
+static const int32_t MOST_ITERATIONS = 6;
 /* Curvature over what the preconditioner makes of the residual is lambda / (lambda + beta) along a mode of A A^T: what is
  * below is rounding in modes that no column can turn, and a step along it would be nothing but noise. */
-static const double OUT_OF_REACH = 0.1, OUT_OF_REACH_OF_DIAGONAL = 1e-14;
+static const double OUT_OF_REACH = 0.1;
 /* Each leaves some 1e-5 of what is out of reach, rounding over beta. */
 static const int PASSES = 2;
 /* Part of b, in the metric of the preconditioner, that is not chased further. */
@@ -83,14 +83,14 @@ rg_status rg_step_init(rg_step *A, const rg_memory *mem, int32_t rows, int32_t c
     A->row = rg_mem_array(mem, entries, sizeof *A->row);
     A->x = rg_mem_array(mem, entries, sizeof *A->x);
     A->t = rg_mem_array(mem, n, sizeof *A->t);
-    double **of_rows[] = {&A->diagonal, &A->y, &A->r, &A->z, &A->p, &A->q};
+    double **of_rows[] = {&A->y, &A->r, &A->z, &A->p, &A->q};
     rg_status s = A->start && A->row && A->x && A->t ? RG_OK : RG_ENOMEM;
-    for (int i = 0; i < 6; i++)
+    for (int i = 0; i < 5; i++)
         if (!(*of_rows[i] = rg_mem_array(mem, m, sizeof(double)))) s = RG_ENOMEM;
     if (s == RG_OK) {
         memcpy(A->start, start, (n + 1) * sizeof *start);
         memcpy(A->row, row, entries * sizeof *row);
-        if (rg_supernodal_built()) s = plan(A);
+        s = plan(A);
     }
     if (s != RG_OK) rg_step_free(A);
     return s;
@@ -101,13 +101,14 @@ void rg_step_free(rg_step *A)
     if (!A->mem.resize) return;
     const rg_memory mem = A->mem;
     rg_supernodal_free(&A->L);
-    void *block[] = {A->to, A->start, A->row, A->x, A->diagonal, A->y, A->r, A->z, A->p, A->q, A->t};
-    for (int i = 0; i < 11; i++) rg_mem_free(&mem, block[i]);
+    void *block[] = {A->to, A->start, A->row, A->x, A->y, A->r, A->z, A->p, A->q, A->t};
+    for (int i = 0; i < 10; i++) rg_mem_free(&mem, block[i]);
     memset(A, 0, sizeof *A);
 }
 
-static void factor(rg_step *A)
+void rg_step_renew(rg_step *A)
 {
+    if (A->rows == 0) return;
     for (A->beta = BETA; A->beta <= BETA_LARGEST; A->beta *= BETA_GROWTH) {
         const int32_t *to = A->to;
         rg_supernodal_clear(&A->L);
@@ -117,17 +118,6 @@ static void factor(rg_step *A)
         A->factorizations++;
         if (rg_supernodal_factor(&A->L, A->beta)) return;
     }
-}
-
-void rg_step_renew(rg_step *A)
-{
-    if (rg_supernodal_built()) {
-        if (A->rows > 0) factor(A);
-        return;
-    }
-    memset(A->diagonal, 0, (size_t)A->rows * sizeof *A->diagonal);
-    for (int32_t j = 0; j < A->start[A->columns]; j++) A->diagonal[A->row[j]] += A->x[j] * A->x[j];
-    for (int32_t i = 0; i < A->rows; i++) A->diagonal[i] = A->diagonal[i] > 0 ? 1 / A->diagonal[i] : 0; /* flat: a zero row */
 }
 
 void rg_step_mul(const rg_step *A, const double *x, double *y)
@@ -155,20 +145,17 @@ static double dot(int32_t n, const double *a, const double *b)
 
 static void precondition(rg_step *A, const double *r, double *z)
 {
-    if (rg_supernodal_built()) {
-        memcpy(z, r, (size_t)A->rows * sizeof *z);
-        if (A->rows > 0) rg_supernodal_solve(&A->L, z);
-    } else
-        for (int32_t i = 0; i < A->rows; i++) z[i] = A->diagonal[i] * r[i];
+    memcpy(z, r, (size_t)A->rows * sizeof *z);
+    if (A->rows > 0) rg_supernodal_solve(&A->L, z);
 }
 
 /* Conjugate gradients on A A^T y = b. Zero: what is out of reach outweighs the rest, and y is what it was. */
-static int iterate_with_factor(rg_step *A)
+static int iterate(rg_step *A)
 {
     const int32_t m = A->rows;
     double gamma = dot(m, A->r, A->z);
     const double target = TOLERANCE * TOLERANCE * gamma;
-    for (int32_t n = 0; n < ITERATIONS_WITH_FACTOR && gamma > target; n++) {
+    for (int32_t n = 0; n < MOST_ITERATIONS && gamma > target; n++) {
         rg_step_mul_t(A, A->p, A->t);
         rg_step_mul(A, A->t, A->q);
         const double curvature = dot(m, A->p, A->q);
@@ -195,32 +182,6 @@ static void leave_out_of_reach(rg_step *A)
     memcpy(A->p, A->z, (size_t)A->rows * sizeof *A->p);
 }
 
-/* Conjugate gradients on A^T D A x = A^T D b, D the inverse of the diagonal: the part of b that no column reaches, which many
- * iterations on A A^T would be carried off by, is not seen. x is scratch. */
-static void iterate_with_diagonal(rg_step *A, double *x)
-{
-    const int32_t m = A->rows, most = ITERATIONS_PER_ROW * m;
-    rg_step_mul_t(A, A->z, x);
-    double gamma = dot(A->columns, x, x);
-    const double target = TOLERANCE * TOLERANCE * gamma;
-    for (int32_t n = 0; n < most && gamma > target; n++) {
-        rg_step_mul_t(A, A->p, A->t);
-        rg_step_mul(A, A->t, A->q);
-        precondition(A, A->q, A->z);
-        const double curvature = dot(m, A->q, A->z);
-        if (!(curvature > OUT_OF_REACH_OF_DIAGONAL * gamma)) break;
-        const double alpha = gamma / curvature;
-        for (int32_t i = 0; i < m; i++) A->y[i] += alpha * A->p[i];
-        for (int32_t i = 0; i < m; i++) A->r[i] -= alpha * A->q[i];
-        precondition(A, A->r, A->z);
-        const double old = gamma;
-        rg_step_mul_t(A, A->z, x);
-        gamma = dot(A->columns, x, x);
-        for (int32_t i = 0; i < m; i++) A->p[i] = A->z[i] + gamma / old * A->p[i];
-        A->iterations++;
-    }
-}
-
 void rg_step_solve(rg_step *A, const double *b, double *x)
 {
     const int32_t m = A->rows;
@@ -228,11 +189,9 @@ void rg_step_solve(rg_step *A, const double *b, double *x)
     memcpy(A->r, b, (size_t)m * sizeof *A->r);
     precondition(A, A->r, A->z);
     memcpy(A->p, A->z, (size_t)m * sizeof *A->p);
-    if (!rg_supernodal_built()) {
-        iterate_with_diagonal(A, x);
-    } else if (!iterate_with_factor(A)) {
+    if (!iterate(A)) {
         leave_out_of_reach(A);
-        iterate_with_factor(A);
+        iterate(A);
     }
     A->solves++;
     rg_step_mul_t(A, A->y, x);

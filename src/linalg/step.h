@@ -1,9 +1,9 @@
 /* step.h -- the least step that does what it must: min ||x|| with A x = b, for a sparse A of any pattern.
  * Paper    the backslash of eqs. (15), (19): x = A^T {(A A^T) \ b}        Uses  supernodal.h        Used by  joint.c flow.c
  *
- * Conjugate gradients on A A^T, preconditioned by a factor of A A^T + beta I (a few iterations undo the beta) or, in a
- * build without one, by its diagonal. A A^T is singular flat and folded flat; started from zero the iteration stays in
- * its range, and stops where nothing is left to gain. */
+ * Conjugate gradients on A A^T, preconditioned by a factor of A A^T + beta I: a few iterations undo the beta. A A^T is
+ * singular flat and folded flat; started from zero the iteration stays in its range, and stops where nothing is left to
+ * gain. */
 #ifndef RG_STEP_H
 #define RG_STEP_H
 
@@ -17,7 +17,6 @@ typedef struct rg_step {
     rg_supernodal L;       /* of A A^T + beta I */
     double beta;           /* at the last renewal */
     int32_t *to;           /* where each product of two entries of a column goes among the numbers of L */
-    double *diagonal;      /* [rows] where there is no factor: the inverse of the diagonal of A A^T */
     double *y, *r, *z, *p, *q; /* [rows] */
     double *t;             /* [columns] */
     int64_t solves, iterations, factorizations;

@@ -4,9 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Numbers are read four at a time, also behind the last row of a panel, where they are of no consequence. */
-enum { PAD = 8 };
-
 /* c (m x n, columns of `room`) = a b^T over k columns; a and b are rows of one panel with columns of `tall`. m and n are
  * rounded up to four. */
 RG_WIDE static void multiply(int32_t m, int32_t n, int32_t k, const double *a, const double *b, int32_t tall, double *c,
@@ -90,9 +87,9 @@ static int factor_panel(double *x, int32_t tall, int32_t wide, double *update)
 
 static void hang(rg_supernodal *L, int32_t d)
 {
-    int32_t at = L->start[d] + L->done[d];
-    if (at == L->start[d + 1]) return;
-    int32_t s = L->of[L->row[at]];
+    int32_t at = L->S.start[d] + L->done[d];
+    if (at == L->S.start[d + 1]) return;
+    int32_t s = L->S.of[L->S.row[at]];
     L->next[d] = L->head[s];
     L->head[s] = d;
 }
@@ -101,15 +98,15 @@ static void hang(rg_supernodal *L, int32_t d)
  * are columns of s. */
 static void take_from(rg_supernodal *L, int32_t s, int32_t d)
 {
-    const int32_t tall = L->start[d + 1] - L->start[d], wide = L->column[d + 1] - L->column[d], from = L->done[d];
-    const int32_t *row = L->row + L->start[d] + from, rows = tall - from, s_tall = L->start[s + 1] - L->start[s];
-    const double *x = L->x + L->panel[d] + from;
+    const int32_t tall = L->S.start[d + 1] - L->S.start[d], wide = L->S.column[d + 1] - L->S.column[d], from = L->done[d];
+    const int32_t *row = L->S.row + L->S.start[d] + from, rows = tall - from, s_tall = L->S.start[s + 1] - L->S.start[s];
+    const double *x = L->x + L->S.panel[d] + from;
     int32_t n = 0;
-    while (n < rows && row[n] < L->column[s + 1]) n++;
+    while (n < rows && row[n] < L->S.column[s + 1]) n++;
     const int32_t room = rows + 4;
     multiply(rows, n, wide, x, x, tall, L->update, room);
     for (int32_t j = 0; j < n; j++) {
-        double *to = L->x + L->panel[s] + (size_t)(row[j] - L->column[s]) * (size_t)s_tall;
+        double *to = L->x + L->S.panel[s] + (size_t)(row[j] - L->S.column[s]) * (size_t)s_tall;
         const double *u = L->update + (size_t)j * (size_t)room;
         for (int32_t i = j; i < rows; i++) to[L->map[row[i]]] -= u[i];
     }
@@ -118,11 +115,11 @@ static void take_from(rg_supernodal *L, int32_t s, int32_t d)
 
 int rg_supernodal_factor(rg_supernodal *L, double beta)
 {
-    for (int32_t s = 0; s < L->count; s++) L->head[s] = -1;
-    for (int32_t s = 0; s < L->count; s++) {
-        const int32_t tall = L->start[s + 1] - L->start[s], wide = L->column[s + 1] - L->column[s];
-        const int32_t *row = L->row + L->start[s];
-        double *x = L->x + L->panel[s];
+    for (int32_t s = 0; s < L->S.count; s++) L->head[s] = -1;
+    for (int32_t s = 0; s < L->S.count; s++) {
+        const int32_t tall = L->S.start[s + 1] - L->S.start[s], wide = L->S.column[s + 1] - L->S.column[s];
+        const int32_t *row = L->S.row + L->S.start[s];
+        double *x = L->x + L->S.panel[s];
         for (int32_t i = 0; i < tall; i++) L->map[row[i]] = i;
         for (int32_t j = 0; j < wide; j++) x[(size_t)j * (size_t)tall + (size_t)j] += beta;
         for (int32_t d = L->head[s], then; d >= 0; d = then) {
@@ -217,171 +214,86 @@ RG_WIDE static void solve_panel_t(const double *x, int32_t tall, int32_t wide, d
 void rg_supernodal_solve(rg_supernodal *L, double *b)
 {
     double *y = L->b, *u = L->update;
-    for (int32_t i = 0; i < L->n; i++) y[L->place[i]] = b[i];
-    for (int32_t s = 0; s < L->count; s++) {
-        const int32_t tall = L->start[s + 1] - L->start[s], wide = L->column[s + 1] - L->column[s];
-        const int32_t *row = L->row + L->start[s];
-        double *own = y + L->column[s];
+    for (int32_t i = 0; i < L->S.n; i++) y[L->S.place[i]] = b[i];
+    for (int32_t s = 0; s < L->S.count; s++) {
+        const int32_t tall = L->S.start[s + 1] - L->S.start[s], wide = L->S.column[s + 1] - L->S.column[s];
+        const int32_t *row = L->S.row + L->S.start[s];
+        double *own = y + L->S.column[s];
         memcpy(u, own, (size_t)wide * sizeof *u);
         memset(u + wide, 0, (size_t)(tall - wide) * sizeof *u);
-        solve_panel(L->x + L->panel[s], tall, wide, u);
+        solve_panel(L->x + L->S.panel[s], tall, wide, u);
         memcpy(own, u, (size_t)wide * sizeof *u);
         for (int32_t i = wide; i < tall; i++) y[row[i]] += u[i];
     }
-    for (int32_t s = L->count - 1; s >= 0; s--) {
-        const int32_t tall = L->start[s + 1] - L->start[s], wide = L->column[s + 1] - L->column[s];
-        const int32_t *row = L->row + L->start[s];
-        double *own = y + L->column[s];
+    for (int32_t s = L->S.count - 1; s >= 0; s--) {
+        const int32_t tall = L->S.start[s + 1] - L->S.start[s], wide = L->S.column[s + 1] - L->S.column[s];
+        const int32_t *row = L->S.row + L->S.start[s];
+        double *own = y + L->S.column[s];
         memcpy(u, own, (size_t)wide * sizeof *u);
         for (int32_t i = wide; i < tall; i++) u[i] = y[row[i]];
-        solve_panel_t(L->x + L->panel[s], tall, wide, u);
+        solve_panel_t(L->x + L->S.panel[s], tall, wide, u);
         memcpy(own, u, (size_t)wide * sizeof *u);
     }
-    for (int32_t i = 0; i < L->n; i++) b[i] = y[L->place[i]];
+    for (int32_t i = 0; i < L->S.n; i++) b[i] = y[L->S.place[i]];
 }
 
 void rg_supernodal_clear(rg_supernodal *L)
 {
-    memset(L->x, 0, (size_t)L->panel[L->count] * sizeof *L->x);
+    memset(L->x, 0, (size_t)L->S.panel[L->S.count] * sizeof *L->x);
 }
 
 int32_t rg_supernodal_slot(const rg_supernodal *L, int32_t i, int32_t j)
 {
-    int32_t r = L->place[i], c = L->place[j];
-    if (r < c) r = L->place[j], c = L->place[i];
-    int32_t s = L->of[c], low = L->start[s], high = L->start[s + 1];
+    int32_t r = L->S.place[i], c = L->S.place[j];
+    if (r < c) r = L->S.place[j], c = L->S.place[i];
+    int32_t s = L->S.of[c], low = L->S.start[s], high = L->S.start[s + 1];
     while (high - low > 1) {
         int32_t middle = low + (high - low) / 2;
-        if (L->row[middle] <= r) low = middle;
+        if (L->S.row[middle] <= r) low = middle;
         else high = middle;
     }
-    return L->panel[s] + (c - L->column[s]) * (L->start[s + 1] - L->start[s]) + (low - L->start[s]);
+    return L->S.panel[s] + (c - L->S.column[s]) * (L->S.start[s + 1] - L->S.start[s]) + (low - L->S.start[s]);
 }
-
-void rg_supernodal_free(rg_supernodal *L)
-{
-    if (!L->mem.resize) return;
-    void *all[] = {L->place, L->column, L->start, L->row, L->panel, L->x, L->of, L->head, L->next, L->done, L->map, L->update, L->b};
-    for (int i = 0; i < 13; i++) rg_mem_free(&L->mem, all[i]);
-    memset(L, 0, sizeof *L);
-}
-
-#ifdef RG_GPL
-#include <cholmod.h>
-
-/* METIS takes as long as several factorisations of a small sheet, and pays on a large one. */
-static const double METIS_FROM = 3e8;
-
-int rg_supernodal_built(void) { return 1; }
 
 /* The room that `multiply` needs at the most. */
-static size_t room_for_updates(const rg_supernodal *L)
+static size_t room_for_updates(const rg_symbolic *S)
 {
     size_t most = 0;
-    for (int32_t s = 0; s < L->count; s++) {
-        int32_t tall = L->start[s + 1] - L->start[s];
-        const int32_t *row = L->row + L->start[s];
+    for (int32_t s = 0; s < S->count; s++) {
+        int32_t tall = S->start[s + 1] - S->start[s];
+        const int32_t *row = S->row + S->start[s];
         for (int32_t i = 0, j; i < tall; i = j) { /* runs of rows in one supernode */
-            for (j = i; j < tall && L->of[row[j]] == L->of[row[i]]; j++) {}
+            for (j = i; j < tall && S->of[row[j]] == S->of[row[i]]; j++) {}
             size_t room = (size_t)(tall - i + 4) * (size_t)(j - i + 4);
             if (room > most) most = room;
         }
     }
-    return most + PAD;
+    return most;
 }
 
-static rg_status copy_pattern(rg_supernodal *L, const cholmod_factor *F)
+rg_status rg_supernodal_init(rg_supernodal *L, const rg_memory *mem, int32_t n, const int32_t *start, const int32_t *row)
 {
-    const rg_memory *mem = &L->mem;
-    const int *perm = F->Perm, *super = F->super, *pi = F->pi, *px = F->px, *s = F->s;
-    const size_t n = (size_t)L->n, count = F->nsuper;
-    if (F->xsize > INT32_MAX - PAD) return RG_ENOMEM;
-    L->count = (int32_t)count;
-    L->place = rg_mem_array(mem, n, sizeof *L->place);
-    L->column = rg_mem_array(mem, count + 1, sizeof *L->column);
-    L->start = rg_mem_array(mem, count + 1, sizeof *L->start);
-    L->panel = rg_mem_array(mem, count + 1, sizeof *L->panel);
-    L->row = rg_mem_array(mem, F->ssize, sizeof *L->row);
-    L->x = rg_mem_array(mem, F->xsize + PAD, sizeof *L->x);
-    L->of = rg_mem_array(mem, n, sizeof *L->of);
+    memset(L, 0, sizeof *L);
+    rg_status s = rg_symbolic_init(&L->S, mem, n, start, row);
+    if (s != RG_OK) return s;
+    const size_t count = (size_t)L->S.count;
+    L->x = rg_mem_array(mem, (size_t)L->S.panel[count] + RG_SYMBOLIC_PAD, sizeof *L->x);
     L->head = rg_mem_array(mem, count, sizeof *L->head);
     L->next = rg_mem_array(mem, count, sizeof *L->next);
     L->done = rg_mem_array(mem, count, sizeof *L->done);
-    L->map = rg_mem_array(mem, n, sizeof *L->map);
-    L->b = rg_mem_array(mem, n, sizeof *L->b);
-    if (!L->place || !L->column || !L->start || !L->panel || !L->row || !L->x || !L->of || !L->head || !L->next ||
-        !L->done || !L->map || !L->b)
-        return RG_ENOMEM;
-    for (int32_t i = 0; i < L->n; i++) L->place[perm[i]] = i;
-    for (int32_t k = 0; k <= L->count; k++) L->column[k] = super[k], L->start[k] = pi[k], L->panel[k] = px[k];
-    for (int32_t i = 0; i < L->start[L->count]; i++) L->row[i] = s[i];
-    for (int32_t k = 0; k < L->count; k++)
-        for (int32_t j = L->column[k]; j < L->column[k + 1]; j++) L->of[j] = k;
-    L->update = rg_mem_array(mem, room_for_updates(L), sizeof *L->update);
-    return L->update ? RG_OK : RG_ENOMEM;
+    L->map = rg_mem_array(mem, (size_t)n, sizeof *L->map);
+    L->b = rg_mem_array(mem, (size_t)n, sizeof *L->b);
+    L->update = rg_mem_array(mem, room_for_updates(&L->S) + RG_SYMBOLIC_PAD, sizeof *L->update);
+    if (L->x && L->head && L->next && L->done && L->map && L->b && L->update) return RG_OK;
+    rg_supernodal_free(L);
+    return RG_ENOMEM;
 }
 
-static cholmod_factor *analyze(cholmod_sparse *A, int ordering, cholmod_common *cc)
+void rg_supernodal_free(rg_supernodal *L)
 {
-    cc->nmethods = 1;
-    cc->method[0].ordering = ordering;
-    cc->supernodal = CHOLMOD_SUPERNODAL;
-    return cholmod_analyze(A, cc);
-}
-
-static rg_status order(rg_supernodal *L, cholmod_sparse *A, cholmod_common *cc)
-{
-    rg_status s = RG_ENOMEM;
-    cholmod_factor *metis = NULL, *amd = analyze(A, CHOLMOD_AMD, cc), *best = amd;
-    if (!amd) return s;
-    L->flops = cc->fl;
-    L->entries = cc->lnz;
-    if (L->flops > METIS_FROM && (metis = analyze(A, CHOLMOD_METIS, cc)) != NULL && cc->fl < L->flops) {
-        best = metis;
-        L->flops = cc->fl;
-        L->entries = cc->lnz;
-    }
-    s = copy_pattern(L, best);
-    cholmod_free_factor(&amd, cc);
-    cholmod_free_factor(&metis, cc);
-    return s;
-}
-
-rg_status rg_supernodal_init(rg_supernodal *L, const rg_memory *mem, int32_t n, const int32_t *start, const int32_t *row)
-{
+    if (!L->S.mem.resize) return;
+    void *all[] = {L->x, L->head, L->next, L->done, L->map, L->update, L->b};
+    for (int i = 0; i < 7; i++) rg_mem_free(&L->S.mem, all[i]);
+    rg_symbolic_free(&L->S);
     memset(L, 0, sizeof *L);
-    L->mem = *mem;
-    L->n = n;
-    cholmod_common cc;
-    cholmod_start(&cc);
-    cc.print = 0;
-    rg_status s = RG_ENOMEM;
-    int32_t entries = 0;
-    cholmod_sparse *A = cholmod_allocate_sparse((size_t)n, (size_t)n, (size_t)start[n], 0, 1, 1, CHOLMOD_PATTERN, &cc);
-    if (A) {
-        int *p = A->p, *i = A->i;
-        for (int32_t j = 0; j < n; j++) {
-            p[j] = entries;
-            for (int32_t at = start[j]; at < start[j + 1]; at++)
-                if (row[at] <= j) i[entries++] = row[at];
-        }
-        p[n] = entries;
-        s = order(L, A, &cc);
-    }
-    cholmod_free_sparse(&A, &cc);
-    cholmod_finish(&cc);
-    if (s != RG_OK) rg_supernodal_free(L);
-    return s;
 }
-
-#else
-
-int rg_supernodal_built(void) { return 0; }
-rg_status rg_supernodal_init(rg_supernodal *L, const rg_memory *mem, int32_t n, const int32_t *start, const int32_t *row)
-{
-    (void)mem, (void)n, (void)start, (void)row;
-    memset(L, 0, sizeof *L);
-    return RG_EABSENT;
-}
-
-#endif

@@ -1,6 +1,6 @@
 /* supernodal.h -- L L^T = A + beta I for a sparse symmetric A whose pattern stays: the order and the pattern of L are
  * found once, the numbers as often as they change, without an allocation, and always to the same bits.
- * Paper    the backslash of eq. (15)        Uses  CHOLMOD, for order and pattern        Used by  cholesky.c
+ * Paper    the backslash of eq. (15)        Uses  symbolic.h        Used by  cholesky.c step.c
  *
  * Columns of L of (nearly) the same pattern lie together in a dense panel, a supernode, so that nearly all of the work is
  * a product of small dense matrices. A library's factorisation does the same; on panels as small as those of a sheet it
@@ -8,27 +8,17 @@
 #ifndef RG_SUPERNODAL_H
 #define RG_SUPERNODAL_H
 
-#include "base/memory.h"
+#include "linalg/symbolic.h"
 
 typedef struct rg_supernodal {
-    rg_memory mem;
-    int32_t n, count;       /* order; supernodes */
-    double flops, entries;  /* of one factorisation, of L */
-    int32_t *place;         /* [n] row and column of L of row i of A */
-    int32_t *column;        /* [count + 1] first column of each supernode */
-    int32_t *start;         /* [count + 1] into row: its rows, its own columns first */
-    int32_t *row;           /* rising */
-    int32_t *panel;         /* [count + 1] into x: its numbers, column by column */
-    double *x;              /* in: A, by rg_supernodal_slot; out: L */
-    int32_t *of;            /* [n] supernode of a column */
+    rg_symbolic S;
+    double *x;                         /* in: A, by rg_supernodal_slot; out: L */
     int32_t *head, *next, *done, *map; /* scratch of factor */
     double *update, *b;
 } rg_supernodal;
 
-int rg_supernodal_built(void); /* non-zero: this build has it */
-
-/* The pattern of A, n x n: the rows of each column, of one triangle or of both, the diagonal among them.
- * RG_EABSENT in a build without CHOLMOD; RG_ENOMEM. Owner: the caller, rg_supernodal_free. */
+/* The pattern of A as in rg_symbolic_init, the diagonal in it.
+ * RG_ENOMEM. Owner: the caller, rg_supernodal_free. */
 rg_status rg_supernodal_init(rg_supernodal *L, const rg_memory *mem, int32_t n, const int32_t *start, const int32_t *row);
 void rg_supernodal_free(rg_supernodal *L);
 

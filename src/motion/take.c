@@ -244,7 +244,7 @@ rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, cons
         if (t->outcome == RG_STOPPED) s = rg_diagnose_flow(&F, t->vertex, &t->vertices, t->crease, &t->creases);
         t->work = F.work;
         t->method = "joint";
-        t->solver = rg_supernodal_built() ? "cholesky" : "cg";
+        t->solver = "cholesky";
         t->cost = (rg_cost){F.steps, F.J.A.solves, F.J.A.iterations, F.J.A.factorizations, F.assemblies, 0};
     }
     rg_flow_free(&F);
