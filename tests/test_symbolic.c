@@ -51,7 +51,8 @@ static int by_matrix(const void *ctx, int32_t i, int32_t j)
 /* The neighbours of each vertex of a grid of side x side, eight at the most, and itself. */
 static pattern grid(int32_t side, int itself)
 {
-    pattern p = {side * side, calloc((size_t)side * (size_t)side + 1, sizeof(int32_t)), calloc(9 * (size_t)side * (size_t)side, sizeof(int32_t))};
+    const size_t n = (size_t)side * (size_t)side;
+    pattern p = {side * side, calloc(n + 1, sizeof(int32_t)), calloc(9 * n, sizeof(int32_t))};
     int32_t at = 0;
     for (int32_t y = 0; y < side; y++)
         for (int32_t x = 0; x < side; x++) {

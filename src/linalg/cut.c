@@ -19,7 +19,8 @@ typedef struct flow {
 
 static void free_flow(const rg_memory *mem, flow *F)
 {
-    int32_t *array[] = {F->node, F->local, F->from_a, F->to_b, F->start, F->to, F->back, F->f, F->through, F->level, F->next, F->queue};
+    int32_t *array[] = {F->node, F->local, F->from_a, F->to_b, F->start, F->to,
+                        F->back, F->f, F->through, F->level, F->next, F->queue};
     for (int i = 0; i < 12; i++) rg_mem_free(mem, array[i]);
 }
 
@@ -48,8 +49,9 @@ static int make_band(const rg_memory *mem, const rg_parting *p, flow *F)
     int32_t edges = 0;
     for (int32_t i = 0; i < F->n; i++) edges += g->start[F->node[i] + 1] - g->start[F->node[i]];
     const size_t n = (size_t)F->n, e = (size_t)edges;
-    struct { int32_t **array; size_t n; } all[] = {{&F->from_a, n}, {&F->to_b, n}, {&F->start, n + 1}, {&F->to, e}, {&F->back, e}, {&F->f, e},
-                                                   {&F->through, n}, {&F->level, 2 * n}, {&F->next, 2 * n}, {&F->queue, 2 * n}};
+    const struct { int32_t **array; size_t n; } all[] = {
+        {&F->from_a, n}, {&F->to_b, n}, {&F->start, n + 1}, {&F->to, e}, {&F->back, e}, {&F->f, e}, {&F->through, n},
+        {&F->level, 2 * n}, {&F->next, 2 * n}, {&F->queue, 2 * n}};
     for (int i = 0; i < 10; i++)
         if (!(*all[i].array = rg_mem_array(mem, all[i].n, sizeof(int32_t)))) return 0;
     int32_t *at = F->next;
@@ -152,7 +154,8 @@ static void find_levels_back(const rg_parting *p, flow *F)
         if (F->to_b[v]) F->level[2 * v + 1] = 0, F->queue[count++] = 2 * v + 1;
     for (int32_t at = 0; at < count; at++) {
         const int32_t x = F->queue[at], v = x / 2, out = x & 1, weight = p->g->weight[F->node[v]];
-        if (F->level[x ^ 1] < 0 && (out ? F->through[v] < weight : F->through[v] > 0)) F->level[x ^ 1] = 0, F->queue[count++] = x ^ 1;
+        if (F->level[x ^ 1] < 0 && (out ? F->through[v] < weight : F->through[v] > 0))
+            F->level[x ^ 1] = 0, F->queue[count++] = x ^ 1;
         for (int32_t j = F->start[v]; j < F->start[v + 1]; j++) {
             const int32_t y = 2 * F->to[j] + !out;
             if (F->level[y] >= 0 || (out && F->f[j] == 0)) continue;

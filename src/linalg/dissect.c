@@ -9,8 +9,8 @@ static const int32_t LEAF = 200;
 static const double LARGEST_PART = 0.9;
 
 /* The nodes of one part. id, of: numbers in the whole, of nodes of g and of the part's. */
-static int take_part(const rg_memory *mem, const rg_weighted *g, const int32_t *part, int32_t which, const int32_t *id, int32_t *fresh,
-                     rg_weighted *c, int32_t **of)
+static int take_part(const rg_memory *mem, const rg_weighted *g, const int32_t *part, int32_t which, const int32_t *id,
+                     int32_t *fresh, rg_weighted *c, int32_t **of)
 {
     int32_t n = 0, edges = 0;
     for (int32_t v = 0; v < g->n; v++)

@@ -47,7 +47,8 @@ static int32_t match(const rg_weighted *g, int32_t trial, int32_t *of)
         for (int32_t j = g->start[v]; j < g->start[v + 1]; j++) {
             const int32_t u = g->to[j];
             if (of[u] >= 0 || g->weight[u] + g->weight[v] > heaviest) continue;
-            if (best < 0 || g->edge[j] > most || (g->edge[j] == most && g->weight[u] < g->weight[best])) best = u, most = g->edge[j];
+            if (best < 0 || g->edge[j] > most || (g->edge[j] == most && g->weight[u] < g->weight[best]))
+                best = u, most = g->edge[j];
         }
         if (best >= 0) of[best] = fewer;
         of[v] = fewer++;
