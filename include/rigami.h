@@ -80,7 +80,8 @@ typedef enum rg_format {
     RG_FORMAT_CP,
     RG_FORMAT_FOLD,
     RG_FORMAT_SVG,
-    RG_FORMAT_DXF
+    RG_FORMAT_DXF,
+    RG_FORMAT_ORI   /* Oriedita's own */
 } rg_format;
 
 #define RG_ADJUST_AUTO (-1.0)
@@ -107,6 +108,9 @@ typedef struct rg_settings {
     double to;                    /* how far to fold, -1 ... 1; negative: mountain and valley exchanged; 1 */
     int32_t frames;               /* frames of the motion, both ends included, at least 2; 60 */
     int32_t fixed_facet;          /* facet that stays where it is; -1: the one nearest the centre */
+    const char *const *kind;      /* what lines of a drawing are, "KEY=KIND" each: KEY a colour, layer, name or dash, KIND border, */
+    int32_t kinds;                /* cut, mountain, valley, unassigned, aux or none; the last that fits counts; borrowed; none */
+    int32_t sheet;                /* of a drawing with several sheets, the one to take, from 1, in the order of the file; 0: there is one */
 } rg_settings;
 
 RG_API rg_settings rg_settings_default(void);
@@ -135,10 +139,14 @@ typedef struct rg_pattern_info {
     int32_t closed_vertices;          /* section 3.1 */
     int32_t maekawa_violations;
     double kawasaki_max_deg;          /* largest | every other angle - 180 | over interior vertices of even degree, degrees */
+    int32_t cuts;                     /* slits: border lines inside, counted with the creases */
+    int32_t lost_creases;             /* drawn, but left out (loose ends) or taken for border; each is told in a warning */
+    int32_t sheets;                   /* pieces of paper in the drawing; rg_settings.sheet takes one */
+    double unit;                      /* metres in a unit of the file; 0: it does not say */
     double size;                      /* longer side of the bounding box, file units */
     double merged_max, kept_min;      /* largest distance merged, smallest kept, file units */
     int is_disk;                      /* one sheet without holes, slits or loose ends */
-    char not_disk[200];               /* if not: what and where */
+    char not_disk[240];               /* if not: what and where, in the file's coordinates */
     const char *title, *author;       /* "" where there is none; borrowed from the pattern */
 } rg_pattern_info;
 
@@ -153,7 +161,7 @@ typedef struct rg_closed {
     double inside_angle; /* radians: between c and whichever of a, b has the assignment opposite to c's */
 } rg_closed;
 
-typedef enum rg_theorem { RG_KAWASAKI, RG_MAEKAWA, RG_DEGREE, RG_BIG_LITTLE_BIG } rg_theorem;
+typedef enum rg_theorem { RG_KAWASAKI, RG_MAEKAWA, RG_DEGREE, RG_BIG_LITTLE_BIG, RG_TARGETS } rg_theorem;
 
 /* An interior vertex that cannot fold flat; it may be listed once for each theorem. */
 typedef struct rg_unfoldable {
@@ -161,12 +169,18 @@ typedef struct rg_unfoldable {
     double x, y;
     rg_theorem theorem; /* RG_DEGREE: an odd number of creases */
     double by;          /* degrees for Kawasaki, |M - V| for Maekawa, the number of creases for the degree; big-little-big:
-                         * degrees by which a sector between two creases folded the same way is smaller than both others */
+                         * degrees by which a sector between two creases folded the same way is smaller than both others;
+                         * targets: degrees by which the paper round the vertex misses itself at the file's own fold angles */
 } rg_unfoldable;
 
 /* Lists are borrowed from the pattern. */
 RG_API int32_t rg_pattern_closed(const rg_pattern *p, const rg_closed **list);
 RG_API int32_t rg_pattern_unfoldable(const rg_pattern *p, const rg_unfoldable **list);
+/* One of several sheets in a drawing: the box around it, in the file's coordinates, and how many lines it has. */
+typedef struct rg_piece { double low[2], high[2]; int32_t lines; } rg_piece;
+RG_API int32_t rg_pattern_pieces(const rg_pattern *p, const rg_piece **list);
+/* A point of the pattern as its file has it: files that draw y downwards were turned round. */
+RG_API void rg_pattern_own(const rg_pattern *p, const double x[2], double own[2]);
 RG_API int32_t rg_pattern_warnings(const rg_pattern *p, const rg_diag **list);
 
 /* Called with each warning: what was left out, what a format cannot hold. Lent for the call. */

@@ -164,7 +164,7 @@ static int same_lines(const rg_lines *p, const rg_lines *q, double tol)
 static const char PLANE[] = "{\"vertices_coords\":[[0.1,0.2],[7.3,-0.4],[7.1,6.9],[-0.3,7.7],[3.3,3.1],[0.2,2.1],[0.9,3.125]],"
     "\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0],[0,4],[1,4],[2,4],[3,4],[5,6]],"
     "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"M\",\"V\",\"M\",\"V\",\"F\"],"
-    "\"edges_foldAngle\":[0,0,0,0,-180,33.3,-77.125,180,0],\"file_title\":\"a <b> & \\\"c\\\"\",\"file_author\":\"\xC3\x89. \xE6\x8A\x98\","
+    "\"file_creator\":\"rigami 0\",\"edges_foldAngle\":[0,0,0,0,-180,33.3,-77.125,180,0],\"file_title\":\"a <b> & \\\"c\\\"\",\"file_author\":\"\xC3\x89. \xE6\x8A\x98\","
     "\"file_description\":\"two\\nlines\",\"rigami:editor\":\"ed\",\"rigami:reference\":\"ref\"}";
 
 static void formats_keep_what_they_can(void **state)

@@ -32,7 +32,7 @@ static void layers_and_colours(void **state)
         {LINE("MountainLine", "62\n5\n"), 'M'}, {LINE("ValleyLine", "62\n1\n"), 'V'}, {LINE("CutLine", "62\n1\n"), 'B'},
         {LINE("my valleys", ""), 'V'}, {LINE("AUX", "62\n1\n"), 'F'}, {LINE("noname", "62\n0\n"), 'F'}, {LINE("noname", "62\n4\n"), 'F'},
         {LINE("0", "62\n250\n"), 'B'}, {LINE("0", "62\n3\n"), 'B'}, {LINE("0", "62\n30\n"), 'M'}, {LINE("0", "62\n170\n"), 'V'},
-        {LINE("0", "62\n2\n"), 'V'}, {LINE("red one", ""), 'M'}, {LINE("red one", "62\n256\n"), 'M'}, {LINE("hidden", ""), 'V'},
+        {LINE("0", "62\n2\n"), 'V'}, {LINE("red one", ""), 'M'}, {LINE("red one", "62\n256\n"), 'M'},
         {LINE("0", "62\n7\n420\n255\n"), 'V'}, {LINE("0", "420\n16711680\n"), 'M'}};
     for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
         char text[600];
@@ -123,6 +123,124 @@ static void blocks_that_do_not_end(void **state)
     }
 }
 
+#define LAYERS(entities) "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n0\nLAYER\n2\noff\n70\n0\n62\n-3\n0\nLAYER\n2\ncold\n70\n1\n62\n3\n" \
+    "0\nLAYER\n2\ndashes\n70\n0\n62\n7\n6\nDASHED\n0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nBLOCKS\n" \
+    BLOCK("b", "", LINE("0", "") LINE("seen", "")) "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" entities "0\nENDSEC\n0\nEOF\n"
+
+/* Programs draw without what is hidden, and so do we: it is told, once a layer, with how much there is. */
+static void hidden_layers(void **state)
+{
+    (void)state;
+    rg_lines l = read_ok(LAYERS(LINE("seen", "") LINE("off", "") LINE("off", "") LINE("cold", "") LINE("seen", "60\n1\n")), RG_FORMAT_DXF, NULL);
+    assert_int_equal(l.count, 1);
+    assert_true(warned(&l, "\"off\" is switched off: what is on it is left out (2)") && warned(&l, "\"cold\" is frozen") && warned(&l, "invisible: 1"));
+    assert_int_equal(l.warnings, 3);
+    rg_lines_free(&l);
+    /* What is off hides of a block what has no layer of its own, what is frozen all of it. */
+    l = read_ok(LAYERS(INSERT("b", "8\noff\n") INSERT("b", "8\ncold\n")), RG_FORMAT_DXF, NULL);
+    assert_int_equal(l.count, 1);
+    rg_lines_free(&l);
+    refused(LAYERS(LINE("off", "")), RG_FORMAT_DXF, NULL, -1, "switched off or frozen, this one is on \"off\"");
+}
+
+/* One plane of space, wherever it is; else the line that leaves it is named. */
+static void planes_of_space(void **state)
+{
+    (void)state;
+    rg_lines l = read_ok(DXF("0\nLINE\n62\n1\n10\n1\n20\n2\n30\n7.5\n11\n3\n21\n5\n31\n7.5\n"), RG_FORMAT_DXF, NULL);
+    is_line(&l, 0, 'M', 1, 2, 3, 5, NAN);
+    rg_lines_free(&l);
+    const char *upright = "0\nLWPOLYLINE\n62\n1\n38\n4\n210\n0\n220\n1\n230\n0\n10\n1\n20\n2\n10\n5\n20\n2\n10\n5\n20\n8\n";
+    char text[900];
+    snprintf(text, sizeof text, DXF("%s"), upright);
+    l = read_ok(text, RG_FORMAT_DXF, NULL);
+    assert_int_equal(l.count, 2);
+    near(rg_vec2_length(rg_vec2_sub(l.line[0].b, l.line[0].a)), 4, 1e-12);
+    near(rg_vec2_length(rg_vec2_sub(l.line[1].b, l.line[1].a)), 6, 1e-12);
+    near(rg_vec2_dot(rg_vec2_sub(l.line[0].b, l.line[0].a), rg_vec2_sub(l.line[1].b, l.line[1].a)), 0, 1e-12);
+    rg_lines_free(&l);
+    refused(DXF("0\nLWPOLYLINE\n62\n1\n10\n0\n20\n0\n10\n8\n20\n0\n10\n8\n20\n6\n0\nLINE\n62\n1\n10\n0\n20\n0\n30\n0\n11\n8\n21\n6\n31\n3\n"),
+            RG_FORMAT_DXF, NULL, 52, "z = 3");
+}
+
+/* Facets, of which the sides between two are creases; what is no line is told, by its kind. */
+static void facets_and_what_is_left_out(void **state)
+{
+    (void)state;
+#define CORNER(x, y) "0\nVERTEX\n70\n192\n10\n" x "\n20\n" y "\n"
+#define FACET(a, b, c) "0\nVERTEX\n70\n128\n71\n" a "\n72\n" b "\n73\n" c "\n"
+    rg_lines l = read_ok(DXF("0\nPOLYLINE\n70\n64\n" CORNER("0", "0") CORNER("6", "0") CORNER("6", "4") CORNER("0", "4")
+                             FACET("1", "2", "3") FACET("1", "-3", "4") "0\nSEQEND\n"
+                             "0\nPOLYLINE\n8\nvalley\n70\n16\n71\n2\n72\n3\n" CORNER("0", "9") CORNER("1", "9") CORNER("2", "9") CORNER("0", "8")
+                             CORNER("1", "8") CORNER("2", "8") "0\nSEQEND\n"
+                             "0\n3DFACE\n8\nmountain\n70\n2\n10\n0\n20\n0\n11\n1\n21\n0\n12\n1\n22\n1\n13\n1\n23\n1\n"
+                             "0\nXLINE\n10\n1\n20\n1\n11\n1\n21\n0\n0\nMLINE\n2\nX\n0\nXLINE\n10\n1\n"), RG_FORMAT_DXF, NULL);
+    int count[128] = {0};
+    for (int32_t i = 0; i < l.count; i++) count[(int)l.line[i].assignment]++;
+    assert_int_equal(count['B'], 3); /* of the two triangles, one side of which is not drawn */
+    assert_int_equal(count['U'], 2); /* their common side, twice */
+    assert_int_equal(count['V'], 7);
+    assert_int_equal(count['M'], 2); /* one of the three is not drawn */
+    assert_true(warned(&l, "XLINE is not read: 2 left out") && warned(&l, "MLINE is not read: 1 left out"));
+    rg_lines_free(&l);
+    refused(DXF("0\nPOLYLINE\n70\n64\n" CORNER("0", "0") FACET("1", "2", "3") "0\nSEQEND\n"), RG_FORMAT_DXF, NULL, -1, "a facet of vertex");
+    refused(DXF("0\nHATCH\n2\nANSI31\n"), RG_FORMAT_DXF, NULL, 36, "HATCH, which is not read");
+}
+
+/* Curves of what cannot fold do no harm; circles are marks, but for a border. */
+static void curves_that_do_no_harm(void **state)
+{
+    (void)state;
+    rg_lines l = read_ok(DXF(LINE("0", "62\n1\n") "0\nARC\n8\naux\n10\n1\n40\n2\n0\nCIRCLE\n62\n1\n10\n3\n0\nSPLINE\n62\n8\n"
+                             "0\nLWPOLYLINE\n8\naux\n10\n0\n20\n0\n42\n0.5\n10\n1\n20\n1\n10\n2\n20\n5\n"), RG_FORMAT_DXF, NULL);
+    assert_int_equal(l.count, 2);
+    is_line(&l, 1, 'F', 1, 1, 2, 5, NAN);
+    assert_true(warned(&l, "left out: 4"));
+    rg_lines_free(&l);
+}
+
+static void kinds(void **state)
+{
+    (void)state;
+    const char *const said[] = {"dashes=valley", "colour:red=none", "#0000ff=aux", "dash:DashDot=mountain"};
+    rg_settings s = rg_settings_default();
+    s.kind = said;
+    s.kinds = 4;
+    rg_lines l = read_ok(LAYERS(LINE("dashes", "") LINE("0", "62\n1\n") LINE("0", "420\n255\n") LINE("dashes", "6\nDASHDOT\n") LINE("0", "")),
+                         RG_FORMAT_DXF, &s);
+    assert_int_equal(l.count, 4);
+    const char want[] = "VFMB";
+    for (int i = 0; i < 4; i++) assert_int_equal(l.line[i].assignment, want[i]);
+    assert_true(warned(&l, "left out as --line asks: 1"));
+    int found = 0;
+    for (int32_t i = 0; i < l.traits; i++)
+        found += l.trait[i].sort == RG_BY_DASH && strcmp(l.trait[i].name, "DASHED") == 0 && l.trait[i].count == 1;
+    assert_int_equal(found, 1);
+    rg_lines_free(&l);
+    const char *const other[] = {"0=", "DASHED=fold"};
+    rg_diag why;
+    for (int i = 0; i < 2; i++) {
+        s.kind = &other[i];
+        s.kinds = 1;
+        assert_int_equal(read_text("0\nEOF\n", 6, RG_FORMAT_DXF, &s, &l, &why), RG_EARG);
+        assert_non_null(strstr(why.text, "KEY=KIND"));
+    }
+    const char *const none[] = {"green=valley"};
+    s.kind = none;
+    l = read_ok(LAYERS(LINE("dashes", "")), RG_FORMAT_DXF, &s);
+    assert_true(warned(&l, "--line green=valley: no line") && warned(&l, "DASHED"));
+    rg_lines_free(&l);
+}
+
+static void units(void **state)
+{
+    (void)state;
+    rg_lines l = read_ok("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n"
+                         LINE("0", "") "0\nENDSEC\n0\nEOF\n", RG_FORMAT_DXF, NULL);
+    near(l.metres, 0.001, 0);
+    rg_lines_free(&l);
+}
+
 static void refusals(void **state)
 {
     (void)state;
@@ -153,6 +271,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(entities), cmocka_unit_test(layers_and_colours),
                                        cmocka_unit_test(ends_of_lines_and_blanks), cmocka_unit_test(refusals),
-                                       cmocka_unit_test(blocks), cmocka_unit_test(blocks_that_do_not_end)};
+                                       cmocka_unit_test(blocks), cmocka_unit_test(blocks_that_do_not_end),
+                                       cmocka_unit_test(hidden_layers), cmocka_unit_test(planes_of_space),
+                                       cmocka_unit_test(facets_and_what_is_left_out), cmocka_unit_test(curves_that_do_no_harm),
+                                       cmocka_unit_test(kinds), cmocka_unit_test(units)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -100,7 +100,8 @@ static void radians(void **state)
     near(l.line[4].target / RG_DEG, 1.5, 1e-12);
     rg_lines_free(&l);
     l = read_fold(ONE("\"V\"", "3.2"));
-    assert_int_equal(l.warnings, 0);
+    assert_int_equal(l.warnings, 1);
+    assert_true(warned(&l, "--flip")); /* no faces, and a program that is not known */
     rg_lines_free(&l);
 }
 
@@ -255,8 +256,8 @@ static void lines_of_the_file(void **state)
                            "\"edges_foldAngle\":[0,\n90,0]}");
     const int32_t want[] = {3, 3, 5};
     for (int i = 0; i < 3; i++) assert_int_equal(l.line[i].where, want[i]);
-    assert_int_equal(l.warnings, 1);
-    assert_true(warned(&l, "edges_foldAngle[1]"));
+    assert_int_equal(l.warnings, 2);
+    assert_true(warned(&l, "edges_foldAngle[1]") && warned(&l, "--flip"));
     assert_int_equal(l.warning[0].line, 7);
     rg_lines_free(&l);
 }

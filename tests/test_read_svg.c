@@ -104,7 +104,7 @@ static void repeats(void **state)
                      "<use href='#b'/><use href='other.svg#a'/><use/>"));
     assert_int_equal(l.count, 1);
     is_line(&l, 0, 'M', 0, 0, 1, 0, NAN);
-    assert_true(warned(&l, "no \"#b\"") && warned(&l, "\"other.svg#a\" lies in another file") && l.warnings == 3);
+    assert_true(warned(&l, "no \"#b\"") && warned(&l, "\"other.svg#a\" lies in another file") && warned(&l, "hidden") && l.warnings == 4);
     assert_int_equal(l.warning[0].line, 3);
     rg_lines_free(&l);
 }
@@ -188,6 +188,101 @@ static void colours(void **state)
     rg_lines_free(&l);
 }
 
+/* Which rules are for an element: the letters of lines that are red if theirs is, else black. */
+static void selectors(void **state)
+{
+    (void)state;
+    const struct { const char *selector; int is; } c[] = {
+        {".a line", 1}, {"svg .a line", 1}, {"svg > line", 0}, {".a > line", 1}, {"svg>.a>line", 1}, {"rect + line", 1}, {"path + line", 0},
+        {"path ~ line", 1}, {"[id]", 1}, {"line[id=z]", 1}, {"line[id='y']", 0}, {"[class~=two]", 1}, {"[class~=tw]", 0}, {"[class^=on]", 1},
+        {"[class$=two]", 1}, {"[class*='e t']", 1}, {"[lang|=en]", 1}, {":not(rect)", 1}, {"line:not(.one)", 0}, {"line:not([x2='1'], .b)", 1},
+        {":is(line, rect)", 1}, {"line:last-child", 1}, {"line:first-child", 0}, {"line:nth-child(3)", 1}, {"line:nth-child(2n)", 0},
+        {"line:nth-child(odd)", 1}, {"line:only-of-type", 1}, {"line:hover", 0}, {"line::before", 0}, {"g.a line.two#z", 1}, {"*", 1}, {".b line, #z", 1},
+        {"@media screen { line", 1}};
+    for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
+        char text[700];
+        snprintf(text, sizeof text, SVG("<style>line{stroke:black} %s{stroke:red !important}%s</style><g class='a'><path/><rect/>"
+                                        "<line id='z' class='one two' lang='en-GB' x2='9'/></g>"), c[i].selector, c[i].selector[0] == '@' ? "}" : "");
+        rg_lines l = read_svg(text);
+        if (l.line[0].assignment != (c[i].is ? 'M' : 'B')) print_error("%s\n", c[i].selector);
+        assert_int_equal(l.line[0].assignment, c[i].is ? 'M' : 'B');
+        assert_int_equal(l.warnings, 0);
+        rg_lines_free(&l);
+    }
+    /* What is not understood is told, with its text and its line. */
+    rg_lines l = read_svg(SVG("<style>\n/* two\nlines */ line:has(a), #z {stroke: red}\n@import 'x.css';\n@media print{#z{stroke:blue}}\n"
+                              ".a { line {stroke:blue} }\n@font-face{a:b}</style><line id='z' x2='9'/>"));
+    assert_int_equal(l.line[0].assignment, 'M');
+    assert_true(warned(&l, "\"line:has(a)\"") && warned(&l, "\"@import 'x.css'\"") && warned(&l, "\"@media print\"") && warned(&l, ".a { line"));
+    assert_int_equal(l.warnings, 4);
+    assert_int_equal(l.warning[0].line, 4);
+    assert_int_equal(l.warning[1].line, 5);
+    rg_lines_free(&l);
+}
+
+static void paints(void **state)
+{
+    (void)state;
+    const struct { const char *paint; char letter; double target; } c[] = {
+        {"#F00 icc-color(p, 1, 0)", 'M', NAN}, {"rgb(0 0 255 / 25%)", 'V', 45}, {"url(#gone) blue", 'V', NAN}, {"url( '#one' )", 'M', NAN},
+        {"url(#link)", 'M', NAN}, {"var(--m)", 'M', NAN}, {"var(--gone, blue)", 'V', NAN}, {"var(--gone, var(--m))", 'M', NAN},
+        {"currentColor", 'V', NAN}};
+    for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
+        char text[700];
+        snprintf(text, sizeof text, SVG("<defs><linearGradient id='one'><stop stop-color='red'/><stop stop-color='#f00'/></linearGradient>"
+                                        "<linearGradient id='link' href='#one'/></defs><g style='--m: red' color='blue'><g stroke=\"%s\"><line x2='1'/></g></g>"),
+                 c[i].paint);
+        rg_lines l = read_svg(text);
+        if (l.line[0].assignment != c[i].letter) print_error("%s\n", c[i].paint);
+        is_line(&l, 0, c[i].letter, 0, 0, 1, 0, c[i].letter == 'V' ? c[i].target : NAN);
+        assert_int_equal(l.warnings, 0);
+        rg_lines_free(&l);
+    }
+    rg_lines l = read_svg(SVG("<line stroke='url(#x)' x2='1'/><line stroke='context-stroke' x2='2'/><path stroke='url(#x)' d='M0 0H1V1'/>"));
+    assert_true(warned(&l, "\"url(#x)\" is no plain colour: 3 lines") && warned(&l, "\"context-stroke\" is no plain colour: 1 lines"));
+    assert_int_equal(l.warnings, 2);
+    rg_lines_free(&l);
+}
+
+/* What a drawing says of its lines besides their colour. */
+static void names_dashes_data(void **state)
+{
+    (void)state;
+    const char *text = SVG("<g stroke='black'><g id='Valley folds'><line x2='1'/></g><g xmlns:i='i' i:label='Mountain' id='g7'><line stroke='blue' x2='2'/>"
+                           "<line x2='3'/></g><line class='rim' x2='4' stroke-dasharray='6,2 1,2'/></g><line data-assignment='m' data-foldAngle='-70' x2='5'/>");
+    rg_lines l = read_svg(text);
+    const char want[] = "VVMBM";
+    for (int i = 0; i < 5; i++) assert_int_equal(l.line[i].assignment, want[i]);
+    near(l.line[4].target / RG_DEG, -70, 1e-12);
+    assert_int_equal(l.warnings, 0);
+    rg_lines_free(&l);
+    const char *const said[] = {"rim=unassigned", "Mountain=aux", "6 2 1 2=valley", "#00f=none"};
+    rg_settings s = rg_settings_default();
+    s.kind = said;
+    s.kinds = 4;
+    l = read_ok(text, RG_FORMAT_SVG, &s);
+    assert_int_equal(l.count, 4);
+    const char now[] = "VFVM";
+    for (int i = 0; i < 4; i++) assert_int_equal(l.line[i].assignment, now[i]);
+    rg_lines_free(&l);
+}
+
+static void sizes(void **state)
+{
+    (void)state;
+    rg_lines l = read_svg("<svg viewBox='0 0 30 20' width='60mm' height='40mm'><rect stroke='black' x='10%' width='50%' height='100%'/></svg>");
+    is_line(&l, 0, 'B', 3, 0, 18, 0, NAN);
+    is_line(&l, 1, 'B', 18, 0, 18, -20, NAN);
+    near(l.metres, 0.002, 1e-15);
+    rg_lines_free(&l);
+    l = read_svg("<svg viewBox='0 0 30 20'><path stroke='red' d='M0 0H9'/><path stroke='yellow' d='M0 0C1 1 2 1 3 0L9 9'/></svg>");
+    near(l.metres, 0, 0);
+    assert_int_equal(l.count, 2);
+    is_line(&l, 1, 'F', 3, 0, 9, -9, NAN);
+    assert_true(warned(&l, "curves of auxiliary lines are left out: 1"));
+    rg_lines_free(&l);
+}
+
 static void refusals(void **state)
 {
     (void)state;
@@ -207,7 +302,9 @@ static void refusals(void **state)
     refused(SVG("<g transform='rotate(1 2)'><line stroke='red' x2='1'/></g>"), RG_FORMAT_SVG, NULL, 2, "rotate(1 2)");
     refused(SVG("<g transform='warp(1)'/>"), RG_FORMAT_SVG, NULL, 2, "warp");
     refused(SVG("<g transform='scale(1'/>"), RG_FORMAT_SVG, NULL, 2, "scale");
-    refused(SVG("<line x2='1'/>"), RG_FORMAT_SVG, NULL, 1, "no lines");
+    refused(SVG("<line x2='1'/>"), RG_FORMAT_SVG, NULL, 2, "no shape has a stroke, 1 of them");
+    refused(SVG("<g visibility='hidden'><line stroke='red' x2='1'/><path d='M0 0H1'/></g>"), RG_FORMAT_SVG, NULL, 2, "is hidden (display or visibility), 2 shapes");
+    refused(SVG("<text>M</text>"), RG_FORMAT_SVG, NULL, 1, "no shapes");
     refused("<html><svg/></html>", RG_FORMAT_SVG, NULL, 1, "<html>");
     refused(SVG("<line stroke='red' x2='1'>"), RG_FORMAT_SVG, NULL, -1, "not well-formed");
     refused("<svg>", RG_FORMAT_SVG, NULL, -1, "not well-formed");
@@ -220,7 +317,7 @@ static void marks_and_numbers_too_large(void **state)
                               "<path d='M0 0C1 1 2 1 3 0' fill='red'/><line stroke='red' x2='1e999'/><line stroke='red' x2='1e300' transform='scale(1e300)'/>"
                               "<line stroke='red' x2='1'/><title>later</title>"));
     assert_int_equal(l.count, 1);
-    assert_true(warned(&l, "<circle>") && warned(&l, "#x") && warned(&l, "finite"));
+    assert_true(warned(&l, "circles are left out as marks, no creases: 2") && warned(&l, "#x") && warned(&l, "finite"));
     assert_int_equal(l.warnings, 4);
     assert_string_equal(l.title, "later");
     rg_lines_free(&l);
@@ -273,7 +370,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shapes), cmocka_unit_test(paths), cmocka_unit_test(transforms), cmocka_unit_test(repeats), cmocka_unit_test(repeats_that_do_not_end), cmocka_unit_test(styles),
-        cmocka_unit_test(colours), cmocka_unit_test(refusals), cmocka_unit_test(marks_and_numbers_too_large),
+        cmocka_unit_test(colours), cmocka_unit_test(selectors), cmocka_unit_test(paints), cmocka_unit_test(names_dashes_data), cmocka_unit_test(sizes),
+                                       cmocka_unit_test(refusals), cmocka_unit_test(marks_and_numbers_too_large),
         cmocka_unit_test(texts), cmocka_unit_test(entities_stay_closed), cmocka_unit_test(nesting_and_rules_end)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,7 +10,7 @@
 #define DEG (3.14159265358979323846 / 180)
 
 /* How the value of an option is read, and where to. */
-typedef enum kind { SWITCH, WHOLE, REAL, ABOVE, CHOICE, TEXT, OUTPUT, SIZE, CAMERA, ADJUST } kind;
+typedef enum kind { SWITCH, WHOLE, REAL, ABOVE, CHOICE, TEXT, OUTPUT, KIND, SIZE, CAMERA, ADJUST } kind;
 
 typedef struct rule {
     int commands;            /* FOR_... */
@@ -26,7 +26,8 @@ typedef struct rule {
 } rule;
 
 static const char *const formats[] = {[RG_FORMAT_AUTO] = "auto", [RG_FORMAT_OPX] = "opx", [RG_FORMAT_CP] = "cp",
-                                      [RG_FORMAT_FOLD] = "fold", [RG_FORMAT_SVG] = "svg", [RG_FORMAT_DXF] = "dxf", NULL};
+                                      [RG_FORMAT_FOLD] = "fold", [RG_FORMAT_SVG] = "svg", [RG_FORMAT_DXF] = "dxf",
+                                      [RG_FORMAT_ORI] = "ori", NULL};
 static const char *const methods[] = {[RG_METHOD_AUTO] = "auto", [RG_METHOD_EULER] = "euler",
                                       [RG_METHOD_NEWTON] = "newton", [RG_METHOD_HEUN] = "heun",
                                       [RG_METHOD_RK4] = "rk4", [RG_METHOD_ADAPTIVE] = "adaptive", NULL};
@@ -79,6 +80,10 @@ static const rule rules[] = {
     {READS, "merge", 0, "TOL", REAL, AT(settings.merge), 0, 0.1, 1, NULL,
      "ends nearer than this part of the sheet's size are one vertex (2e-5; .svg: 1e-3)"},
     {READS, "aux", 0, NULL, SWITCH, AT(settings.aux_creases), 1, 0, 1, NULL, "auxiliary lines are creases that may fold"},
+    {READS, "line", 0, "KEY=KIND", KIND, 0, NOTHING,
+     "drawings: what lines of a colour, layer, name or dash are: border, cut, mountain, valley, unassigned, aux or none; may be given many times"},
+    {FOR_FOLD | FOR_INFO | FOR_CHART, "sheet", 0, "N", WHOLE, AT(settings.sheet), 1, INT32_MAX, 1, NULL,
+     "of several sheets in a drawing the one to take, in the order of the file"},
     {FOR_FOLD, "size", 0, "WxH", SIZE, 0, 1, 16384, 1, NULL, "pictures: width and height in pixels (960x720)"},
     {FOR_FOLD, "camera", 0, "AZ,EL[,ZOOM]", CAMERA, 0, NOTHING,
      "pictures: azimuth and elevation in degrees, and zoom; 1 just shows the whole motion (-60,35,1)"},
@@ -202,6 +207,7 @@ static int set(options *o, const rule *r, const char *text)
     case CHOICE: return set_choice(r, text, to);
     case TEXT: *(const char **)to = text; return ENDS_WELL;
     case OUTPUT: o->output[o->outputs++] = text; return ENDS_WELL;
+    case KIND: o->kind[o->settings.kinds++] = text; return ENDS_WELL;
     case SIZE: return set_size(r, text, &o->picture);
     case CAMERA: return set_camera(r, text, &o->picture);
     case ADJUST: return set_adjust(r, text, &o->settings);
@@ -282,7 +288,9 @@ int options_parse(options *o, const command *c, int argc, char **argv)
                    .effort = RG_EFFORT_NORMAL};
     o->operand = calloc((size_t)argc + 1, sizeof *o->operand);
     o->output = calloc((size_t)argc + 1, sizeof *o->output);
-    if (!o->operand || !o->output) {
+    o->kind = calloc((size_t)argc + 1, sizeof *o->kind);
+    o->settings.kind = o->kind;
+    if (!o->operand || !o->output || !o->kind) {
         say("out of memory");
         return ENDS_UNWRITTEN;
     }
@@ -305,6 +313,7 @@ void options_free(options *o)
 {
     free(o->operand);
     free(o->output);
+    free(o->kind);
     memset(o, 0, sizeof *o);
 }
 

@@ -13,7 +13,7 @@ typedef struct options {
     rg_settings settings;
     rg_picture picture;
     double angle; /* of gen, radians; 0: the kind's own */
-    const char **operand, **output;
+    const char **operand, **output, **kind; /* kind: of --line */
     int operands, outputs;
     const char *report;                                   /* NULL: none */
     int quiet, json, progress;                            /* progress: 1 yes, 0 no, -1 on a terminal */

@@ -1,4 +1,5 @@
 #include "base/number.h"
+#include "base/vec.h"
 
 #include <errno.h>
 #include <locale.h>
@@ -238,4 +239,13 @@ const char *rg_number_print(char text[RG_NUMBER_ROOM], double value)
     else if (isfinite(value) && shorten(size, &d)) print_decimal(to, d);
     else print_any(text, value);
     return text;
+}
+
+/* Decimals that people and programs write angles with; fewer than a double holds of 180. */
+static const double DECIMALS = 1e10;
+
+double rg_number_degrees(double radians)
+{
+    const double degree = RG_DEG, exact = radians / degree, rounded = round(exact * DECIMALS) / DECIMALS;
+    return rounded * degree == radians ? rounded : exact;
 }

@@ -6,6 +6,7 @@
 #include "motion/ending.h"
 #include "motion/measure.h"
 #include "motion/strategy.h"
+#include "pattern/source.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -20,6 +21,7 @@ void rg_motion_destroy(rg_motion *m)
                      m->state_frame, m->by_flat};
     for (int i = 0; i < 10; i++) rg_mem_free(&m->mem, block[i]);
     rg_layers_destroy(m->layers);
+    rg_source_free(&m->source);
     rg_mem_free(&mem, m->title);
     rg_mem_free(&mem, m->author);
     rg_mem_free(&mem, m);
@@ -57,6 +59,25 @@ rg_status rg_motion_place(const rg_motion *m, int32_t frame, rg_vec3 *x)
     rg_pose_vertices(&m->mesh, X, &m->tree, place, x);
     rg_mem_free(&m->mem, place);
     return RG_OK;
+}
+
+rg_vec3 rg_motion_middle(const rg_motion *m)
+{
+    rg_vec2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+    for (int32_t v = 0; v < m->mesh.nv; v++) {
+        const rg_vec2 x = m->mesh.X[v];
+        low = (rg_vec2){fmin(low.x, x.x), fmin(low.y, x.y)};
+        high = (rg_vec2){fmax(high.x, x.x), fmax(high.y, x.y)};
+    }
+    return (rg_vec3){low.x + (high.x - low.x) / 2, low.y + (high.y - low.y) / 2, 0};
+}
+
+rg_status rg_motion_place_centred(const rg_motion *m, int32_t frame, rg_vec3 *x)
+{
+    const rg_vec3 middle = rg_motion_middle(m);
+    const rg_status s = rg_motion_place(m, frame, x);
+    for (int32_t v = 0; s == RG_OK && v < m->mesh.nv; v++) x[v] = rg_vec3_sub(x[v], middle);
+    return s;
 }
 
 rg_status rg_motion_pose(const rg_motion *m, int32_t frame, double (*xyz)[3])
@@ -181,6 +202,7 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_
     r->pattern.title = m->title = rg_mem_string(&mem, r->pattern.title);
     r->pattern.author = m->author = rg_mem_string(&mem, r->pattern.author);
     if (!m->title || !m->author) s = RG_ENOMEM;
+    if (s == RG_OK) s = rg_source_copy(&p->source, &mem, &m->source);
     if (s == RG_OK) s = rg_mesh_from_pattern(p, &mem, &none, why);
     if (s == RG_OK) s = rg_strategy_run(&choice, &none, settings, &watch, why);
     if (s == RG_OK) s = adopt(m, &choice);
@@ -190,6 +212,11 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_
     if (s == RG_OK) s = rg_measure_frames(m);
     if (s == RG_OK) s = rg_ending_find(m, why);
     if (s == RG_OK && !watch.cancelled) s = explain(m, p);
+    if (s == RG_OK && r->pattern.creases == 0 && r->pattern.lost_creases > 0) {
+        r->outcome = RG_STOPPED;
+        snprintf(r->reason, sizeof r->reason, "no crease is left to fold: all %d that are drawn end short of the next line, or lie on the border",
+                 (int)r->pattern.lost_creases);
+    }
     rg_mesh_free(&none);
     if (s != RG_OK) {
         rg_motion_destroy(m);

@@ -12,6 +12,7 @@ struct rg_motion {
     rg_mesh mesh;
     rg_tree tree;
     char *title, *author;  /* of the pattern; NULL: none */
+    rg_source source;      /* of the pattern's vertices and edges, which are the first of the mesh; of a sequence of states: empty */
     double *target;        /* [mesh.N] what was aimed at, radians; NAN: nothing */
     double *from;          /* [mesh.N] fold angles of the state that the motion starts from */
     double *rho;           /* [report.frame_count][mesh.N] radians */
@@ -29,6 +30,11 @@ struct rg_motion {
 const rg_vec2 *rg_motion_pattern(const rg_motion *m, int32_t f);
 /* x[mesh.nv]: out, positions in frame f, 0 <= f < report.frame_count. RG_ENOMEM. */
 rg_status rg_motion_place(const rg_motion *m, int32_t f, rg_vec3 *x);
+
+/* The same about the middle of the flat sheet: what is written with single precision would be lost far from the origin. */
+rg_status rg_motion_place_centred(const rg_motion *m, int32_t f, rg_vec3 *x);
+/* That middle: of the box around the pattern given. */
+rg_vec3 rg_motion_middle(const rg_motion *m);
 
 /* RG_EARG: a setting that no motion can have. */
 rg_status rg_motion_check_settings(const rg_settings *s, rg_diag *why);

@@ -24,6 +24,33 @@ static rg_status add(struct rg_pattern *p, size_t *room, int32_t v, rg_theorem t
     return s;
 }
 
+/* Targets are written in whole degrees as a rule, which round a vertex add up to less than this. */
+static const double TARGETS = 1 * RG_DEG;
+
+/* Over a crease along axis x and on to the next one: a turn about x by rho of a turn about z by theta. */
+static rg_mat3 over_crease(double rho, double theta)
+{
+    const double c = cos(rho), s = sin(rho), C = cos(theta), S = sin(theta);
+    return (rg_mat3){{{C, c * S, s * S}, {-S, c * C, s * C}, {0, -s, c}}};
+}
+
+/* The angle, radians, by which the paper round a vertex misses itself when each crease is at its target; 0: it is not said
+ * for all of them, or they all lie flat or folded flat, which theorems are for. It is the rotation that eq. (1) asks to be none. */
+static double targets_miss(const struct rg_pattern *p, int32_t v, const double *theta)
+{
+    const int32_t *star = p->star + p->star_start[v], n = p->star_start[v + 1] - p->star_start[v];
+    rg_mat3 F = rg_mat3_identity();
+    int is_flat = 1;
+    for (int32_t i = 0; i < n; i++) {
+        const double rho = p->E[star[i]].target;
+        if (!isfinite(rho)) return 0;
+        is_flat &= fabs(rho) == RG_PI;
+        F = rg_mat3_mul(F, over_crease(rho, theta[i]));
+    }
+    const rg_vec3 twice = {F.c[1].z - F.c[2].y, F.c[2].x - F.c[0].z, F.c[0].y - F.c[1].x};
+    return is_flat ? 0 : atan2(rg_vec3_length(twice), F.c[0].x + F.c[1].y + F.c[2].z - 1);
+}
+
 /* The sector that is strictly the smallest among its neighbours has its two creases folded the same way: they would shut
  * it in from both sides. Returns by how much it is smaller where that is most, 0 where all is well. */
 static double big_little_big(const struct rg_pattern *p, int32_t v, const double *theta)
@@ -67,6 +94,8 @@ rg_status rg_check_vertices(struct rg_pattern *p)
             alternating += (i % 2 ? -theta[i] : theta[i]) / 2; /* every other angle, less half a turn */
         }
         if (cuts) continue; /* the end of a slit: the paper does not go all the way round */
+        const double miss = targets_miss(p, v, theta);
+        if (miss > TARGETS && (s = add(p, &room, v, RG_TARGETS, miss / RG_DEG)) != RG_OK) break;
         const int32_t excess = abs(mountains - valleys);
         const int maekawa = mountains + valleys < n || excess == 2;
         p->info.maekawa_violations += !maekawa;

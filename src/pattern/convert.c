@@ -1,4 +1,5 @@
 #include "base/memory.h"
+#include "base/number.h"
 #include "base/status.h"
 #include "pattern/faces.h"
 #include "pattern/planar.h"
@@ -116,7 +117,7 @@ static rg_status letter_edges(plane *p, const rg_memory *mem)
         const char a = edge->assignment;
         const int inside = p->faces.area[p->faces.face[2 * e]] > 0 && p->faces.area[p->faces.face[2 * e + 1]] > 0;
         p->letter[e] = a == RG_CUT ? RG_FLAT : a == RG_BORDER && inside ? 'C' : a;
-        if (isfinite(edge->target) && a != RG_BORDER && a != RG_FLAT && a != RG_CUT) p->angle[e] = edge->target / RG_DEG;
+        if (isfinite(edge->target) && a != RG_BORDER && a != RG_FLAT && a != RG_CUT) p->angle[e] = rg_number_degrees(edge->target);
     }
     return RG_OK;
 }

@@ -41,7 +41,7 @@ rg_status rg_overlap_warn(rg_lines *lines, const rg_vec2 *X, const rg_edge *keep
 {
     const char p = keep->assignment, q = other->assignment;
     if (rg_overlap_rank(p) != 1 || rg_overlap_rank(q) != 1 || p == q || (*told)++ >= MOST_WARNINGS) return RG_OK;
-    const rg_vec2 at = X[keep->v[0]];
+    const rg_vec2 at = rg_lines_own(lines, X[keep->v[0]], 0);
     return rg_lines_warn(lines, other->where, "mountain and valley drawn on one line from (%.6g, %.6g): the first one stays", at.x,
                          at.y);
 }

@@ -2,9 +2,11 @@
 #include "base/status.h"
 #include "pattern/check.h"
 #include "pattern/closed.h"
+#include "pattern/pieces.h"
 #include "pattern/planar.h"
 #include "pattern/points.h"
 #include "pattern/sheet.h"
+#include "pattern/source.h"
 #include "read/read.h"
 
 #include <string.h>
@@ -14,8 +16,9 @@ void rg_pattern_destroy(rg_pattern *p)
     if (!p) return;
     rg_memory mem = p->mem;
     rg_lines_free(&p->lines);
-    void *block[] = {p->X, p->E, p->star_start, p->star, p->rim, p->closed, p->unfoldable};
-    for (int i = 0; i < 7; i++) rg_mem_free(&mem, block[i]);
+    rg_source_free(&p->source);
+    void *block[] = {p->X, p->E, p->star_start, p->star, p->rim, p->closed, p->unfoldable, p->piece};
+    for (int i = 0; i < 8; i++) rg_mem_free(&mem, block[i]);
     rg_mem_free(&mem, p);
 }
 
@@ -31,6 +34,18 @@ int32_t rg_pattern_unfoldable(const rg_pattern *p, const rg_unfoldable **list)
 {
     *list = p->unfoldable;
     return p->unfoldables;
+}
+
+int32_t rg_pattern_pieces(const rg_pattern *p, const rg_piece **list)
+{
+    *list = p->piece;
+    return p->info.sheets;
+}
+
+void rg_pattern_own(const rg_pattern *p, const double x[2], double own[2])
+{
+    const rg_vec2 q = rg_lines_own(&p->lines, (rg_vec2){x[0], x[1]}, p->info.size);
+    own[0] = q.x, own[1] = q.y;
 }
 
 int32_t rg_pattern_warnings(const rg_pattern *p, const rg_diag **list)
@@ -51,6 +66,7 @@ static void count(struct rg_pattern *p)
         info->valleys += a == RG_VALLEY;
         info->unassigned += a == RG_UNASSIGNED;
         info->flat += a == RG_FLAT;
+        info->cuts += a == RG_CUT;
     }
     info->degrees_of_freedom = info->creases - 3 * info->interior_vertices;
     info->title = p->lines.title ? p->lines.title : "";
@@ -62,10 +78,15 @@ static rg_status build(struct rg_pattern *p, const rg_settings *settings, rg_dia
     rg_graph g = {.mem = p->mem};
     rg_star star = {.mem = p->mem};
     rg_status s = rg_planar_from_lines(&p->lines, settings, &g, why);
+    if (s == RG_OK) s = rg_pieces_find(&g, &p->lines, settings->sheet, &p->piece, &p->info.sheets, why);
     p->info.size = g.size;
     p->info.merged_max = g.merged_max;
+    p->info.lost_creases = g.loose;
+    p->info.unit = p->lines.metres;
+    if (s == RG_OK) s = rg_source_sort(&g, &p->lines);
     if (s == RG_OK) s = rg_points_nearest(&p->mem, g.X, g.nv, &p->info.kept_min, NULL);
     if (s == RG_OK) s = rg_sheet_from_graph(&g, settings->merge * g.size, &p->lines, &p->info, &p->rim);
+    if (s == RG_OK) s = rg_source_init(&p->source, &g, &p->lines);
     if (s == RG_OK) s = rg_star_init(&star, &p->mem, g.nv, g.ne, g.X, g.E);
     if (s != RG_OK) {
         rg_graph_free(&g);
@@ -107,6 +128,8 @@ rg_status rg_pattern_from_lines(rg_lines *lines, const rg_settings *s, rg_patter
     }
     rg_mem_free(&mem, p->lines.line);
     p->lines.line = NULL;
+    rg_mem_free(&mem, p->lines.vertex);
+    p->lines.vertex = NULL;
     p->lines.count = 0;
     p->lines.room = 0;
     *pattern = p;
@@ -116,13 +139,13 @@ rg_status rg_pattern_from_lines(rg_lines *lines, const rg_settings *s, rg_patter
 rg_status rg_pattern_parse(const void *bytes, size_t size, const rg_settings *s, rg_pattern **pattern, rg_diag *why)
 {
     rg_lines lines;
-    rg_status status = rg_read_bytes(bytes, size, NULL, s, 0, &lines, why);
+    rg_status status = rg_read_bytes(bytes, size, NULL, s, 1, &lines, why);
     return status == RG_OK ? rg_pattern_from_lines(&lines, s, pattern, why) : status;
 }
 
 rg_status rg_pattern_read(const char *path, const rg_settings *s, rg_pattern **pattern, rg_diag *why)
 {
     rg_lines lines;
-    rg_status status = rg_read_file(path, s, 0, &lines, why);
+    rg_status status = rg_read_file(path, s, 1, &lines, why);
     return status == RG_OK ? rg_pattern_from_lines(&lines, s, pattern, why) : status;
 }

@@ -12,7 +12,19 @@ typedef struct rg_edge {
     char assignment;   /* 'B' exactly on the sheet's outer border, found topologically */
     double target;     /* wished final fold angle, radians: +pi valley, -pi mountain or as given; NAN: none (U, F) */
     int32_t where;     /* line of the file, 0: none */
+    int32_t line;      /* of the drawing, from 0: that it is or is a part of */
 } rg_edge;
+
+/* Where our numbers come from, as pattern/source.h finds it. */
+typedef struct rg_source {
+    rg_memory mem;
+    int32_t nv, ne, lines; /* lines: of the drawing */
+    int32_t *vertex;       /* [nv] number in the file, -1: none; NULL: nothing is known */
+    int32_t *edge, *where; /* [ne] line of the drawing, from 0, and of the file, 0: none */
+    int y_down;            /* as in rg_lines */
+    char *memo;            /* NULL: none */
+    rg_value *frame;       /* FOLD: all that the file says; NULL: no such file */
+} rg_source;
 
 /* The graph after merging, splitting, dropping loose ends and dissolving straight-through vertices: what is folded.
  * Star of vertex v: star[star_start[v]] ... star[star_start[v+1] - 1], edge numbers counter-clockwise by direction. */
@@ -29,6 +41,8 @@ struct rg_pattern {
     int32_t closed_triples;
     rg_unfoldable *unfoldable;
     int32_t unfoldables;
+    rg_source source;
+    rg_piece *piece;      /* [info.sheets] */
     rg_lines lines;       /* only its metadata and warnings are kept */
 };
 

@@ -296,6 +296,32 @@ rg_status rg_graph_compact(rg_graph *g, const unsigned char *drop)
     return RG_OK;
 }
 
+/* How far the nearest line is that does not end in x; INFINITY: there is none. */
+static double nearest_line(const rg_graph *g, int32_t own, rg_vec2 x)
+{
+    double nearest = INFINITY;
+    for (int32_t e = 0; e < g->ne; e++) {
+        const rg_vec2 a = g->X[g->E[e].v[0]], d = rg_vec2_sub(g->X[g->E[e].v[1]], a), r = rg_vec2_sub(x, a);
+        const double part = fmin(1, fmax(0, rg_vec2_dot(r, d) / rg_vec2_dot(d, d)));
+        if (e != own) nearest = fmin(nearest, hypot(r.x - part * d.x, r.y - part * d.y));
+    }
+    return nearest;
+}
+
+/* What would have joined a loose end: the tolerance, rounded up to two digits; more than SENSIBLE joins what is no gap. */
+static const double SENSIBLE = 0.02;
+
+static rg_status warn_loose(const rg_graph *g, rg_lines *lines, int32_t e, int32_t v, int is_end)
+{
+    const rg_vec2 at = rg_lines_own(lines, g->X[v], g->size);
+    const double far = is_end ? nearest_line(g, e, g->X[v]) : INFINITY, part = far / g->size;
+    if (!(part <= SENSIBLE))
+        return rg_lines_warn(lines, g->E[e].where, "a loose end at (%.6g, %.6g) is left out", at.x, at.y);
+    const double digit = pow(10, floor(log10(part)) - 1);
+    return rg_lines_warn(lines, g->E[e].where, "a loose end at (%.6g, %.6g) is left out: the next line is %.2g away; --merge %.2g joins them", at.x,
+                         at.y, far, ceil(part / digit * (1 + 1e-9)) * digit);
+}
+
 /* Edges that end in the middle of a facet, or outside the sheet, from their free ends inwards. `sum[v]` adds up the
  * edges at v, so that the last one of a vertex is known without a list. */
 static rg_status drop_loose_ends(rg_graph *g, rg_lines *lines)
@@ -316,8 +342,8 @@ static rg_status drop_loose_ends(rg_graph *g, rg_lines *lines)
             drop[e] = 1;
             degree[v]--, degree[w]--;
             sum[w] -= e;
-            if (told++ < MOST_WARNINGS)
-                s = rg_lines_warn(lines, g->E[e].where, "a loose end at (%.6g, %.6g) is left out", g->X[v].x, g->X[v].y);
+            g->loose += g->E[e].assignment != RG_BORDER;
+            if (told++ < MOST_WARNINGS) s = warn_loose(g, lines, e, v, v == start);
             else more++;
             v = w;
         }
@@ -347,6 +373,7 @@ static int is_used(const rg_line *l, const rg_settings *s)
 static rg_status without_length(rg_lines *lines, int32_t where, rg_vec2 at, int *told)
 {
     if (++*told > MOST_WARNINGS) return RG_OK;
+    at = rg_lines_own(lines, at, 0);
     return rg_lines_warn(lines, where, "a line without length at (%.6g, %.6g) is left out", at.x, at.y);
 }
 
@@ -354,7 +381,7 @@ static rg_status without_length(rg_lines *lines, int32_t where, rg_vec2 at, int 
 static rg_status add_line(splitter *s, rg_lines *lines, const rg_line *l, char assignment, int *told)
 {
     const int32_t count = s->points.count;
-    rg_edge e = {{0, 0}, assignment, wish(l), l->where};
+    rg_edge e = {{0, 0}, assignment, wish(l), l->where, (int32_t)(l - lines->line)};
     rg_status status = rg_points_add(&s->points, l->a, &e.v[0]);
     if (status == RG_OK) status = rg_points_add(&s->points, l->b, &e.v[1]);
     if (status == RG_OK && e.v[0] == e.v[1]) {

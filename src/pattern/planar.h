@@ -12,6 +12,7 @@ typedef struct rg_graph {
     int32_t nv, ne;
     size_t room;
     double size;       /* longer side of the bounding box */
+    int32_t loose;     /* creases that were left out as loose ends */
     double merged_max; /* largest distance merged, file units */
 } rg_graph;
 

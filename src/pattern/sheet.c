@@ -6,11 +6,15 @@
 /* A vertex that turns its line by more than this is a corner, however short the lines are. */
 static const double STRAIGHT = 1 * RG_DEG;
 
-static void refuse(rg_pattern_info *info, const char *what, rg_vec2 at)
+static void refuse(rg_pattern_info *info, const rg_lines *lines, const char *what, rg_vec2 at)
 {
     if (!info->is_disk) return; /* the first reason is the one to tell */
     info->is_disk = 0;
+    at = rg_lines_own(lines, at, info->size);
     snprintf(info->not_disk, sizeof info->not_disk, "%s at (%.6g, %.6g)", what, at.x, at.y);
+    const size_t n = strlen(info->not_disk);
+    if (info->sheets > 1)
+        snprintf(info->not_disk + n, sizeof info->not_disk - n, "; --sheet N takes one of the %d, in the order of the file", (int)info->sheets);
 }
 
 /* Is x within the outer border of a piece? It is when a ray from it crosses that border an odd number of times. */
@@ -37,7 +41,7 @@ static int has_border(const rg_graph *g, const rg_faces *f, int32_t piece)
 }
 
 /* The outer border of each piece: its edges, its vertices. More than one piece, a vertex passed twice: not a disk. */
-static rg_status find_rim(const rg_graph *g, const rg_faces *f, unsigned char *rim, unsigned char *outer, rg_pattern_info *info)
+static rg_status find_rim(const rg_graph *g, const rg_faces *f, unsigned char *rim, unsigned char *outer, const rg_lines *lines, rg_pattern_info *info)
 {
     int32_t sheet = -1, other = -1;
     for (int32_t k = 0; k < f->count; k++) {
@@ -56,21 +60,21 @@ static rg_status find_rim(const rg_graph *g, const rg_faces *f, unsigned char *r
             do {
                 const int32_t v = rg_tail(g->E, h);
                 unsigned char *passed = vertices ? &rim[v] : &outer[h >> 1];
-                if (*passed) refuse(info, vertices ? "the border touches itself" : "two parts hang together by one line only", g->X[v]);
+                if (*passed) refuse(info, lines, vertices ? "the border touches itself" : "two parts hang together by one line only", g->X[v]);
                 *passed = 1;
                 h = f->next[h];
             } while (h != f->first[k]);
         }
     if (other < 0) return RG_OK;
     const rg_vec2 at = g->X[rg_tail(g->E, f->first[other])];
-    refuse(info, !encloses(g, f, sheet, at) ? "more than one piece of paper: another one"
+    refuse(info, lines, !encloses(g, f, sheet, at) ? "more than one piece of paper: another one"
                  : has_border(g, f, other) ? "a hole in the paper, with a corner"
                                            : "lines that hang together with nothing else, one of them", at);
     return RG_OK;
 }
 
 /* Facets must be simple polygons, and nothing inside the sheet may be a border. */
-static rg_status check_inside(const rg_graph *g, const rg_faces *f, const unsigned char *outer, rg_pattern_info *info)
+static rg_status check_inside(const rg_graph *g, const rg_faces *f, const unsigned char *outer, const rg_lines *lines, rg_pattern_info *info)
 {
     int32_t *seen = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *seen);
     if (!seen) return RG_ENOMEM;
@@ -85,11 +89,11 @@ static rg_status check_inside(const rg_graph *g, const rg_faces *f, const unsign
             if (g->E[h >> 1].assignment != RG_BORDER || outer[h >> 1]) cut_out = 0;
             h = f->next[h];
         } while (h != f->first[k]);
-        if (cut_out) refuse(info, "a hole in the paper, with a corner", g->X[rg_tail(g->E, h)]);
-        if (twice >= 0) refuse(info, "a facet touches itself", g->X[twice]);
+        if (cut_out) refuse(info, lines, "a hole in the paper, with a corner", g->X[rg_tail(g->E, h)]);
+        if (twice >= 0) refuse(info, lines, "a facet touches itself", g->X[twice]);
     }
     for (int32_t e = 0; e < g->ne; e++)
-        if (g->E[e].assignment == RG_BORDER && !outer[e]) refuse(info, "a slit in the paper (a border line inside)", g->X[g->E[e].v[0]]);
+        if (g->E[e].assignment == RG_BORDER && !outer[e]) refuse(info, lines, "a slit in the paper (a border line inside)", g->X[g->E[e].v[0]]);
     rg_mem_free(&g->mem, seen);
     return RG_OK;
 }
@@ -155,7 +159,7 @@ static rg_status dissolve(rg_graph *g, double tol)
 }
 
 /* Drawn as a crease but on the outside, drawn as a border but inside. */
-static rg_status assign_border(rg_graph *g, const unsigned char *outer, rg_lines *lines)
+static rg_status assign_border(rg_graph *g, const unsigned char *outer, rg_lines *lines, rg_pattern_info *info)
 {
     int32_t mended = 0, first = 0;
     rg_vec2 at = {0, 0};
@@ -170,6 +174,8 @@ static rg_status assign_border(rg_graph *g, const unsigned char *outer, rg_lines
         edge->assignment = RG_BORDER;
         edge->target = NAN;
     }
+    info->lost_creases += mended;
+    at = rg_lines_own(lines, at, g->size);
     return mended ? rg_lines_warn(lines, first, "%d creases on the outside of the sheet are taken for its border, the first from (%.6g, %.6g)",
                                   (int)mended, at.x, at.y)
                   : RG_OK;
@@ -193,10 +199,10 @@ rg_status rg_sheet_from_graph(rg_graph *g, double tol, rg_lines *lines, rg_patte
             info->is_disk = 0;
             snprintf(info->not_disk, sizeof info->not_disk, "no lines that enclose a sheet");
         }
-        s = find_rim(g, &faces, rim, outer, info);
+        s = find_rim(g, &faces, rim, outer, lines, info);
     }
-    if (s == RG_OK) s = check_inside(g, &faces, outer, info);
-    if (s == RG_OK) s = assign_border(g, outer, lines);
+    if (s == RG_OK) s = check_inside(g, &faces, outer, lines, info);
+    if (s == RG_OK) s = assign_border(g, outer, lines, info);
     if (s == RG_OK) s = dissolve(g, tol);
     rg_mem_free(&g->mem, rim);
     rg_mem_free(&g->mem, outer);

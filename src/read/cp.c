@@ -55,6 +55,7 @@ rg_status rg_cp_read(const void *bytes, size_t size, const rg_memory *mem, rg_li
     int32_t where = 0, said = 0;
     rg_status status = RG_OK;
     rg_lines_init(out, mem);
+    out->y_down = 1;
     while (status == RG_OK && s < end) {
         field f[FIELDS];
         const int n = fields(&s, end, f);

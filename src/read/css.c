@@ -1,5 +1,6 @@
 #include "read/css.h"
 #include "base/status.h"
+#include "read/select.h"
 
 #include <string.h>
 
@@ -27,109 +28,126 @@ static const char *trim(const char *s, size_t *n)
     return s;
 }
 
+/* Lines stay lines, for what is told of them. */
 static void blank_comments(char *s)
 {
     for (char *from; (from = strstr(s, "/*"));) {
         char *to = strstr(from + 2, "*/");
         to = to ? to + 2 : from + strlen(from);
-        memset(from, ' ', (size_t)(to - from));
-        s = to;
+        for (s = from; s < to; s++)
+            if (*s != '\n') *s = ' ';
     }
 }
 
-/* How much a selector weighs; -1: not one that is understood. */
-static int weigh(const char *s, size_t n)
+/* What is read: the text, and where what of it is. */
+typedef struct source { const char *text; int32_t line; rg_lines *out; rg_diag *why; } source;
+
+static int32_t line_of(const source *q, const char *at)
 {
-    int rank = n > 0 && *s != '.' && *s != '#' && *s != '*';
-    for (size_t i = 0; i < n; i++) {
-        if (is_blank(s[i]) || strchr(">+~[]:()\"'", s[i])) return -1;
-        rank += s[i] == '.' ? 10 : s[i] == '#' ? 100 : 0;
-    }
-    return n > 0 ? rank : -1;
+    int32_t line = q->line;
+    for (const char *c = q->text; c < at; c++) line += *c == '\n';
+    return line;
 }
 
-static rg_status add_rules(rg_css *css, const char *selectors, size_t n, const char *body, size_t body_n, int line,
-                           rg_diag *why)
+static rg_status untold(const source *q, const char *at, size_t n)
 {
-    for (size_t from = 0, to; from < n; from = to + 1) {
-        for (to = from; to < n && selectors[to] != ',';) to++;
-        size_t length = to - from;
+    char shown[81];
+    at = trim(at, &n);
+    if (n >= sizeof shown) n = sizeof shown - 1;
+    memcpy(shown, at, n);
+    shown[n] = 0;
+    return rg_lines_warn(q->out, line_of(q, at), "style: \"%s\" is not understood and passed over", shown);
+}
+
+static rg_status add_rules(rg_css *css, const source *q, const char *selectors, size_t n, const char *body, size_t body_n)
+{
+    for (size_t from = 0; from <= n;) {
+        size_t length = rg_select_comma(selectors + from, n - from);
+        const size_t next = from + length + 1;
         const char *selector = trim(selectors + from, &length);
-        const int rank = weigh(selector, length);
-        if (rank < 0) continue;
+        const int32_t weight = rg_select_weigh(selector, length);
+        rg_status s = RG_OK;
+        from = next;
+        if (weight < 0) {
+            if ((s = untold(q, selector, length)) != RG_OK) return s;
+            continue;
+        }
         if (css->rules == RG_CSS_MOST_RULES)
-            return rg_fail(RG_EFORMAT, why, line, "more than %d rules of style", (int)RG_CSS_MOST_RULES);
-        rg_status s = rg_mem_grow(&css->mem, (void **)&css->rule, &css->room, (size_t)css->rules + 1, sizeof *css->rule);
+            return rg_fail(RG_EFORMAT, q->why, line_of(q, selector), "more than %d rules of style", (int)RG_CSS_MOST_RULES);
+        s = rg_mem_grow(&css->mem, (void **)&css->rule, &css->room, (size_t)css->rules + 1, sizeof *css->rule);
         if (s != RG_OK) return s;
-        css->rule[css->rules++] = (rg_rule){selector, body, length, body_n, rank};
+        css->rule[css->rules++] = (rg_rule){selector, body, length, body_n, weight};
     }
     return RG_OK;
 }
 
-/* Past an @rule: to its ; or over its block. */
-static const char *skip_at(const char *s)
+/* The } of the { at s, or the end of the text. */
+static const char *block_end(const char *s)
 {
     int depth = 0;
     for (; *s; s++) {
         if (*s == '{') depth++;
-        if ((*s == '}' && --depth <= 0) || (*s == ';' && depth == 0)) return s + 1;
+        if (*s == '}' && --depth <= 0) break;
     }
     return s;
 }
 
-rg_status rg_css_add(rg_css *css, const rg_xml_node *style, rg_diag *why)
+static int begins(const char *s, const char *word) { return strncmp(s, word, strlen(word)) == 0; }
+
+/* @rules that say nothing of how a line is drawn. */
+static int is_harmless(const char *s)
+{
+    static const char *const words[] = {"@font-face", "@keyframes", "@-webkit-keyframes", "@charset", "@namespace", "@page"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (begins(s, words[i])) return 1;
+    return 0;
+}
+
+static int is_for_screens(const char *s)
+{
+    if (!begins(s, "@media")) return 0;
+    size_t n = strcspn(s, "{") - 6;
+    s = trim(s + 6, &n);
+    return (n == 3 && memcmp(s, "all", 3) == 0) || (n == 6 && memcmp(s, "screen", 6) == 0);
+}
+
+/* From an @rule: behind it, or, where it holds here too, into its block. */
+static const char *pass_at(const source *q, const char *s, rg_status *status)
+{
+    const size_t head = strcspn(s, "{;");
+    if (s[head] == '{' && is_for_screens(s)) return s + head + 1; /* its own } is passed over as one that closes nothing */
+    if (!is_harmless(s)) *status = untold(q, s, head);
+    if (s[head] == '{') s = block_end(s + head);
+    else s += head;
+    return *s ? s + 1 : s;
+}
+
+rg_status rg_css_add(rg_css *css, const rg_xml_node *style, rg_lines *l, rg_diag *why)
 {
     rg_status status = rg_mem_grow(&css->mem, (void **)&css->sheet, &css->sheet_room, (size_t)css->sheets + 1,
                                    sizeof *css->sheet);
     char *s = status == RG_OK ? rg_xml_string(&css->mem, style) : NULL;
     if (!s) return RG_ENOMEM;
+    const source q = {s, rg_xml_line(style), l, why};
     css->sheet[css->sheets++] = s;
     blank_comments(s);
     for (const char *at = s; status == RG_OK;) {
-        while (is_blank(*at)) at++;
+        while (is_blank(*at) || *at == '}') at++;
         if (*at == '@') {
-            at = skip_at(at);
+            at = pass_at(&q, at, &status);
             continue;
         }
         const char *body = strchr(at, '{');
         if (!body) break;
-        const char *end = strchr(body, '}');
-        if (!end) end = body + strlen(body);
-        status = add_rules(css, at, (size_t)(body - at), body + 1, (size_t)(end - body - 1), rg_xml_line(style), why);
+        const char *end = block_end(body);
+        if (memchr(body + 1, '{', (size_t)(end - body - 1))) status = untold(&q, at, (size_t)(end - at)); /* rules in rules */
+        else status = add_rules(css, &q, at, (size_t)(body - at), body + 1, (size_t)(end - body - 1));
         at = *end ? end + 1 : end;
     }
     return status;
 }
 
-/* Whether a list of words, with blanks between them, has that one. */
-static int listed(const char *list, const char *word, size_t n)
-{
-    while (*list) {
-        while (is_blank(*list)) list++;
-        size_t length = 0;
-        while (list[length] && !is_blank(list[length])) length++;
-        if (length == n && memcmp(list, word, n) == 0) return n > 0;
-        list += length;
-    }
-    return 0;
-}
-
 static int same(const char *s, const char *word, size_t n) { return strlen(s) == n && memcmp(s, word, n) == 0; }
-
-static int matches(const rg_rule *r, const rg_xml_node *n)
-{
-    const char *s = r->selector, *end = s + r->selector_n;
-    while (s < end) {
-        const char kind = *s == '.' || *s == '#' ? *s++ : 'e';
-        size_t length = 0;
-        while (s + length < end && s[length] != '.' && s[length] != '#') length++;
-        if (kind == '.' && !listed(rg_xml_attribute(n, "class"), s, length)) return 0;
-        if (kind == '#' && !same(rg_xml_attribute(n, "id"), s, length)) return 0;
-        if (kind == 'e' && !same("*", s, length) && !same(rg_xml_name(n), s, length)) return 0;
-        s += length;
-    }
-    return 1;
-}
 
 static void copy(char value[RG_CSS_VALUE], const char *s, size_t n)
 {
@@ -141,7 +159,7 @@ static void copy(char value[RG_CSS_VALUE], const char *s, size_t n)
     value[n] = 0;
 }
 
-/* `name: value; name: value`; the last one counts. */
+/* `name: value; name: value`; the last one counts, of the important ones where there are some. 0: none, 2: important. */
 static int declared(const char *s, size_t n, const char *property, char value[RG_CSS_VALUE])
 {
     int found = 0;
@@ -152,22 +170,30 @@ static int declared(const char *s, size_t n, const char *property, char value[RG
         size_t length = (size_t)(colon - (s + from));
         const char *name = trim(s + from, &length);
         if (!same(property, name, length)) continue;
-        copy(value, colon + 1, (size_t)(s + to - colon - 1));
-        found = value[0] != 0;
+        const size_t value_n = (size_t)(s + to - colon - 1);
+        const int important = memchr(colon + 1, '!', value_n) != NULL;
+        if (found == 2 && !important) continue;
+        copy(value, colon + 1, value_n);
+        found = !value[0] ? 0 : important ? 2 : 1;
     }
     return found;
 }
 
+/* A style of its own weighs more than any rule, and what is important more than what is not. */
+enum { OF_STYLE = 1 << 29, OF_IMPORTANT = 1 << 30 };
+
 int rg_css_get(const rg_css *css, const rg_xml_node *n, const char *property, char value[RG_CSS_VALUE])
 {
     const char *style = rg_xml_attribute(n, "style"), *attribute = rg_xml_attribute(n, property);
-    if (declared(style, strlen(style), property, value)) return 1;
-    int best = -1;
+    const int own = declared(style, strlen(style), property, value);
+    int64_t best = own == 2 ? (int64_t)OF_IMPORTANT + OF_STYLE : own ? OF_STYLE : -1;
     for (int32_t i = 0; i < css->rules; i++) {
         const rg_rule *r = &css->rule[i];
         char found[RG_CSS_VALUE];
-        if (r->rank < best || !matches(r, n) || !declared(r->body, r->body_n, property, found)) continue;
-        best = r->rank;
+        const int how = declared(r->body, r->body_n, property, found);
+        const int64_t weight = r->weight + (how == 2 ? (int64_t)OF_IMPORTANT : 0);
+        if (!how || weight < best || !rg_select_matches(r->selector, r->selector_n, n)) continue;
+        best = weight;
         memcpy(value, found, sizeof found);
     }
     if (best >= 0) return 1;

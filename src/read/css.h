@@ -1,14 +1,14 @@
 /* css.h -- as much of style sheets as drawings of creases need: properties of an element by its tag, class and name.
- * Uses  xml.h        Used by  svg.c
+ * Uses  xml.h select.h lines.h        Used by  svg.c
  *
- * Selectors of one part are understood (line, .valley, line.valley, #rim, *, and lists of them); others, and what
- * stands in @rules, are passed over. */
+ * Rules with selectors of select.h, in @media all and screen too. What is not understood is passed over and told. */
 #ifndef RG_CSS_H
 #define RG_CSS_H
 
+#include "read/lines.h"
 #include "read/xml.h"
 
-typedef struct rg_rule { const char *selector, *body; size_t selector_n, body_n; int rank; } rg_rule;
+typedef struct rg_rule { const char *selector, *body; size_t selector_n, body_n; int32_t weight; } rg_rule;
 
 typedef struct rg_css {
     rg_memory mem;
@@ -23,8 +23,8 @@ enum { RG_CSS_VALUE = 120, RG_CSS_MOST_RULES = 2000 };
 
 void rg_css_init(rg_css *css, const rg_memory *mem);
 void rg_css_free(rg_css *css);
-/* The rules of a <style> are taken in. RG_EFORMAT: there are too many; RG_ENOMEM. */
-rg_status rg_css_add(rg_css *css, const rg_xml_node *style, rg_diag *why);
+/* The rules of a <style> are taken in; l: for warnings. RG_EFORMAT: there are too many; RG_ENOMEM. */
+rg_status rg_css_add(rg_css *css, const rg_xml_node *style, rg_lines *l, rg_diag *why);
 /* What a property is for an element itself: by its `style`, by the rules, by its own attribute. 0: nothing is said.
  * A longer value than there is room for is cut. */
 int rg_css_get(const rg_css *css, const rg_xml_node *n, const char *property, char value[RG_CSS_VALUE]);

@@ -1,7 +1,9 @@
 #include "read/fold.h"
 #include "base/memory.h"
 #include "base/status.h"
+#include "base/unit.h"
 #include "read/locate.h"
+#include "read/plane.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -244,55 +246,43 @@ static rg_status angles(reader *r)
 
 /* --------------------------------------------------------------------------------------------------- plane ---- */
 
-/* Two axes of the plane that the vertices lie in, seen with the third one pointing at the eye. 0: they lie in none. */
-static int find_plane(const reader *r, rg_vec3 *e1, rg_vec3 *e2)
+/* The lines that show whether the vertices lie in a plane: edges, or the sides of faces. *pair: out, the caller's. */
+static rg_status ends(const reader *r, int32_t **pair, int32_t *pairs)
 {
-    const rg_vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
-    const rg_vec3 o = r->nv ? r->space[0] : x;
-    rg_vec3 d = {0, 0, 0}, n = d;
-    double off = 0;
-    *e1 = x;
-    *e2 = y;
-    for (int32_t i = 0; i < r->nv; i++) {
-        const rg_vec3 v = rg_vec3_sub(r->space[i], o);
-        if (rg_vec3_length(v) > rg_vec3_length(d)) d = v;
-    }
-    const double size = rg_vec3_length(d);
-    if (!(size > 0) || !isfinite(size)) return 1;
-    d = rg_vec3_scale(1 / size, d);
-    for (int32_t i = 0; i < r->nv; i++) {
-        const rg_vec3 c = rg_vec3_cross(d, rg_vec3_sub(r->space[i], o));
-        if (rg_vec3_length(c) > rg_vec3_length(n)) n = c;
-    }
-    if (!(rg_vec3_length(n) > 0)) return 1;
-    n = rg_vec3_scale(1 / rg_vec3_length(n), n);
-    for (int32_t i = 0; i < r->nv; i++) off = fmax(off, fabs(rg_vec3_dot(n, rg_vec3_sub(r->space[i], o))));
-    if (!(off <= FLATNESS * size)) return 0;
-    const rg_vec3 size_of = {fabs(n.x), fabs(n.y), fabs(n.z)};
-    if (size_of.x + size_of.y <= FLATNESS) return 1; /* planes of two axes: the coordinates stay what they are */
-    if (size_of.x + size_of.z <= FLATNESS) return *e2 = rg_vec3_scale(-1, z), 1;
-    if (size_of.y + size_of.z <= FLATNESS) return *e1 = y, *e2 = z, 1;
-    const double largest = size_of.x > size_of.y ? (size_of.x > size_of.z ? n.x : n.z) : size_of.y > size_of.z ? n.y : n.z;
-    n = rg_vec3_scale(largest < 0 ? -1 : 1, n);
-    *e1 = rg_vec3_cross(size_of.z < 0.9 ? z : y, n);
-    *e1 = rg_vec3_scale(1 / rg_vec3_length(*e1), *e1);
-    *e2 = rg_vec3_cross(n, *e1);
-    return 1;
+    *pairs = r->ne ? r->ne : r->sides;
+    *pair = rg_mem_array(&r->out->mem, (size_t)*pairs, 2 * sizeof **pair);
+    if (!*pair) return RG_ENOMEM;
+    if (r->ne) memcpy(*pair, r->E, 2 * (size_t)r->ne * sizeof **pair);
+    for (int32_t f = 0; !r->ne && f < r->nf; f++)
+        for (int32_t k = r->face_start[f], end = r->face_start[f + 1]; k < end; k++) {
+            (*pair)[2 * k] = r->face_vertex[k];
+            (*pair)[2 * k + 1] = r->face_vertex[k + 1 < end ? k + 1 : r->face_start[f]];
+        }
+    return RG_OK;
 }
 
 static rg_status flatten(reader *r)
 {
-    rg_vec3 e1, e2;
-    if (!find_plane(r, &e1, &e2)) {
+    rg_plane p;
+    int32_t *pair = NULL, pairs;
+    rg_status s = ends(r, &pair, &pairs);
+    if (s != RG_OK) return s;
+    const int flat = rg_plane_find(r->space, r->nv, pair, pairs, FLATNESS, r->s->merge, &p);
+    if (!flat) {
+        const int32_t v = pairs ? pair[2 * p.at] : 0, w = pairs ? pair[2 * p.at + 1] : 0;
+        rg_mem_free(&r->out->mem, pair);
         r->is_folded = 1;
-        return bad(r, "vertices_coords: a folded form, its vertices do not lie in one plane; a crease pattern is needed");
+        return bad(r, "vertices_coords: a folded form, its vertices do not lie in one plane: flat, the line from vertex %d to %d would be %.3g"
+                      " shorter; a crease pattern is needed", (int)v, (int)w, p.change);
     }
+    rg_mem_free(&r->out->mem, pair);
     if (!(r->X = rg_mem_array(&r->out->mem, (size_t)r->nv, sizeof *r->X))) return RG_ENOMEM;
     for (int32_t i = 0; i < r->nv; i++) {
-        const double y = rg_vec3_dot(e2, r->space[i]);
-        r->X[i] = (rg_vec2){rg_vec3_dot(e1, r->space[i]), r->s->flip ? -y : y};
+        const double y = rg_vec3_dot(p.e2, r->space[i]);
+        r->X[i] = (rg_vec2){rg_vec3_dot(p.e1, r->space[i]), r->out->y_down ? -y : y};
     }
-    return RG_OK;
+    if (flat == 2) return RG_OK;
+    return warn(r, "vertices_coords: they are off a plane by up to %.3g, and taken for flat: no line is changed by more than %.3g", p.off, p.change);
 }
 
 /* --------------------------------------------------------------------------------------------------- faces ---- */
@@ -440,6 +430,32 @@ static rg_status add_lines(reader *r, int turn)
 
 /* ------------------------------------------------------------------------------------------------ metadata ---- */
 
+static int contains(const char *text, const char *word)
+{
+    const size_t n = strlen(word);
+    for (; text && *text; text++) {
+        size_t i = 0;
+        while (i < n && (text[i] | 32) == word[i]) i++;
+        if (i == n) return 1;
+    }
+    return 0;
+}
+
+/* Programs that draw with y downwards, and write their coordinates as they are. */
+static int draws_down(const reader *r)
+{
+    const char *creator = rg_value_text(rg_value_get(r->root, "file_creator"));
+    return contains(creator, "oriedita") || contains(creator, "oripa") || contains(creator, "orihime");
+}
+
+/* With no faces, nothing but the program's own habit says which side of the paper is seen. */
+static rg_status warn_of_side(reader *r)
+{
+    if (r->nf > 0 || r->s->flip || draws_down(r) || contains(rg_value_text(rg_value_get(r->root, "file_creator")), "rigami")) return RG_OK;
+    return warn(r, "faces_vertices: there are none, so that nothing says which side is seen: y is taken to point up; --flip if the model"
+                   " comes out as in a mirror");
+}
+
 static rg_status say(rg_lines *l, const rg_value *v, char **to)
 {
     const char *text = rg_value_text(v);
@@ -460,6 +476,8 @@ static rg_status metadata(reader *r)
         if (s == RG_OK) s = say(l, rg_value_get(r->root, keys[i].key), keys[i].to);
     }
     double spec;
+    l->metres = rg_unit_metres(rg_value_text(rg_value_get(r->frame, "frame_unit")));
+    if (s == RG_OK) s = warn_of_side(r);
     if (s == RG_OK && rg_value_number(rg_value_get(r->root, "file_spec"), &spec) && spec >= 2)
         s = rg_lines_warn(l, 0, "file_spec: %g is newer than what is known here, parts may be missed", spec);
     return s;
@@ -575,6 +593,7 @@ rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, con
     if (s == RG_OK && rg_value_kind(root) != RG_KIND_OBJECT)
         s = rg_fail(RG_EFORMAT, why, 1, "JSON, but no FOLD: it is no object");
     reader r = {.out = out, .why = why, .s = settings, .text = bytes, .size = size, .root = root};
+    if (s == RG_OK) out->y_down = draws_down(&r) != (settings->flip != 0);
     if (s == RG_OK) s = choose(&r);
     if (s == RG_EFORMAT && root && why) find_line(&r, why);
     for (int32_t i = 0; s == RG_OK && i < out->warnings; i++) find_line(&r, &out->warning[i]);

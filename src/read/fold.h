@@ -5,7 +5,7 @@
  * file run counter-clockwise seen from the front: where they run clockwise, the drawing shows the back, and mountain
  * and valley are exchanged here. 'J' is read as an auxiliary line, 'C' as a border inside the paper. Coordinates in
  * space are read where they lie in one plane; a folded form is told by faces that are turned over, whatever its class.
- * y points up in the file. */
+ * y points up in the file, but for those of programs that draw it downwards (file_creator). */
 #ifndef RG_FOLD_READ_H
 #define RG_FOLD_READ_H
 

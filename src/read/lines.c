@@ -15,8 +15,8 @@ void rg_lines_free(rg_lines *l)
 {
     if (!l->mem.resize) return;
     rg_memory mem = l->mem;
-    void *block[] = {l->line, l->title, l->author, l->editor, l->reference, l->memo, l->warning, l->vertex};
-    for (int i = 0; i < 8; i++) rg_mem_free(&mem, block[i]);
+    void *block[] = {l->line, l->title, l->author, l->editor, l->reference, l->memo, l->warning, l->vertex, l->trait};
+    for (int i = 0; i < 9; i++) rg_mem_free(&mem, block[i]);
     rg_value_free(l->frame);
     memset(l, 0, sizeof *l);
 }
@@ -44,4 +44,30 @@ rg_status rg_lines_warn(rg_lines *l, int32_t where, const char *format, ...)
     va_end(args);
     d->line = where;
     return RG_OK;
+}
+
+rg_status rg_lines_trait(rg_lines *l, rg_trait_sort sort, const char *name, size_t n, char assignment)
+{
+    if (n >= RG_TRAIT_ROOM) n = RG_TRAIT_ROOM - 1;
+    if (n == 0) return RG_OK;
+    for (int32_t i = 0; i < l->traits; i++) {
+        rg_trait *t = &l->trait[i];
+        if (t->sort != sort || strncmp(t->name, name, n) != 0 || t->name[n]) continue;
+        if (t->assignment != assignment) t->assignment = 0;
+        t->count++;
+        return RG_OK;
+    }
+    if (l->traits == RG_MOST_TRAITS) return RG_OK;
+    const rg_status s = rg_mem_grow(&l->mem, (void **)&l->trait, &l->trait_room, (size_t)l->traits + 1, sizeof *l->trait);
+    if (s != RG_OK) return s;
+    rg_trait *t = &l->trait[l->traits++];
+    *t = (rg_trait){.sort = sort, .assignment = assignment, .count = 1};
+    memcpy(t->name, name, n);
+    return RG_OK;
+}
+
+rg_vec2 rg_lines_own(const rg_lines *l, rg_vec2 x, double size)
+{
+    const double y = l->y_down ? -x.y : x.y;
+    return (rg_vec2){fabs(x.x) > 1e-9 * size ? x.x : 0, fabs(y) > 1e-9 * size ? y : 0};
 }

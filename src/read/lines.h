@@ -21,6 +21,16 @@ typedef struct rg_line {
     int32_t where;     /* line of the file, 0: none */
 } rg_line;
 
+/* What drawing programs tell lines apart by, and how often it was found: so that its user can say what it stands for. */
+typedef enum rg_trait_sort { RG_BY_COLOUR, RG_BY_LAYER, RG_BY_DASH, RG_TRAIT_SORTS } rg_trait_sort;
+enum { RG_TRAIT_ROOM = 48, RG_MOST_TRAITS = 200, RG_MOST_KINDS = 64 };
+typedef struct rg_trait {
+    rg_trait_sort sort;
+    char name[RG_TRAIT_ROOM];
+    char assignment; /* what its lines were taken for; 0: for several kinds */
+    int32_t count;
+} rg_trait;
+
 typedef struct rg_lines {
     rg_memory mem;
     rg_line *line;
@@ -30,6 +40,12 @@ typedef struct rg_lines {
     rg_diag *warning;
     int32_t warnings;
     size_t warning_room;
+    rg_trait *trait;
+    int32_t traits;
+    size_t trait_room;
+    uint64_t kinds_used; /* of rg_settings.kind, a bit each: those that some line was of */
+    int y_down;      /* the file's y points down: it was turned round */
+    double metres;   /* in a unit of the coordinates; 0: the file does not say */
     double merge;    /* tolerance that the format is usually drawn to, a part of the size; 0: the general one */
     rg_value *frame; /* FOLD, where asked for: the frame read, with what it inherits; NULL otherwise */
     int32_t *vertex; /* ... and the numbers of each line's two ends there, [2 count] */
@@ -39,8 +55,13 @@ void rg_lines_init(rg_lines *l, const rg_memory *mem);
 void rg_lines_free(rg_lines *l);
 enum { RG_MOST_WARNINGS = 1000 }; /* one more says that there are more */
 
-/* Both: RG_ENOMEM leaves *l as it was. */
+/* A coordinate as the file has it, for messages: its own y, and no rounding where 0 is meant (`size`: of the sheet). */
+rg_vec2 rg_lines_own(const rg_lines *l, rg_vec2 x, double size);
+
+/* All: RG_ENOMEM leaves *l as it was. */
 rg_status rg_lines_add(rg_lines *l, rg_vec2 a, rg_vec2 b, char assignment, int32_t where);
 rg_status rg_lines_warn(rg_lines *l, int32_t where, const char *format, ...);
+/* Counts a line of that trait; of more than RG_MOST_TRAITS the rest is forgotten. Longer names are cut. */
+rg_status rg_lines_trait(rg_lines *l, rg_trait_sort sort, const char *name, size_t n, char assignment);
 
 #endif

@@ -160,6 +160,7 @@ rg_status rg_opx_read(const void *bytes, size_t size, const rg_memory *mem, rg_l
 {
     rg_xml *doc = NULL;
     rg_lines_init(out, mem);
+    out->y_down = 1;
     rg_status s = rg_xml_parse(bytes, size, RG_XML_NO_TYPE, &doc, why);
     if (s == RG_OK) {
         reader r = {out, why, NULL};

@@ -5,7 +5,9 @@
 #include "read/cp.h"
 #include "read/dxf.h"
 #include "read/fold.h"
+#include "read/kinds.h"
 #include "read/opx.h"
+#include "read/ori.h"
 #include "read/svg.h"
 
 #include <errno.h>
@@ -100,7 +102,7 @@ static int is_cp(text t)
 static rg_format by_content(text t)
 {
     t = skip_blanks(t);
-    if (begins(t, "{")) return RG_FORMAT_FOLD;
+    if (begins(t, "{")) return skip_to(t, "\"lineSegments\"").s < t.end ? RG_FORMAT_ORI : RG_FORMAT_FOLD;
     if (begins(t, "<")) {
         const text root = find_root(t);
         return named(root, "java") ? RG_FORMAT_OPX : named(root, "svg") ? RG_FORMAT_SVG : RG_FORMAT_AUTO;
@@ -123,7 +125,8 @@ rg_format rg_read_extension(const char *path)
 {
     static const struct { const char *extension; rg_format format; } known[] = {
         {"opx", RG_FORMAT_OPX}, {"xml", RG_FORMAT_OPX}, {"cp", RG_FORMAT_CP}, {"fold", RG_FORMAT_FOLD},
-        {"json", RG_FORMAT_FOLD}, {"svg", RG_FORMAT_SVG}, {"dxf", RG_FORMAT_DXF}};
+        {"json", RG_FORMAT_FOLD}, {"svg", RG_FORMAT_SVG}, {"dxf", RG_FORMAT_DXF},
+        {"ori", RG_FORMAT_ORI}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (has_extension(path, known[i].extension)) return known[i].format;
     return RG_FORMAT_AUTO;
@@ -132,7 +135,6 @@ rg_format rg_read_extension(const char *path)
 /* Files that people take for crease patterns, or that are saved in a way that cannot be read. */
 static const char *refusal(text t, const char *path)
 {
-    if (has_extension(path, "ori")) return "an Oriedita .ori file is not read: save it as .fold or .cp";
     if (has_extension(path, "orh")) return "an Orihime .orh file is not read: save it as .fold or .cp";
     if (begins(t, "AutoCAD Binary DXF")) return "a binary DXF file is not read: save it as text (ASCII)";
     if (begins(t, "\xFF\xFE") || begins(t, "\xFE\xFF")) return "the text is UTF-16: save it as UTF-8";
@@ -154,7 +156,7 @@ rg_status rg_read_format(const void *bytes, size_t size, const char *path, const
     if (*format == RG_FORMAT_AUTO) *format = by_content(t);
     if (*format == RG_FORMAT_AUTO) *format = rg_read_extension(path);
     if (*format != RG_FORMAT_AUTO) return RG_OK;
-    return rg_fail(RG_EFORMAT, why, 1, "not a crease pattern that is known: ORIPA's .opx, .cp, .fold, .svg or .dxf");
+    return rg_fail(RG_EFORMAT, why, 1, "not a crease pattern that is known: ORIPA's .opx, .cp, .fold, .svg, .dxf or .ori");
 }
 
 rg_status rg_read_bytes(const void *bytes, size_t size, const char *path, const rg_settings *s, int keep, rg_lines *out,
@@ -166,16 +168,20 @@ rg_status rg_read_bytes(const void *bytes, size_t size, const char *path, const 
         bytes = (const char *)bytes + 3;
         size -= 3;
     }
-    rg_status status = rg_read_format(bytes, size, path, s, &format, why);
+    rg_status status = rg_kinds_check(s, why);
+    if (status == RG_OK) status = rg_read_format(bytes, size, path, s, &format, why);
     if (status != RG_OK) return status;
     switch (format) {
     case RG_FORMAT_OPX: status = rg_opx_read(bytes, size, &mem, out, why); break;
     case RG_FORMAT_CP: status = rg_cp_read(bytes, size, &mem, out, why); break;
-    case RG_FORMAT_SVG: status = rg_svg_read(bytes, size, &mem, s->targets, out, why); break;
-    case RG_FORMAT_DXF: status = rg_dxf_read(bytes, size, &mem, out, why); break;
+    case RG_FORMAT_SVG: status = rg_svg_read(bytes, size, &mem, s, out, why); break;
+    case RG_FORMAT_DXF: status = rg_dxf_read(bytes, size, &mem, s, out, why); break;
     case RG_FORMAT_FOLD: status = rg_fold_read(bytes, size, &mem, s, keep, out, why); break;
+    case RG_FORMAT_ORI: status = rg_ori_read(bytes, size, &mem, out, why); break;
     default: return rg_fail(RG_EARG, why, 0, "there is no such format");
     }
+    if (status == RG_OK) status = rg_kinds_warn_unused(s, out);
+    if (status == RG_OK && s->flip && format != RG_FORMAT_FOLD) out->y_down = !out->y_down;
     if (status == RG_ENOMEM) return rg_fail(status, why, 0, "out of memory");
     for (int32_t i = 0; status == RG_OK && s->flip && format != RG_FORMAT_FOLD && i < out->count; i++) {
         out->line[i].a.y = -out->line[i].a.y;

@@ -5,7 +5,9 @@
 #include "read/colour.h"
 #include "read/css.h"
 #include "read/ids.h"
+#include "read/kinds.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* Illustrator rounds to 0.001 of a point, Origami Simulator merges within 3 pixels. */
@@ -17,10 +19,19 @@ static const double STRAIGHT = 1e-6;
 /* What <use> repeats is bounded in sum, counted about as its bytes, and so is how deep the elements stand in each other. */
 enum { MOST_REPEATED = 1 << 24, OF_ELEMENT = 64, OF_SEGMENT = 16, MOST_NESTED = 512 };
 
-/* What an element hands down to those inside it. */
+/* Strokes of no plain colour that are told by name, and steps from one var() to the next. */
+enum { MOST_UNKNOWN = 16, MOST_VARIABLES = 8 };
+
+/* What an element hands down to those inside it. Texts are as long as a value of a style may be. */
 typedef struct paint {
     int stroked, hidden, known; /* known: `stroke` is its colour */
     rg_colour stroke;
+    char paint[RG_CSS_VALUE], color[RG_CSS_VALUE], dash[RG_CSS_VALUE];
+    const char *layer; /* what the inmost group around is called; NULL: nothing */
+    char named;        /* what some name around says that it is; 0: nothing */
+    char letter;       /* what data-assignment says; 0: nothing */
+    int kind;          /* which of the user's kinds some name around is of; -1: none */
+    double angle;      /* what data-foldAngle says, radians; NAN: nothing */
     double alpha, stroke_opacity, opacity; /* opacity: of all groups around too */
     double w, h; /* of the viewport, NAN: not known */
     rg_affine m;
@@ -29,15 +40,25 @@ typedef struct paint {
 /* The <use> that are being followed, inmost first. */
 typedef struct chain { const rg_xml_node *user, *target; const struct chain *out; } chain;
 
+/* How many of a kind there are, and the line of the first. */
+typedef struct tally { int32_t count, where; char text[RG_CSS_VALUE]; } tally;
+
 typedef struct reader {
     rg_lines *out;
     rg_diag *why;
+    const rg_settings *s;
     rg_css css;
     rg_ids ids;
     const chain *uses;
     int64_t repeated;
-    int targets, depth, told_colour, told_ring;
+    int depth;
+    tally hidden, unpainted, rings, curves, unwanted, unknown[MOST_UNKNOWN];
 } reader;
+
+static void tell(tally *t, const rg_xml_node *n)
+{
+    if (!t->count++) t->where = rg_xml_line(n);
+}
 
 static rg_status fail(const reader *r, const rg_xml_node *n, const char *what, const char *detail)
 {
@@ -61,26 +82,37 @@ static int next_number(const char **s, double *x)
     return used > 0;
 }
 
-/* 0: not a length, or in units that are not known. */
-static int pixels(const char *s, double *x)
+/* A number and its unit, in pixels; *metric: whether that unit is a length on paper. A percentage is one of `whole`. 0: not a
+ * length, or in units that are not known. */
+static int pixels(const char *s, double whole, double *x, int *metric)
 {
-    static const struct { const char *unit; double pixels; } units[] = {
-        {"", 1}, {"px", 1}, {"pt", 96.0 / 72}, {"pc", 16}, {"in", 96}, {"cm", 96 / 2.54}, {"mm", 96 / 25.4}};
+    static const struct { const char *unit; double pixels; int metric; } units[] = {
+        {"", 1, 0}, {"px", 1, 0}, {"pt", 96.0 / 72, 1}, {"pc", 16, 1}, {"in", 96, 1}, {"cm", 96 / 2.54, 1}, {"mm", 96 / 25.4, 1},
+        {"Q", 96 / 101.6, 1}};
     double number;
     if (!next_number(&s, &number)) return 0;
     const size_t unit = strcspn(s, " \t\r\n");
     if (s[unit + strspn(s + unit, " \t\r\n")]) return 0;
+    *metric = 0;
+    if (unit == 1 && *s == '%') return *x = number / 100 * whole, !isnan(whole);
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
-        if (strlen(units[i].unit) == unit && strncmp(units[i].unit, s, unit) == 0) return *x = number * units[i].pixels, 1;
+        if (strlen(units[i].unit) == unit && strncmp(units[i].unit, s, unit) == 0) {
+            *metric = units[i].metric;
+            return *x = number * units[i].pixels, 1;
+        }
     return 0;
 }
 
-static rg_status length(const reader *r, const rg_xml_node *n, const char *name, double *x)
+/* Of an attribute; percentages are of the viewport's width, or height, or what is between them for a radius. */
+static rg_status length(const reader *r, const rg_xml_node *n, const paint *p, const char *name, double *x)
 {
     const char *s = rg_xml_attribute(n, name);
+    const int is_wide = strchr(name, 'x') != NULL || strcmp(name, "width") == 0;
+    int metric;
     *x = 0;
-    if (!*s || pixels(s, x)) return RG_OK;
-    return rg_fail(RG_EFORMAT, r->why, rg_xml_line(n), "<%.20s>: %s is not a length in units that are known: \"%.60s\"",
+    if (!*s || pixels(s, is_wide ? p->w : p->h, x, &metric)) return RG_OK;
+    return rg_fail(RG_EFORMAT, r->why, rg_xml_line(n), strchr(s, '%') ? "<%.20s>: %s is a part of a size that the drawing does not say: \"%.60s\""
+                                                       : "<%.20s>: %s is not a length in units that are known: \"%.60s\"",
                    rg_xml_name(n), name, s);
 }
 
@@ -140,6 +172,121 @@ static void opacity(const reader *r, const rg_xml_node *n, const char *name, dou
     *x = v < 0 ? 0 : fmin(v, 1);
 }
 
+static int begins(const char *s, const char *word) { return strncmp(s, word, strlen(word)) == 0; }
+
+/* The value of var(--name, otherwise) for an element: its own, or of what is around it, or otherwise. 0: none. */
+static int variable(const reader *r, const rg_xml_node *n, char value[RG_CSS_VALUE])
+{
+    char name[RG_CSS_VALUE], otherwise[RG_CSS_VALUE] = "";
+    const char *s = value + strlen("var(");
+    s += strspn(s, " \t\r\n");
+    const size_t length = strcspn(s, ", \t\r\n)");
+    memcpy(name, s, length);
+    name[length] = 0;
+    const char *comma = strchr(s + length, ','), *end = strrchr(s, ')');
+    if (comma) comma += 1 + strspn(comma + 1, " \t\r\n");
+    if (comma && end > comma) snprintf(otherwise, sizeof otherwise, "%.*s", (int)(end - comma), comma);
+    for (; n; n = rg_xml_parent(n))
+        if (rg_css_get(&r->css, n, name, value)) return 1;
+    memcpy(value, otherwise, sizeof otherwise);
+    return value[0] != 0;
+}
+
+/* The colour of a gradient that has only one, as some programs keep their swatches. 0: it has several, or is none. */
+static int swatch(const reader *r, const char *id, rg_colour *c, double *alpha)
+{
+    const rg_xml_node *n = rg_ids_find(&r->ids, id);
+    for (int step = 0; n && step < MOST_VARIABLES; step++) {
+        char value[RG_CSS_VALUE];
+        int stops = 0, same = 1;
+        for (const rg_xml_node *stop = rg_xml_child(n); stop; stop = rg_xml_next(stop)) {
+            rg_colour one;
+            if (!rg_xml_is(stop, "stop")) continue;
+            if (!rg_css_get(&r->css, stop, "stop-color", value) || !rg_colour_parse(value, &one, alpha)) return 0;
+            same &= !stops || (one.r == c->r && one.g == c->g && one.b == c->b);
+            *c = one;
+            stops++;
+        }
+        if (stops > 0) return same;
+        const char *next = rg_xml_attribute(n, "href");
+        n = *next == '#' ? rg_ids_find(&r->ids, next + 1) : NULL;
+    }
+    return 0;
+}
+
+/* Past the first colour of a paint, behind which others may stand for other machines: "#f00 icc-color(...)". */
+static size_t first_colour(const char *s)
+{
+    const size_t name = strcspn(s, "( \t\r\n");
+    return s[name] == '(' ? name + strcspn(s + name, ")") + (strchr(s, ')') != NULL) : name;
+}
+
+/* The colour of a paint. 0: none that is plain; -1: nothing is painted. */
+static int plain_colour(const reader *r, const rg_xml_node *n, const paint *p, rg_colour *c, double *alpha)
+{
+    char value[RG_CSS_VALUE], id[RG_CSS_VALUE];
+    snprintf(value, sizeof value, "%s", p->paint);
+    for (int step = 0; step < MOST_VARIABLES; step++) {
+        if (begins(value, "var(")) {
+            if (!variable(r, n, value)) return 0;
+        } else if (begins(value, "url(")) {
+            const size_t from = 4 + strspn(value + 4, "\"' "), length = strcspn(value + from, "\"' )"), end = strcspn(value, ")");
+            snprintf(id, sizeof id, "%.*s", (int)length, value + from);
+            if (*id == '#' && swatch(r, id + 1, c, alpha)) return 1;
+            if (!value[end] || !value[end + 1 + strspn(value + end + 1, " \t")]) return 0;
+            const char *other = value + end + 1 + strspn(value + end + 1, " \t");
+            memmove(value, other, strlen(other) + 1);
+        } else break;
+    }
+    if (is(value, "currentColor") || is(value, "currentcolor")) snprintf(value, sizeof value, "%s", p->color);
+    if (is(value, "none") || is(value, "transparent")) return -1;
+    value[first_colour(value)] = 0;
+    return rg_colour_parse(value, c, alpha);
+}
+
+/* ----------------------------------------------------------------------------------------------- what it is ---- */
+
+static char letter_of(const char *s)
+{
+    static const char letters[] = "BMVFUCJ";
+    const char c = *s >= 'a' && *s <= 'z' ? (char)(*s - 'a' + 'A') : *s;
+    if (!c || s[1] || !strchr(letters, c)) return 0;
+    return c == 'C' ? RG_BORDER : c == 'J' ? RG_FLAT : c;
+}
+
+static void of_name(const reader *r, paint *p, const char *name, size_t n)
+{
+    const char says = rg_kinds_of_name(name, n);
+    const int kind = rg_kinds_find(r->s, RG_BY_LAYER, name, n);
+    if (says) p->named = says;
+    if (kind > p->kind) p->kind = kind;
+}
+
+/* Names of an element: its label, its id, its classes; and what it says of itself as data. */
+static void names(const reader *r, const rg_xml_node *n, paint *p)
+{
+    const char *label = rg_xml_attribute(n, "label"), *id = rg_xml_attribute(n, "id"), *words = rg_xml_attribute(n, "class");
+    const char *data = rg_xml_attribute(n, "data-assignment");
+    static const char *const angles[] = {"data-foldAngle", "data-foldangle", "data-fold-angle"};
+    double degrees;
+    if (is(rg_xml_name(n), "g") || is(rg_xml_name(n), "symbol")) {
+        if (*label || *id) p->layer = *label ? label : id;
+        else if (*words) p->layer = words;
+    } else if (*label || *words) p->layer = *label ? label : words;
+    of_name(r, p, id, strlen(id));
+    of_name(r, p, label, strlen(label));
+    for (const char *s = words; *s;) {
+        const size_t n_of = strcspn(s, " \t\r\n");
+        of_name(r, p, s, n_of);
+        s += n_of + strspn(s + n_of, " \t\r\n");
+    }
+    if (letter_of(data)) p->letter = letter_of(data);
+    for (int i = 0; i < 3; i++) {
+        const char *text = rg_xml_attribute(n, angles[i]);
+        if (*text && rg_number_parse(text, strlen(text), &degrees) && fabs(degrees) <= 180) p->angle = degrees * RG_DEG;
+    }
+}
+
 /* What n is painted with, after what is around it. 0: it is not there at all. */
 static int repaint(const reader *r, const rg_xml_node *n, paint *p)
 {
@@ -147,14 +294,54 @@ static int repaint(const reader *r, const rg_xml_node *n, paint *p)
     double own = 1;
     if (rg_css_get(&r->css, n, "display", value) && is(value, "none")) return 0;
     if (rg_css_get(&r->css, n, "visibility", value) && !is(value, "inherit")) p->hidden = !is(value, "visible");
+    names(r, n, p);
     opacity(r, n, "opacity", &own);
     p->opacity *= own;
     opacity(r, n, "stroke-opacity", &p->stroke_opacity);
-    if (!rg_css_get(&r->css, n, "stroke", value) || is(value, "inherit")) return 1;
-    p->stroked = !is(value, "none") && !is(value, "transparent");
-    if (is(value, "currentColor") && !rg_css_get(&r->css, n, "color", value)) strcpy(value, "black");
-    p->known = p->stroked && rg_colour_parse(value, &p->stroke, &p->alpha);
+    if (rg_css_get(&r->css, n, "stroke-dasharray", value) && !is(value, "inherit"))
+        snprintf(p->dash, sizeof p->dash, "%s", is(value, "none") || is(value, "0") ? "solid" : value);
+    const int recoloured = rg_css_get(&r->css, n, "color", value) && !is(value, "inherit") && !is(value, "currentColor");
+    if (recoloured) memcpy(p->color, value, sizeof value);
+    if (rg_css_get(&r->css, n, "stroke", value) && !is(value, "inherit")) memcpy(p->paint, value, sizeof value);
+    else if (!recoloured) return 1;
+    const int colour = *p->paint ? plain_colour(r, n, p, &p->stroke, &p->alpha) : -1;
+    p->stroked = colour >= 0;
+    p->known = colour > 0;
     return 1;
+}
+
+/* The colour's name, the same for all ways to write it. */
+static const char *colour_name(const paint *p, char text[RG_CSS_VALUE])
+{
+    if (!p->known) return *p->paint && p->stroked ? p->paint : "none";
+    snprintf(text, RG_CSS_VALUE, "#%02x%02x%02x", (int)lround(255 * p->stroke.r), (int)lround(255 * p->stroke.g), (int)lround(255 * p->stroke.b));
+    return text;
+}
+
+/* What a line that is painted so stands for: as the user says, by its own data, by its colour; by a name where the colour
+ * says no more than that it is a line. */
+static char kind_of(const reader *r, const paint *p, int *kind)
+{
+    char text[RG_CSS_VALUE];
+    const char *colour = colour_name(p, text);
+    const int by_colour = rg_kinds_find(r->s, RG_BY_COLOUR, colour, strlen(colour));
+    const int by_dash = rg_kinds_find(r->s, RG_BY_DASH, p->dash, strlen(p->dash));
+    *kind = p->kind > by_colour ? p->kind : by_colour;
+    if (by_dash > *kind) *kind = by_dash;
+    if (*kind >= 0) return rg_kinds_letter(r->s, *kind);
+    if (p->letter) return p->letter;
+    const char says = p->known ? rg_colour_assignment(p->stroke) : 0;
+    if (says && says != RG_BORDER) return says;
+    return p->named ? p->named : says ? says : RG_FLAT;
+}
+
+/* Strokes of no plain colour, each with how many lines it has; those beyond the most are counted with the last. */
+static void tell_unknown(reader *r, const rg_xml_node *n, const paint *p)
+{
+    int i = 0;
+    while (i < MOST_UNKNOWN - 1 && r->unknown[i].count && strcmp(r->unknown[i].text, p->paint) != 0) i++;
+    if (!r->unknown[i].count) memcpy(r->unknown[i].text, p->paint, sizeof p->paint);
+    tell(&r->unknown[i], n);
 }
 
 /* -------------------------------------------------------------------------------------------------- shapes ---- */
@@ -178,38 +365,57 @@ static rg_status segment(reader *r, const rg_xml_node *n, const paint *p, rg_vec
     b = rg_affine_point(p->m, b);
     if (!isfinite(a.x) || !isfinite(a.y) || !isfinite(b.x) || !isfinite(b.y))
         return rg_lines_warn(r->out, where, "a line is dropped: a coordinate is not a finite number");
-    const char assignment = p->known ? rg_colour_assignment(p->stroke) : RG_FLAT;
-    rg_status s = RG_OK;
-    if (!p->known && !r->told_colour++)
-        s = rg_lines_warn(r->out, where, "a stroke that is no plain colour: taken for an auxiliary line, as all of its kind");
+    int kind;
+    char text[RG_CSS_VALUE];
+    const char assignment = kind_of(r, p, &kind), *colour = colour_name(p, text);
+    if (kind >= 0) r->out->kinds_used |= UINT64_C(1) << kind;
+    rg_status s = rg_lines_trait(r->out, RG_BY_COLOUR, colour, strlen(colour), assignment);
+    if (s == RG_OK && p->layer) s = rg_lines_trait(r->out, RG_BY_LAYER, p->layer, strlen(p->layer), assignment);
+    if (s == RG_OK) s = rg_lines_trait(r->out, RG_BY_DASH, p->dash, strlen(p->dash), assignment);
+    if (assignment == RG_LEFT_OUT) return tell(&r->unwanted, n), s;
+    if (!p->known && kind < 0 && !p->letter && !p->named) tell_unknown(r, n, p);
     if (s == RG_OK) s = rg_lines_add(r->out, (rg_vec2){a.x, -a.y}, (rg_vec2){b.x, -b.y}, assignment, where);
-    const double part = p->opacity * p->stroke_opacity * p->alpha;
-    if (s == RG_OK && r->targets && part < 1 && (assignment == RG_MOUNTAIN || assignment == RG_VALLEY))
-        r->out->line[r->out->count - 1].target = (assignment == RG_MOUNTAIN ? -RG_PI : RG_PI) * part;
-    return s;
+    if (s != RG_OK || !r->s->targets) return s;
+    rg_line *l = &r->out->line[r->out->count - 1];
+    const double part = p->opacity * p->stroke_opacity * (p->known ? p->alpha : 1);
+    const int folds = assignment == RG_MOUNTAIN || assignment == RG_VALLEY;
+    if (folds && part < 1) l->target = (assignment == RG_MOUNTAIN ? -RG_PI : RG_PI) * part;
+    if (folds && !isnan(p->angle)) l->target = assignment == RG_MOUNTAIN ? -fabs(p->angle) : fabs(p->angle);
+    if (assignment == RG_UNASSIGNED && !isnan(p->angle) && p->angle != 0) l->target = p->angle;
+    return RG_OK;
+}
+
+/* Of what is no crease, a curve does no harm. */
+static int cannot_fold(const reader *r, const paint *p)
+{
+    int kind;
+    const char assignment = kind_of(r, p, &kind);
+    return assignment == RG_FLAT || assignment == RG_LEFT_OUT;
 }
 
 static rg_status line(reader *r, const rg_xml_node *n, const paint *p)
 {
     rg_vec2 a, b;
-    rg_status s = length(r, n, "x1", &a.x);
-    if (s == RG_OK) s = length(r, n, "y1", &a.y);
-    if (s == RG_OK) s = length(r, n, "x2", &b.x);
-    if (s == RG_OK) s = length(r, n, "y2", &b.y);
+    rg_status s = length(r, n, p, "x1", &a.x);
+    if (s == RG_OK) s = length(r, n, p, "y1", &a.y);
+    if (s == RG_OK) s = length(r, n, p, "x2", &b.x);
+    if (s == RG_OK) s = length(r, n, p, "y2", &b.y);
     return s == RG_OK ? segment(r, n, p, a, b) : s;
 }
 
 static rg_status rectangle(reader *r, const rg_xml_node *n, const paint *p)
 {
     double x, y, w, h, rx, ry;
-    rg_status s = length(r, n, "x", &x);
-    if (s == RG_OK) s = length(r, n, "y", &y);
-    if (s == RG_OK) s = length(r, n, "width", &w);
-    if (s == RG_OK) s = length(r, n, "height", &h);
-    if (s == RG_OK) s = length(r, n, "rx", &rx);
-    if (s == RG_OK) s = length(r, n, "ry", &ry);
-    if (s == RG_OK && (rx > 0 || ry > 0))
+    rg_status s = length(r, n, p, "x", &x);
+    if (s == RG_OK) s = length(r, n, p, "y", &y);
+    if (s == RG_OK) s = length(r, n, p, "width", &w);
+    if (s == RG_OK) s = length(r, n, p, "height", &h);
+    if (s == RG_OK) s = length(r, n, p, "rx", &rx);
+    if (s == RG_OK) s = length(r, n, p, "ry", &ry);
+    if (s == RG_OK && (rx > 0 || ry > 0)) {
+        if (cannot_fold(r, p)) return tell(&r->curves, n), RG_OK;
         return fail(r, n, "its corners are round: rx, ry", rg_xml_attribute(n, rx > 0 ? "rx" : "ry"));
+    }
     const rg_vec2 corner[] = {{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}};
     for (int i = 0; s == RG_OK && i < 4 && w > 0 && h > 0; i++) s = segment(r, n, p, corner[i], corner[(i + 1) % 4]);
     return s;
@@ -255,7 +461,7 @@ static int numbers(char command)
     }
 }
 
-/* Where a command leads from `at`. 0: over a curve. */
+/* Where a command leads from `at`. 0: over a curve, *to is set all the same. */
 static int lead(char command, const double *v, rg_vec2 at, rg_vec2 *to)
 {
     const rg_vec2 from = command >= 'a' ? at : (rg_vec2){0, 0};
@@ -263,10 +469,10 @@ static int lead(char command, const double *v, rg_vec2 at, rg_vec2 *to)
     switch (command | 32) {
     case 'h': *to = (rg_vec2){from.x + v[0], at.y}; return 1;
     case 'v': *to = (rg_vec2){at.x, from.y + v[0]}; return 1;
-    case 't': case 's': return 0; /* what bends it stands in the command before */
     default: break;
     }
     *to = (rg_vec2){from.x + v[count - 2], from.y + v[count - 1]};
+    if ((command | 32) == 't' || (command | 32) == 's') return 0; /* what bends it stands in the command before */
     if ((command | 32) == 'a') return v[0] == 0 || v[1] == 0;
     for (int i = 0; i + 3 < count; i += 2)
         if (!on_chord(at, *to, (rg_vec2){from.x + v[i], from.y + v[i + 1]})) return 0;
@@ -289,9 +495,10 @@ static rg_status path(reader *r, const rg_xml_node *n, const paint *p)
         rg_vec2 to = start;
         for (int i = 0; i < count; i++)
             if (!next_number(&s, &v[i])) return fail(r, n, "path: a number is missing at", here);
-        if (count > 0 && !lead(command, v, at, &to))
-            return fail(r, n, "a curve, where paper folds along straight lines only:", here);
-        if ((command | 32) == 'm') {
+        const int bends = count > 0 && !lead(command, v, at, &to);
+        if (bends && !cannot_fold(r, p)) return fail(r, n, "a curve, where paper folds along straight lines only:", here);
+        if (bends) tell(&r->curves, n);
+        else if ((command | 32) == 'm') {
             start = to;
             command = command == 'm' ? 'l' : 'L'; /* what follows without a command is lines */
         } else if (count > 0 || to.x != at.x || to.y != at.y) {
@@ -307,36 +514,53 @@ static rg_status path(reader *r, const rg_xml_node *n, const paint *p)
 /* Rings mark vertices in many drawings. A border, though, is the paper's. */
 static rg_status ring(reader *r, const rg_xml_node *n, const paint *p)
 {
-    const char *name = rg_xml_name(n);
-    if (p->known && rg_colour_assignment(p->stroke) == RG_BORDER)
-        return rg_fail(RG_EFORMAT, r->why, rg_xml_line(n), "<%s>: a curve as border, paper has straight ones here", name);
-    if (r->told_ring++) return RG_OK;
-    return rg_lines_warn(r->out, rg_xml_line(n), "<%s> is left out, as all circles: a mark, no crease", name);
+    int kind;
+    if (kind_of(r, p, &kind) == RG_BORDER)
+        return rg_fail(RG_EFORMAT, r->why, rg_xml_line(n), "<%s>: a curve as border, paper has straight ones here", rg_xml_name(n));
+    tell(&r->rings, n);
+    return RG_OK;
+}
+
+static int is_shape(const rg_xml_node *n)
+{
+    static const char *const names[] = {"line", "rect", "polyline", "polygon", "path", "circle", "ellipse"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (rg_xml_is(n, names[i])) return 1;
+    return 0;
+}
+
+/* What is not seen: counted, so that it can be told. The parser bounds the depth. */
+static void tell_hidden(reader *r, const rg_xml_node *n)
+{
+    if (is_shape(n)) tell(&r->hidden, n);
+    if (rg_xml_is(n, "defs") || rg_xml_is(n, "symbol")) return;
+    for (const rg_xml_node *c = rg_xml_child(n); c; c = rg_xml_next(c)) tell_hidden(r, c);
 }
 
 static rg_status shape(reader *r, const rg_xml_node *n, const paint *p)
 {
     const char *name = rg_xml_name(n);
-    if (!p->stroked || p->hidden) return RG_OK;
+    if (!is_shape(n)) return RG_OK;
+    if (p->hidden) return tell(&r->hidden, n), RG_OK;
+    if (!p->stroked && !p->letter) return tell(&r->unpainted, n), RG_OK;
     if (is(name, "line")) return line(r, n, p);
     if (is(name, "rect")) return rectangle(r, n, p);
     if (is(name, "polyline")) return polyline(r, n, p, 0);
     if (is(name, "polygon")) return polyline(r, n, p, 1);
     if (is(name, "path")) return path(r, n, p);
-    if (is(name, "circle") || is(name, "ellipse")) return ring(r, n, p);
-    return RG_OK;
+    return ring(r, n, p);
 }
 
 /* ------------------------------------------------------------------------------------- viewports, repeats ---- */
 
 /* Width or height of a viewport: as the <use> that repeats it says, or it itself, or all that is around it. */
-static rg_status extent(const reader *r, const rg_xml_node *n, const rg_xml_node *user, const char *name, double *x)
+static rg_status extent(const reader *r, const rg_xml_node *n, const rg_xml_node *user, const paint *p, const char *name, double *x)
 {
     const rg_xml_node *says = user && *rg_xml_attribute(user, name) ? user : n;
     const char *text = rg_xml_attribute(says, name);
+    double part = 100;
     if (!*text || is(text, "auto")) return RG_OK;
-    if (!strchr(text, '%')) return length(r, says, name, x);
-    double part;
+    if (!strchr(text, '%')) return length(r, says, p, name, x);
     if (!next_number(&text, &part)) return fail(r, says, name, rg_xml_attribute(says, name));
     *x *= part / 100;
     return RG_OK;
@@ -369,20 +593,35 @@ static void fit(const rg_xml_node *n, const double box[4], paint *p)
     p->m = rg_affine_mul(rg_affine_mul(p->m, rg_affine_scale(x, y)), rg_affine_shift(-box[0], -box[1]));
 }
 
+/* Metres in a unit of the drawing, where it says how large it is on paper; 0: it does not. */
+static double size_on_paper(const rg_xml_node *n, const paint *p, const int metric[2])
+{
+    const double pixel = 0.0254 / 96;
+    double box[4], x = INFINITY;
+    if (!metric[0] && !metric[1]) return 0;
+    if (!view_box(n, box)) return pixel;
+    if (metric[0]) x = p->w / box[2];
+    if (metric[1]) x = fmin(x, p->h / box[3]);
+    return x > 0 && isfinite(x) ? x * pixel : 0;
+}
+
 /* Into a <svg> or <symbol>. The outmost one is the drawing itself, whose units stay what they are. */
 static rg_status enter_viewport(const reader *r, const rg_xml_node *n, const rg_xml_node *user, paint *p)
 {
     const int is_outmost = r->depth == 1;
+    const paint around = *p;
     double x = 0, y = 0, box[4];
+    int metric[2] = {0, 0};
     rg_status s = RG_OK;
     if (is_outmost) {
-        if (!pixels(rg_xml_attribute(n, "width"), &p->w)) p->w = NAN;
-        if (!pixels(rg_xml_attribute(n, "height"), &p->h)) p->h = NAN;
+        if (!pixels(rg_xml_attribute(n, "width"), NAN, &p->w, &metric[0])) p->w = NAN;
+        if (!pixels(rg_xml_attribute(n, "height"), NAN, &p->h, &metric[1])) p->h = NAN;
+        r->out->metres = size_on_paper(n, p, metric);
     } else {
-        s = length(r, n, "x", &x);
-        if (s == RG_OK) s = length(r, n, "y", &y);
-        if (s == RG_OK) s = extent(r, n, user, "width", &p->w);
-        if (s == RG_OK) s = extent(r, n, user, "height", &p->h);
+        s = length(r, n, p, "x", &x);
+        if (s == RG_OK) s = length(r, n, p, "y", &y);
+        if (s == RG_OK) s = extent(r, n, user, &around, "width", &p->w);
+        if (s == RG_OK) s = extent(r, n, user, &around, "height", &p->h);
         p->m = rg_affine_mul(p->m, rg_affine_shift(x, y));
     }
     if (s != RG_OK || !view_box(n, box)) return s;
@@ -405,8 +644,8 @@ static rg_status repeat(reader *r, const rg_xml_node *n, paint p)
     for (const chain *c = r->uses; c; c = c->out)
         if (c->target == target) return fail(r, n, "it repeats itself:", name);
     double x = 0, y = 0;
-    rg_status s = length(r, n, "x", &x);
-    if (s == RG_OK) s = length(r, n, "y", &y);
+    rg_status s = length(r, n, &p, "x", &x);
+    if (s == RG_OK) s = length(r, n, &p, "y", &y);
     p.m = rg_affine_mul(p.m, rg_affine_shift(x, y));
     const chain here = {n, target, r->uses};
     r->uses = &here;
@@ -435,7 +674,8 @@ static rg_status element(reader *r, const rg_xml_node *n, paint p, const rg_xml_
 {
     const char *name = rg_xml_name(n);
     rg_status s = charge(r, n, OF_ELEMENT + strlen(rg_xml_attribute(n, "d")) + strlen(rg_xml_attribute(n, "points")));
-    if (s != RG_OK || !repaint(r, n, &p)) return s;
+    if (s != RG_OK) return s;
+    if (!repaint(r, n, &p)) return tell_hidden(r, n), RG_OK;
     if (r->depth == MOST_NESTED) return fail(r, n, "nested too deep:", name);
     r->depth++;
     const int is_viewport = is(name, "svg") || (user && is(name, "symbol"));
@@ -459,7 +699,7 @@ static rg_status styles(reader *r, const rg_xml_node *n)
 {
     rg_status s = RG_OK;
     for (const rg_xml_node *c = rg_xml_child(n); s == RG_OK && c; c = rg_xml_next(c))
-        s = rg_xml_is(c, "style") ? rg_css_add(&r->css, c, r->why) : styles(r, c);
+        s = rg_xml_is(c, "style") ? rg_css_add(&r->css, c, r->out, r->why) : styles(r, c);
     return s;
 }
 
@@ -486,27 +726,58 @@ static rg_status metadata(rg_lines *l, const rg_xml_node *root)
     return s;
 }
 
+/* What was left out, each kind told once. */
+static rg_status tell_all(reader *r)
+{
+    const struct { const tally *t; const char *format; } kinds[] = {
+        {&r->hidden, "hidden (display or visibility): %d shapes are left out, the first here"},
+        {&r->rings, "circles are left out as marks, no creases: %d, the first here"},
+        {&r->curves, "curves of auxiliary lines are left out: %d, the first here"},
+        {&r->unwanted, "left out as --line asks: %d lines, the first here"}};
+    rg_status s = RG_OK;
+    for (size_t i = 0; s == RG_OK && i < sizeof kinds / sizeof *kinds; i++)
+        if (kinds[i].t->count) s = rg_lines_warn(r->out, kinds[i].t->where, kinds[i].format, (int)kinds[i].t->count);
+    for (int i = 0; s == RG_OK && i < MOST_UNKNOWN && r->unknown[i].count; i++)
+        s = rg_lines_warn(r->out, r->unknown[i].where, "stroke \"%.80s\" is no plain colour: %d lines are taken for auxiliary ones; --line says what"
+                          " they are", r->unknown[i].text, (int)r->unknown[i].count);
+    return s;
+}
+
+static rg_status nothing_drawn(const reader *r, const rg_xml_node *root)
+{
+    const int32_t left_out = r->rings.count + r->curves.count + r->unwanted.count;
+    if (r->hidden.count && r->hidden.count >= r->unpainted.count)
+        return rg_fail(RG_EFORMAT, r->why, r->hidden.where, "no lines: what is drawn is hidden (display or visibility), %d shapes, the first here",
+                       (int)r->hidden.count);
+    if (r->unpainted.count)
+        return rg_fail(RG_EFORMAT, r->why, r->unpainted.where, "no lines: no shape has a stroke, %d of them, the first here",
+                       (int)r->unpainted.count);
+    if (left_out) return rg_fail(RG_EFORMAT, r->why, rg_xml_line(root), "no lines: all of the drawing is circles, curves or left out");
+    return rg_fail(RG_EFORMAT, r->why, rg_xml_line(root), "no lines: there are no shapes in the drawing");
+}
+
 static rg_status document(reader *r, const rg_xml_node *root)
 {
     if (!rg_xml_is(root, "svg"))
         return rg_fail(RG_EFORMAT, r->why, rg_xml_line(root), "the root is <%.40s>, not <svg>", rg_xml_name(root));
-    const paint plain = {.alpha = 1, .stroke_opacity = 1, .opacity = 1, .w = NAN, .h = NAN, .m = rg_affine_shift(0, 0)};
+    const paint plain = {.color = "black", .dash = "solid", .kind = -1, .angle = NAN, .alpha = 1, .stroke_opacity = 1, .opacity = 1,
+                         .w = NAN, .h = NAN, .m = rg_affine_shift(0, 0)};
     rg_status s = metadata(r->out, root);
     if (s == RG_OK) s = styles(r, root);
     if (s == RG_OK) s = rg_ids_init(&r->ids, &r->out->mem, root);
     if (s == RG_OK) s = element(r, root, plain, NULL);
-    if (s == RG_OK && r->out->count == 0)
-        s = rg_fail(RG_EFORMAT, r->why, rg_xml_line(root), "no lines: nothing in the drawing has a stroke");
-    return s;
+    if (s == RG_OK) s = tell_all(r);
+    return s == RG_OK && r->out->count == 0 ? nothing_drawn(r, root) : s;
 }
 
-rg_status rg_svg_read(const void *bytes, size_t size, const rg_memory *mem, int targets, rg_lines *out, rg_diag *why)
+rg_status rg_svg_read(const void *bytes, size_t size, const rg_memory *mem, const rg_settings *settings, rg_lines *out, rg_diag *why)
 {
     rg_xml *doc = NULL;
-    reader r = {.out = out, .why = why, .targets = targets};
+    reader r = {.out = out, .why = why, .s = settings};
     rg_lines_init(out, mem);
     rg_css_init(&r.css, mem);
     out->merge = MERGE;
+    out->y_down = 1;
     rg_status s = rg_xml_parse(bytes, size, RG_XML_ANY_TYPE, &doc, why);
     if (s == RG_OK) s = document(&r, rg_xml_root(doc));
     rg_xml_free(doc);

@@ -1,5 +1,5 @@
 /* svg.h -- .svg: a drawing, with assignments by colour and fold angles by opacity.
- * Uses  xml.h css.h colour.h ids.h affine.h        Used by  read.c
+ * Uses  xml.h css.h colour.h ids.h affine.h kinds.h        Used by  read.c
  *
  * line, polyline, polygon, rect and straight paths that are stroked, in g, a, switch and svg with any transforms, and
  * what use repeats of them and of symbols; styles as attributes, in style="" and in <style>. Curves are refused, as
@@ -11,8 +11,8 @@
 
 #include "read/lines.h"
 
-/* `targets` non-zero: opacities are fold angles. *out is initialised here; on failure it is left freed. RG_EFORMAT:
+/* settings: targets (opacities are fold angles), kind. *out is initialised here; on failure it is left freed. RG_EFORMAT:
  * why->line, why->text. Loads nothing from anywhere. */
-rg_status rg_svg_read(const void *bytes, size_t size, const rg_memory *mem, int targets, rg_lines *out, rg_diag *why);
+rg_status rg_svg_read(const void *bytes, size_t size, const rg_memory *mem, const rg_settings *s, rg_lines *out, rg_diag *why);
 
 #endif

@@ -22,6 +22,8 @@ typedef enum rg_kind {
  * are finite. RG_ENOMEM. Owner: the caller, rg_value_free. */
 rg_status rg_value_parse(const void *bytes, size_t size, rg_value **root, rg_diag *why);
 void rg_value_free(rg_value *v);
+/* The same value for another owner, who frees it too. */
+rg_value *rg_value_share(rg_value *v);
 
 /* All of these take NULL, which is of kind RG_KIND_NONE and has nothing in it. */
 rg_kind rg_value_kind(const rg_value *v);

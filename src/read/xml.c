@@ -97,6 +97,18 @@ static const xmlNode *element(const xmlNode *n)
 
 const rg_xml_node *rg_xml_child(const rg_xml_node *n) { return element(rg_xml_child_piece(n)); }
 const rg_xml_node *rg_xml_next(const rg_xml_node *n) { return element(n->next); }
+const rg_xml_node *rg_xml_parent(const rg_xml_node *n)
+{
+    return n->parent && n->parent->type == XML_ELEMENT_NODE ? n->parent : NULL;
+}
+
+const rg_xml_node *rg_xml_previous(const rg_xml_node *n)
+{
+    do n = n->prev;
+    while (n && n->type != XML_ELEMENT_NODE);
+    return n;
+}
+
 const rg_xml_node *rg_xml_next_piece(const rg_xml_node *n) { return n->next; }
 
 /* What hangs below a reference to an entity is the declaration, shared by all references: it is not gone into. */
@@ -112,12 +124,18 @@ const char *rg_xml_name(const rg_xml_node *n) { return n->name ? (const char *)n
 int rg_xml_line(const rg_xml_node *n) { return (int)(intptr_t)n->_private; }
 
 /* Entities are not expanded, so that a value is one text node in all that is read here. */
-const char *rg_xml_attribute(const rg_xml_node *n, const char *name)
+const char *rg_xml_given(const rg_xml_node *n, const char *name)
 {
     for (const xmlAttr *a = n->type == XML_ELEMENT_NODE ? n->properties : NULL; a; a = a->next)
         if (strcmp((const char *)a->name, name) == 0 && a->children && a->children->content)
             return (const char *)a->children->content;
-    return "";
+    return NULL;
+}
+
+const char *rg_xml_attribute(const rg_xml_node *n, const char *name)
+{
+    const char *value = rg_xml_given(n, name);
+    return value ? value : "";
 }
 
 const char *rg_xml_piece(const rg_xml_node *n)

@@ -23,6 +23,9 @@ const rg_xml_node *rg_xml_root(const rg_xml *doc);
 /* The first element inside, the next element beside; NULL: none. */
 const rg_xml_node *rg_xml_child(const rg_xml_node *n);
 const rg_xml_node *rg_xml_next(const rg_xml_node *n);
+/* The element around, the element before; NULL: none. */
+const rg_xml_node *rg_xml_parent(const rg_xml_node *n);
+const rg_xml_node *rg_xml_previous(const rg_xml_node *n);
 /* The same for every piece, text too. */
 const rg_xml_node *rg_xml_child_piece(const rg_xml_node *n);
 const rg_xml_node *rg_xml_next_piece(const rg_xml_node *n);
@@ -33,6 +36,8 @@ const char *rg_xml_name(const rg_xml_node *n);
 int rg_xml_line(const rg_xml_node *n);
 /* The value of an attribute, or "". */
 const char *rg_xml_attribute(const rg_xml_node *n, const char *name);
+/* The same; NULL: it is not there. */
+const char *rg_xml_given(const rg_xml_node *n, const char *name);
 /* The text of a piece, or NULL. */
 const char *rg_xml_piece(const rg_xml_node *n);
 /* The first text inside an element, or "". */

@@ -1,6 +1,7 @@
 #include "save/fold.h"
 #include "base/file.h"
 #include "base/json.h"
+#include "base/unit.h"
 
 #include <string.h>
 
@@ -74,19 +75,22 @@ static int holds(const rg_fold_sheet *s, const char *key, const rg_value *v)
     return 1;
 }
 
-static void put_rest(rg_json *j, const rg_lines *l, const rg_fold_sheet *s, int32_t *lost)
+/* What put_head, put_edges and put_faces write. */
+static const char *const OURS[] = {"file_spec", "file_creator", "file_author", "file_title", "file_description",
+    "frame_classes", "frame_attributes", "frame_parent", "frame_inherit", "vertices_coords", "edges_vertices",
+    "edges_assignment", "edges_foldAngle", "edges_foldAngles", "edges_faces", "faces_vertices", "faces_edges",
+    "rigami:editor", "rigami:reference", NULL};
+
+int32_t rg_fold_put_rest(rg_json *j, const rg_value *frame, const rg_fold_sheet *s, const char *const *ours)
 {
-    static const char *const ours[] = {"file_spec", "file_creator", "file_author", "file_title", "file_description",
-        "frame_classes", "frame_attributes", "frame_parent", "frame_inherit", "vertices_coords", "edges_vertices",
-        "edges_assignment", "edges_foldAngle", "edges_foldAngles", "edges_faces", "faces_vertices", "faces_edges",
-        "rigami:editor", "rigami:reference", NULL};
-    *lost = 0;
-    for (const void *k = NULL; (k = rg_value_next(l->frame, k));) {
+    int32_t lost = 0;
+    for (const void *k = NULL; (k = rg_value_next(frame, k));) {
         const char *key = rg_value_key(k);
         if (among(key, ours)) continue;
-        if (!holds(s, key, rg_value_under(k))) ++*lost;
+        if (!holds(s, key, rg_value_under(k))) lost++;
         else put(j, strcmp(key, "edges_lengths") == 0 ? "edges_length" : key, rg_value_under(k), 0); /* its name in 1.0 */
     }
+    return lost;
 }
 
 /* ------------------------------------------------------------------------------------------------- the pattern ---- */
@@ -171,7 +175,9 @@ rg_status rg_fold_write(const rg_lines *l, const rg_fold_sheet *sheet, const cha
     put_head(&j, l);
     put_edges(&j, sheet);
     if (sheet->nf > 0) s = put_faces(&j, l, sheet);
-    put_rest(&j, l, sheet, lost);
+    if (l->metres > 0 && rg_unit_name(l->metres) && !rg_value_get(l->frame, "frame_unit"))
+        rg_json_string(&j, "frame_unit", rg_unit_name(l->metres));
+    *lost = rg_fold_put_rest(&j, l->frame, sheet, OURS);
     rg_json_close(&j);
     if (s == RG_OK) return rg_file_commit(&f, why);
     rg_file_abandon(&f);

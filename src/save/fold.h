@@ -1,8 +1,9 @@
 /* fold.h -- a crease pattern to FOLD 1.2.
- * Uses  base/json.h read/value.h        Used by  pattern/convert.c */
+ * Uses  base/json.h read/value.h        Used by  pattern/convert.c write/foldfile.c */
 #ifndef RG_SAVE_FOLD_H
 #define RG_SAVE_FOLD_H
 
+#include "base/json.h"
 #include "read/lines.h"
 
 /* The lines as a plane graph, with faces; all lent. */
@@ -16,6 +17,10 @@ typedef struct rg_fold_sheet {
     const int32_t *face_vertex, *face_edge;    /* edge k runs from vertex k to the next one */
     int same_vertices, same_edges, same_faces; /* numbered as in lines.frame: what else is said there of them holds */
 } rg_fold_sheet;
+
+/* What a frame that was read says besides, as members of the object that is open: all of its keys but those named in `ours` (ended
+ * by NULL) that still hold on a sheet so numbered. Returns how many do not. */
+int32_t rg_fold_put_rest(rg_json *j, const rg_value *frame, const rg_fold_sheet *sheet, const char *const *ours);
 
 /* Writes the file whole or not at all; "-" is standard output. Every number reads back as the same double. What
  * l->frame says besides is written too where it still holds; *lost: out, how many of its keys are not. RG_EWRITE,

@@ -13,7 +13,7 @@ rg_status rg_csv_write(const rg_motion *m, int32_t frame, const rg_picture *p, F
         for (int32_t i = 0; i < N; i++) {
             char text[RG_NUMBER_ROOM];
             if (i) fputc(',', out);
-            fputs(rg_number_print(text, rho[i] / RG_DEG), out);
+            fputs(rg_number_print(text, rg_number_degrees(rho[i])), out);
         }
         fputc('\n', out);
     }

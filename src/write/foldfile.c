@@ -1,6 +1,10 @@
 #include "write/foldfile.h"
 #include "base/json.h"
 #include "motion/ending.h"
+#include "base/number.h"
+#include "base/unit.h"
+#include "pattern/source.h"
+#include "save/fold.h"
 
 #include <string.h>
 
@@ -18,8 +22,11 @@ static void head(rg_json *j, const rg_motion *m)
     rg_json_string(j, "file_creator", "rigami " RG_VERSION);
     if (m->title && *m->title) rg_json_string(j, "file_title", m->title);
     if (m->author && *m->author) rg_json_string(j, "file_author", m->author);
+    if (m->source.memo) rg_json_string(j, "file_description", m->source.memo);
     strings(j, "file_classes", "singleModel", "animation");
-    rg_json_string(j, "frame_title", "crease pattern");
+    if (!rg_value_get(m->source.frame, "frame_title")) rg_json_string(j, "frame_title", "crease pattern");
+    const char *unit = rg_unit_name(m->report.pattern.unit);
+    if (unit && !rg_value_get(m->source.frame, "frame_unit")) rg_json_string(j, "frame_unit", unit);
     strings(j, "frame_classes", "creasePattern", NULL);
     strings(j, "frame_attributes", "2D", "orientable");
 }
@@ -49,7 +56,7 @@ static void edges(rg_json *j, const rg_mesh *m)
     /* Border, flat and undecided edges have 0 in FOLD. */
     rg_json_open_line(j, "edges_foldAngle", '[');
     for (int32_t e = 0; e < m->ne; e++)
-        rg_json_number(j, NULL, m->edge_crease[e] < 0 || isnan(m->target[e]) ? 0 : m->target[e] / RG_DEG);
+        rg_json_number(j, NULL, m->edge_crease[e] < 0 || isnan(m->target[e]) ? 0 : rg_number_degrees(m->target[e]));
     rg_json_close(j);
 }
 
@@ -90,6 +97,56 @@ static void face_orders(rg_json *j, const rg_layers *l)
     rg_json_close(j);
 }
 
+/* Whether n things of ours are the `there` of the file, under the same numbers; `known` of them have a source. */
+static int same_numbers(const int32_t *source, int32_t known, int32_t n, size_t there)
+{
+    int same = source && (size_t)n == there && known == n;
+    for (int32_t i = 0; same && i < n; i++) same = source[i] == i;
+    return same;
+}
+
+/* Their numbers in the file, where those are others; null: it has no such one. */
+static void sources(rg_json *j, const char *key, const int32_t *source, int32_t known, int32_t n, size_t there)
+{
+    if (!source || same_numbers(source, known, n, there)) return;
+    rg_json_open_line(j, key, '[');
+    for (int32_t i = 0; i < n; i++) {
+        if (i < known && source[i] >= 0) rg_json_integer(j, NULL, source[i]);
+        else rg_json_string(j, NULL, NULL);
+    }
+    rg_json_close(j);
+}
+
+/* What else the file that was read says, and which of its vertices, edges and faces ours are. */
+static rg_status rest(rg_json *j, const rg_motion *m)
+{
+    static const char *const ours[] = {"file_spec", "file_creator", "file_author", "file_title", "file_description", "file_classes", "file_frames",
+        "frame_classes", "frame_attributes", "frame_parent", "frame_inherit", "vertices_coords", "edges_vertices", "edges_assignment",
+        "edges_foldAngle", "edges_foldAngles", "edges_faces", "faces_vertices", "faces_edges", "faceOrders", "rigami:edges_added",
+        "rigami:vertices_source", "rigami:edges_source", "rigami:faces_source", NULL};
+    const rg_source *s = &m->source;
+    const rg_mesh *mesh = &m->mesh;
+    if (!s->frame) return RG_OK;
+    int32_t *face = rg_mem_array(&m->mem, (size_t)mesh->nf, sizeof *face);
+    if (!face) return RG_ENOMEM;
+    const rg_status status = rg_source_faces(s, mesh->nf, mesh->facet_start, mesh->facet_vertex, face);
+    const size_t vertices = rg_value_count(rg_value_get(s->frame, "vertices_coords")), edges = (size_t)s->lines;
+    const size_t faces = rg_value_count(rg_value_get(s->frame, "faces_vertices"));
+    if (status == RG_OK) {
+        const int has_edges = rg_value_count(rg_value_get(s->frame, "edges_vertices")) > 0;
+        const rg_fold_sheet sheet = {.nv = mesh->nv, .ne = mesh->ne, .nf = mesh->nf,
+                                     .same_vertices = same_numbers(s->vertex, s->nv, mesh->nv, vertices),
+                                     .same_edges = has_edges && same_numbers(s->edge, s->ne, mesh->ne, edges),
+                                     .same_faces = same_numbers(face, mesh->nf, mesh->nf, faces)};
+        sources(j, "rigami:vertices_source", s->vertex, s->nv, mesh->nv, vertices);
+        if (has_edges) sources(j, "rigami:edges_source", s->edge, s->ne, mesh->ne, edges);
+        if (faces) sources(j, "rigami:faces_source", face, mesh->nf, mesh->nf, faces);
+        rg_fold_put_rest(j, s->frame, &sheet, ours);
+    }
+    rg_mem_free(&m->mem, face);
+    return status;
+}
+
 static void one_frame(rg_json *j, const rg_motion *m, int32_t k, const rg_vec3 *x)
 {
     const rg_mesh *mesh = &m->mesh;
@@ -106,7 +163,7 @@ static void one_frame(rg_json *j, const rg_motion *m, int32_t k, const rg_vec3 *
     rg_json_open_line(j, "edges_foldAngle", '[');
     for (int32_t e = 0; e < mesh->ne; e++) {
         const int32_t i = mesh->edge_crease[e];
-        rg_json_number(j, NULL, i < 0 ? 0 : rho[i] / RG_DEG);
+        rg_json_number(j, NULL, i < 0 ? 0 : rg_number_degrees(rho[i]));
     }
     rg_json_close(j);
     const rg_layers *layers = rg_ending_layers(m, k);
@@ -126,6 +183,7 @@ rg_status rg_foldfile_write(const rg_motion *m, int32_t frame, const rg_picture 
     rg_json_open(&j, NULL, '{');
     head(&j, m);
     key_frame(&j, &m->mesh);
+    s = rest(&j, m);
     rg_json_open(&j, "file_frames", '[');
     for (int32_t k = 0; s == RG_OK && k < m->report.frame_count; k++) {
         s = rg_motion_place(m, k, x);

@@ -108,6 +108,7 @@ static void triangles(model *g)
 static void turns_and_shifts(model *g)
 {
     const rg_mesh *mesh = g->mesh;
+    const rg_vec3 middle = rg_motion_middle(g->m);
     for (int32_t f = 0; f < mesh->nf; f++) g->last_turn[f] = (rg_turn){0, 0, 0, 1};
     for (int32_t k = 0; k < g->frames; k++) {
         rg_pose_facets(mesh, mesh->X, &g->m->tree, rg_motion_angles(g->m, k), g->place);
@@ -115,7 +116,7 @@ static void turns_and_shifts(model *g)
             const size_t at = (size_t)f * (size_t)g->frames + (size_t)k;
             const rg_vec3 centre = {g->centre[f].x, g->centre[f].y, 0};
             const rg_turn q = rg_turn_from_matrix(&g->place[f].R, g->last_turn[f]);
-            const rg_vec3 shift = rg_vec3_add(rg_mat3_mul_vec(g->place[f].R, centre), g->place[f].t);
+            const rg_vec3 shift = rg_vec3_sub(rg_vec3_add(rg_mat3_mul_vec(g->place[f].R, centre), g->place[f].t), middle);
             rg_bytes_f32(vector(g->bytes + g->start[TURNS] + 16 * at, q.x, q.y, q.z), q.w);
             vector(g->bytes + g->start[SHIFTS] + 12 * at, shift.x, shift.y, shift.z);
             g->last_turn[f] = q;
@@ -128,12 +129,12 @@ static void turns_and_shifts(model *g)
  * don't add up. Weight k is 1 in frame k. */
 static rg_status displacements(model *g)
 {
-    rg_status s = rg_motion_place(g->m, g->frames - 1, g->last);
+    rg_status s = rg_motion_place_centred(g->m, g->frames - 1, g->last);
     unsigned char *mesh = g->bytes + g->start[POSITIONS], *to = g->bytes + g->start[DISPLACEMENTS];
     unsigned char *weight = g->bytes + g->start[WEIGHTS];
     for (int32_t v = 0; v < g->mesh->nv; v++) mesh = vector(mesh, g->last[v].x, g->last[v].y, g->last[v].z);
     for (int32_t k = 0; s == RG_OK && k < g->frames - 1; k++) {
-        s = rg_motion_place(g->m, k, g->x);
+        s = rg_motion_place_centred(g->m, k, g->x);
         for (int32_t v = 0; v < g->mesh->nv; v++)
             to = vector(to, g->x[v].x - (float)g->last[v].x, g->x[v].y - (float)g->last[v].y,
                         g->x[v].z - (float)g->last[v].z);

@@ -19,6 +19,7 @@ typedef struct book {
     rg_lift *layers;
     int rigid;           /* facets keep their shape: the page finds their turns; else it moves the vertices alone */
     rg_vec3 *x, *lift;   /* [nv], [nf] */
+    rg_vec3 middle;      /* of the sheet: single precision is about it */
     unsigned char *bytes; /* room for one frame */
 } book;
 
@@ -90,7 +91,7 @@ static rg_status one_frame(rg_json *j, book *b, int32_t k)
     int lifted = 0;
     rg_json_open_line(j, NULL, '{');
     rg_json_number(j, "percent", b->m->frame[k].percent);
-    for (int32_t v = 0; v < b->mesh->nv; v++) to = vector(to, b->x[v]);
+    for (int32_t v = 0; v < b->mesh->nv; v++) to = vector(to, rg_vec3_sub(b->x[v], b->middle));
     s = bytes(j, b, "points", to);
     to = b->bytes;
     for (int32_t f = 0; f < b->mesh->nf; f++) {
@@ -137,7 +138,7 @@ static rg_status book_init(book *b, const rg_motion *m)
 {
     const rg_memory *mem = &m->mem;
     const size_t nf = (size_t)m->mesh.nf, nv = (size_t)m->mesh.nv, corners = (size_t)m->mesh.facet_start[nf];
-    *b = (book){.m = m, .mesh = &m->mesh, .rigid = 1};
+    *b = (book){.m = m, .mesh = &m->mesh, .rigid = 1, .middle = rg_motion_middle(m)};
     for (int32_t k = 0; k < m->report.frame_count; k++)
         b->rigid &= memcmp(rg_motion_pattern(m, k), m->mesh.X, nv * sizeof *m->mesh.X) == 0;
     rg_status s = rg_triangles_init(mem, &m->mesh, &b->t);

@@ -14,6 +14,7 @@ static const char *theorem_name(rg_theorem t)
     case RG_MAEKAWA: return "Maekawa";
     case RG_DEGREE: return "even degree";
     case RG_BIG_LITTLE_BIG: return "big-little-big";
+    case RG_TARGETS: return "targets";
     }
     return "";
 }
@@ -57,7 +58,7 @@ static void unfoldable(rg_json *j, const rg_unfoldable *u)
     point(j, "coordinates", u->x, u->y);
     rg_json_string(j, "theorem", theorem_name(u->theorem));
     rg_json_number(j, "by", u->by);
-    rg_json_string(j, "unit", u->theorem == RG_KAWASAKI || u->theorem == RG_BIG_LITTLE_BIG ? "degrees" : "creases");
+    rg_json_string(j, "unit", u->theorem == RG_MAEKAWA || u->theorem == RG_DEGREE ? "creases" : "degrees");
     rg_json_close(j);
 }
 
@@ -224,6 +225,7 @@ static void broken_theorem(const rg_unfoldable *u, FILE *out)
     case RG_BIG_LITTLE_BIG:
         fprintf(out, "big-little-big: a smallest angle, by %.4g degrees, lies between two creases of one kind\n", u->by);
         break;
+    case RG_TARGETS: fprintf(out, "the fold angles of the file do not close: the paper misses itself by %.4g degrees\n", u->by); break;
     }
 }
 

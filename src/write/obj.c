@@ -28,7 +28,7 @@ static void edges(const rg_mesh *m, const double *rho, FILE *out)
         const int32_t i = m->edge_crease[e];
         char angle[RG_NUMBER_ROOM];
         fprintf(out, "#e %d %d %d %s\n", (int)m->edge[e][0] + 1, (int)m->edge[e][1] + 1, edge_type(m->assignment[e]),
-                rg_number_print(angle, i < 0 ? 0 : rho[i] / RG_DEG));
+                rg_number_print(angle, i < 0 ? 0 : rg_number_degrees(rho[i])));
     }
 }
 

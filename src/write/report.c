@@ -19,6 +19,10 @@ void rg_report_pattern(rg_json *j, const rg_pattern_info *info)
     rg_json_integer(j, "valleys", info->valleys);
     rg_json_integer(j, "unassigned", info->unassigned);
     rg_json_integer(j, "flat", info->flat);
+    rg_json_integer(j, "cuts", info->cuts);
+    rg_json_integer(j, "lost_creases", info->lost_creases);
+    rg_json_integer(j, "sheets", info->sheets);
+    rg_json_number(j, "unit_metres", info->unit > 0 ? info->unit : NAN);
     rg_json_number(j, "size", info->size);
     rg_json_number(j, "merged_max", info->merged_max);
     rg_json_number(j, "kept_min", info->kept_min);

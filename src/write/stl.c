@@ -24,7 +24,7 @@ rg_status rg_stl_write(const rg_motion *m, int32_t frame, const rg_picture *p, F
     rg_status s = rg_triangles_init(&m->mem, &m->mesh, &t);
     if (s != RG_OK) return s;
     rg_vec3 *x = rg_mem_array(&m->mem, (size_t)m->mesh.nv, sizeof *x);
-    s = x ? rg_motion_place(m, frame, x) : RG_ENOMEM;
+    s = x ? rg_motion_place_centred(m, frame, x) : RG_ENOMEM;
     if (s == RG_OK) {
         /* Never "solid": that is how the text form of STL begins. */
         unsigned char head[84] = "rigami " RG_VERSION;

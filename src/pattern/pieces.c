@@ -1,0 +1,138 @@
+#include "pattern/pieces.h"
+#include "base/classes.h"
+#include "base/status.h"
+#include "pattern/faces.h"
+
+#include <string.h>
+
+/* What hangs together, by the lowest of its vertices. */
+typedef struct part {
+    int32_t outside; /* a half-edge of its outer border; -1: it has none */
+    int32_t sheet;   /* the piece that it belongs to, from 0; -1: none */
+    rg_vec2 low, high;
+    double area;
+} part;
+
+typedef struct drawing {
+    const rg_graph *g;
+    rg_star star;
+    rg_faces faces;
+    int32_t *of;   /* [nv] the part of a vertex */
+    part *part;    /* [nv] those at the lowest vertex of a part are */
+} drawing;
+
+/* Does a ray from x cross the outer border of a part an odd number of times? */
+static int encloses(const drawing *d, const part *p, rg_vec2 x)
+{
+    int odd = 0;
+    int32_t h = p->outside;
+    if (!(x.x >= p->low.x && x.x <= p->high.x && x.y >= p->low.y && x.y <= p->high.y)) return 0;
+    do {
+        const rg_vec2 a = d->g->X[rg_tail(d->g->E, h)], b = d->g->X[rg_head(d->g->E, h)];
+        if ((a.y > x.y) != (b.y > x.y) && x.x < a.x + (x.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
+        h = d->faces.next[h];
+    } while (h != p->outside);
+    return odd;
+}
+
+static void find_parts(drawing *d)
+{
+    const rg_graph *g = d->g;
+    for (int32_t v = 0; v < g->nv; v++) d->of[v] = v, d->part[v] = (part){-1, -1, g->X[v], g->X[v], 0};
+    for (int32_t e = 0; e < g->ne; e++) rg_class_join(d->of, g->E[e].v[0], g->E[e].v[1]);
+    for (int32_t v = 0; v < g->nv; v++) {
+        part *p = &d->part[d->of[v] = rg_class_of(d->of, v)];
+        p->low = (rg_vec2){fmin(p->low.x, g->X[v].x), fmin(p->low.y, g->X[v].y)};
+        p->high = (rg_vec2){fmax(p->high.x, g->X[v].x), fmax(p->high.y, g->X[v].y)};
+    }
+    for (int32_t k = 0; k < d->faces.count; k++) {
+        if (!(d->faces.area[k] < 0)) continue;
+        part *p = &d->part[d->of[rg_tail(g->E, d->faces.first[k])]];
+        if (d->faces.area[k] < p->area) p->area = d->faces.area[k], p->outside = d->faces.first[k];
+    }
+}
+
+/* The part around this one that lies in no other; itself: there is none. */
+static int32_t outmost(const drawing *d, const int32_t *parts, int32_t count, int32_t v)
+{
+    for (int32_t i = 0; i < count; i++) {
+        const part *q = &d->part[parts[i]];
+        if (parts[i] == v || !(q->area < d->part[v].area) || !encloses(d, q, d->g->X[v])) continue;
+        int inside = 0;
+        for (int32_t j = 0; j < count && !inside; j++)
+            inside = parts[j] != parts[i] && d->part[parts[j]].area < q->area && encloses(d, &d->part[parts[j]], d->g->X[parts[i]]);
+        if (!inside) return parts[i];
+    }
+    return v;
+}
+
+/* Sheets are numbered as their first lines come in the file. */
+static rg_status number(drawing *d, const rg_lines *lines, rg_piece **piece, int32_t *pieces)
+{
+    const rg_graph *g = d->g;
+    int32_t count = 0;
+    size_t room = 0;
+    int32_t *parts = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *parts);
+    rg_status s = parts ? RG_OK : RG_ENOMEM;
+    for (int32_t v = 0; s == RG_OK && v < g->nv; v++)
+        if (d->of[v] == v && d->part[v].outside >= 0) parts[count++] = v;
+    for (int32_t e = 0; s == RG_OK && e < g->ne; e++) {
+        const int32_t v = d->of[g->E[e].v[0]];
+        part *own = &d->part[v];
+        if (own->sheet < 0) {
+            part *p = &d->part[outmost(d, parts, count, v)];
+            if (p->outside >= 0 && p->sheet < 0) {
+                s = rg_mem_grow(&g->mem, (void **)piece, &room, (size_t)*pieces + 1, sizeof **piece);
+                if (s != RG_OK) break;
+                const rg_vec2 a = rg_lines_own(lines, p->low, g->size), b = rg_lines_own(lines, p->high, g->size);
+                (*piece)[*pieces] = (rg_piece){.low = {a.x, fmin(a.y, b.y)}, .high = {b.x, fmax(a.y, b.y)}};
+                p->sheet = (*pieces)++;
+            }
+            own->sheet = p->sheet;
+        }
+        if (own->sheet >= 0) (*piece)[own->sheet].lines++;
+    }
+    rg_mem_free(&g->mem, parts);
+    return s;
+}
+
+static rg_status take_one(drawing *d, rg_graph *g, int32_t sheet)
+{
+    unsigned char *drop = rg_mem_array(&g->mem, (size_t)g->ne, 1);
+    if (!drop) return RG_ENOMEM;
+    for (int32_t e = 0; e < g->ne; e++) drop[e] = d->part[d->of[g->E[e].v[0]]].sheet != sheet;
+    const rg_status s = rg_graph_compact(g, drop);
+    rg_mem_free(&g->mem, drop);
+    if (s != RG_OK || g->nv == 0) return s;
+    rg_vec2 low = g->X[0], high = low;
+    for (int32_t v = 1; v < g->nv; v++) {
+        low = (rg_vec2){fmin(low.x, g->X[v].x), fmin(low.y, g->X[v].y)};
+        high = (rg_vec2){fmax(high.x, g->X[v].x), fmax(high.y, g->X[v].y)};
+    }
+    g->size = fmax(high.x - low.x, high.y - low.y);
+    return RG_OK;
+}
+
+rg_status rg_pieces_find(rg_graph *g, const rg_lines *lines, int32_t take, rg_piece **piece, int32_t *pieces, rg_diag *why)
+{
+    drawing d = {.g = g, .star = {.mem = g->mem}, .faces = {.mem = g->mem}};
+    *piece = NULL;
+    *pieces = 0;
+    d.of = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *d.of);
+    d.part = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *d.part);
+    rg_status s = d.of && d.part ? RG_OK : RG_ENOMEM;
+    if (s == RG_OK) s = rg_star_init(&d.star, &g->mem, g->nv, g->ne, g->X, g->E);
+    if (s == RG_OK) s = rg_faces_init(&d.faces, &g->mem, g->nv, g->ne, g->X, g->E, d.star.start, d.star.edge);
+    if (s == RG_OK) {
+        find_parts(&d);
+        s = number(&d, lines, piece, pieces);
+    }
+    if (s == RG_OK && take > *pieces)
+        s = rg_fail(RG_EARG, why, 0, "there is no sheet %d: the drawing has %d", (int)take, (int)*pieces);
+    if (s == RG_OK && take > 0) s = take_one(&d, g, take - 1);
+    rg_star_free(&d.star);
+    rg_faces_free(&d.faces);
+    rg_mem_free(&g->mem, d.of);
+    rg_mem_free(&g->mem, d.part);
+    return s;
+}

@@ -1,0 +1,182 @@
+#include "pattern/source.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The file's number of the end of a line that lies at x, if any does: ends are moved by less than `tol`. */
+static int32_t end_at(const rg_lines *l, int32_t line, rg_vec2 x, double tol)
+{
+    const rg_line *q = &l->line[line];
+    const double a = rg_vec2_length(rg_vec2_sub(q->a, x)), b = rg_vec2_length(rg_vec2_sub(q->b, x));
+    if (!(fmin(a, b) <= tol)) return -1;
+    return l->vertex[2 * line + !(a <= b)];
+}
+
+/* of[nv]: out; of several the lowest. */
+static void find_vertices(const rg_graph *g, const rg_lines *l, int32_t *of)
+{
+    const double tol = 2 * g->merged_max + 1e-12 * g->size;
+    for (int32_t v = 0; v < g->nv; v++) of[v] = -1;
+    for (int32_t e = 0; l->vertex && e < g->ne; e++)
+        for (int i = 0; i < 2; i++) {
+            const int32_t v = g->E[e].v[i], was = end_at(l, g->E[e].line, g->X[v], tol);
+            if (was >= 0 && (of[v] < 0 || was < of[v])) of[v] = was;
+        }
+}
+
+typedef struct place { int32_t was, v; } place;
+
+static int by_number(const void *a, const void *b)
+{
+    const place *p = a, *q = b;
+    if ((p->was < 0) != (q->was < 0)) return p->was < 0 ? 1 : -1;
+    if (p->was != q->was) return p->was < q->was ? -1 : 1;
+    return (p->v > q->v) - (p->v < q->v);
+}
+
+rg_status rg_source_sort(rg_graph *g, const rg_lines *lines)
+{
+    if (!lines->vertex || g->nv == 0) return RG_OK;
+    int32_t *of = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *of);
+    place *at = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *at);
+    rg_vec2 *X = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *X);
+    const rg_status s = of && at && X ? RG_OK : RG_ENOMEM;
+    if (s == RG_OK) {
+        find_vertices(g, lines, of);
+        for (int32_t v = 0; v < g->nv; v++) at[v] = (place){of[v], v};
+        qsort(at, (size_t)g->nv, sizeof *at, by_number);
+        memcpy(X, g->X, (size_t)g->nv * sizeof *X);
+        for (int32_t v = 0; v < g->nv; v++) g->X[v] = X[at[v].v], of[at[v].v] = v;
+        for (int32_t e = 0; e < g->ne; e++)
+            for (int i = 0; i < 2; i++) g->E[e].v[i] = of[g->E[e].v[i]];
+    }
+    rg_mem_free(&g->mem, of);
+    rg_mem_free(&g->mem, at);
+    rg_mem_free(&g->mem, X);
+    return s;
+}
+
+rg_status rg_source_init(rg_source *s, const rg_graph *g, rg_lines *lines)
+{
+    *s = (rg_source){.mem = g->mem, .nv = g->nv, .ne = g->ne};
+    s->vertex = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *s->vertex);
+    s->edge = rg_mem_array(&g->mem, (size_t)g->ne, sizeof *s->edge);
+    s->where = rg_mem_array(&g->mem, (size_t)g->ne, sizeof *s->where);
+    if (!s->vertex || !s->edge || !s->where) return RG_ENOMEM;
+    find_vertices(g, lines, s->vertex);
+    for (int32_t e = 0; e < g->ne; e++) s->edge[e] = g->E[e].line, s->where[e] = g->E[e].where;
+    s->lines = lines->count;
+    s->y_down = lines->y_down;
+    s->frame = lines->frame;
+    lines->frame = NULL;
+    if (lines->memo && !(s->memo = rg_mem_string(&g->mem, lines->memo))) return RG_ENOMEM;
+    return RG_OK;
+}
+
+static int32_t *copied(const rg_memory *mem, const int32_t *from, int32_t n)
+{
+    int32_t *to = from ? rg_mem_array(mem, (size_t)n, sizeof *to) : NULL;
+    if (to && n > 0) memcpy(to, from, (size_t)n * sizeof *to);
+    return to;
+}
+
+rg_status rg_source_copy(const rg_source *s, const rg_memory *mem, rg_source *out)
+{
+    *out = *s;
+    out->mem = *mem;
+    out->vertex = copied(mem, s->vertex, s->nv);
+    out->edge = copied(mem, s->edge, s->ne);
+    out->where = copied(mem, s->where, s->ne);
+    out->memo = s->memo ? rg_mem_string(mem, s->memo) : NULL;
+    out->frame = rg_value_share(s->frame);
+    if (!s->vertex || (out->vertex && out->edge && out->where && (out->memo || !s->memo))) return RG_OK;
+    rg_source_free(out);
+    return RG_ENOMEM;
+}
+
+void rg_source_free(rg_source *s)
+{
+    if (s->mem.resize) {
+        rg_mem_free(&s->mem, s->vertex);
+        rg_mem_free(&s->mem, s->edge);
+        rg_mem_free(&s->mem, s->where);
+        rg_mem_free(&s->mem, s->memo);
+    }
+    rg_value_free(s->frame);
+    memset(s, 0, sizeof *s);
+}
+
+/* ------------------------------------------------------------------------------------------------------- faces ---- */
+
+/* A set of numbers as one: order does not matter. The constants are those of splitmix64. */
+static uint64_t mix(int32_t number)
+{
+    uint64_t x = (uint64_t)number + UINT64_C(0x9e3779b97f4a7c15);
+    x = (x ^ x >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+    x = (x ^ x >> 27) * UINT64_C(0x94d049bb133111eb);
+    return x ^ x >> 31;
+}
+
+typedef struct face { uint64_t set; int32_t number; } face;
+
+static int by_set(const void *a, const void *b)
+{
+    const face *p = a, *q = b;
+    if (p->set != q->set) return p->set < q->set ? -1 : 1;
+    return (p->number > q->number) - (p->number < q->number);
+}
+
+static int32_t find_set(const face *list, int32_t n, uint64_t set)
+{
+    int32_t low = 0, high = n;
+    while (low < high) {
+        const int32_t middle = low + (high - low) / 2;
+        if (list[middle].set < set) low = middle + 1;
+        else high = middle;
+    }
+    return low < n && list[low].set == set ? list[low].number : -1;
+}
+
+/* The file's faces as sets of those of its vertices that are still there. */
+static rg_status file_faces(const rg_source *s, const rg_value *faces, int32_t n, face *list)
+{
+    int32_t most = -1;
+    for (int32_t v = 0; v < s->nv; v++) most = s->vertex[v] > most ? s->vertex[v] : most;
+    unsigned char *there = rg_mem_array(&s->mem, (size_t)most + 1, 1);
+    if (!there) return RG_ENOMEM;
+    for (int32_t v = 0; v < s->nv; v++)
+        if (s->vertex[v] >= 0) there[s->vertex[v]] = 1;
+    for (int32_t f = 0; f < n; f++) {
+        const rg_value *row = rg_value_at(faces, (size_t)f);
+        list[f] = (face){0, f};
+        for (size_t k = 0; k < rg_value_count(row); k++) {
+            int64_t v;
+            if (rg_value_integer(rg_value_at(row, k), &v) && v >= 0 && v <= most && there[v]) list[f].set += mix((int32_t)v);
+        }
+    }
+    rg_mem_free(&s->mem, there);
+    if (n > 0) qsort(list, (size_t)n, sizeof *list, by_set);
+    return RG_OK;
+}
+
+rg_status rg_source_faces(const rg_source *s, int32_t nf, const int32_t *facet_start, const int32_t *facet_vertex, int32_t *source)
+{
+    const rg_value *faces = s->frame ? rg_value_get(s->frame, "faces_vertices") : NULL;
+    const size_t count = rg_value_count(faces);
+    for (int32_t f = 0; f < nf; f++) source[f] = -1;
+    if (count == 0 || count > INT32_MAX || !s->vertex) return RG_OK;
+    face *list = rg_mem_array(&s->mem, count, sizeof *list);
+    const rg_status status = list ? file_faces(s, faces, (int32_t)count, list) : RG_ENOMEM;
+    for (int32_t f = 0; status == RG_OK && f < nf; f++) {
+        uint64_t set = 0;
+        int known = 1;
+        for (int32_t k = facet_start[f]; k < facet_start[f + 1]; k++) {
+            const int32_t v = facet_vertex[k];
+            known &= v < s->nv && s->vertex[v] >= 0;
+            if (known) set += mix(s->vertex[v]);
+        }
+        if (known) source[f] = find_set(list, (int32_t)count, set);
+    }
+    rg_mem_free(&s->mem, list);
+    return status;
+}
