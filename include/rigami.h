@@ -142,6 +142,7 @@ typedef struct rg_pattern_info {
     int32_t cuts;                     /* slits: border lines inside, counted with the creases */
     int32_t lost_creases;             /* drawn, but left out (loose ends) or taken for border; each is told in a warning */
     int32_t sheets;                   /* pieces of paper in the drawing; rg_settings.sheet takes one */
+    int32_t file_frames;              /* FOLD: frames of the file besides the key frame */
     double unit;                      /* metres in a unit of the file; 0: it does not say */
     double size;                      /* longer side of the bounding box, file units */
     double merged_max, kept_min;      /* largest distance merged, smallest kept, file units */

@@ -208,6 +208,32 @@ static void big_little_big(void **state)
 }
 
 /* A crease that bends, or turns from mountain to valley on the way. */
+/* Four creases in two straight lines: folded along one of them the paper closes, folded at one crease alone it misses itself by
+ * the whole of that angle. */
+static void targets_that_contradict(void **state)
+{
+    (void)state;
+    const struct { double deg[4], miss; } c[] = {
+        {{70, 0, 70, 0}, 0}, {{70, 0, 0, 0}, 70}, {{-140, 0, -140, 0}, 0}, {{-60, 0, -90, 0}, 30}, {{0, 0, 0, 12}, 12}, {{0, 40, 0, 39.5}, 0}};
+    for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
+        rg_lines l = drawing();
+        const rg_vec2 end[] = {{2, 0}, {0, 2}, {-2, 0}, {0, -2}};
+        draw_polygon(&l, RG_BORDER, end, 4);
+        for (int k = 0; k < 4; k++) {
+            draw(&l, c[i].deg[k] < 0 ? 'M' : 'V', 0, 0, end[k].x, end[k].y);
+            l.line[4 + k].target = c[i].deg[k] * RG_DEG;
+        }
+        rg_pattern *p = pattern_of(&l);
+        const rg_unfoldable *u;
+        const int32_t n = rg_pattern_unfoldable(p, &u);
+        double by = 0;
+        for (int32_t k = 0; k < n; k++)
+            if (u[k].theorem == RG_TARGETS) by = u[k].by;
+        near(by, c[i].miss, 1e-9);
+        rg_pattern_destroy(p);
+    }
+}
+
 static void two_creases(void **state)
 {
     (void)state;
@@ -313,7 +339,7 @@ int main(void)
         cmocka_unit_test(kawasaki),
         cmocka_unit_test(maekawa_and_degree),
         cmocka_unit_test(big_little_big),
-        cmocka_unit_test(two_creases),
+        cmocka_unit_test(targets_that_contradict), cmocka_unit_test(two_creases),
         cmocka_unit_test(closed_vertices),
         cmocka_unit_test(the_border_folds_freely),
     };

@@ -51,6 +51,27 @@ static void content_goes_before_the_name(void **state)
     assert_int_equal(format_of("<javascript/>", 13, NULL, &why), RG_FORMAT_AUTO);
 }
 
+/* Oriedita's own: points in each of their spellings, colours by name and by number. */
+static void ori(void **state)
+{
+    (void)state;
+    const char *text = "{\"@version\":\"v1.1\",\"title\":\"lid\",\"lineSegments\":[{\"a\":\"-2.0,1.5\",\"b\":\"3.0,4.0E0\",\"color\":\"RED_1\"},\n"
+                       "{\"a\":{\"x\":1,\"y\":2},\"b\":[3,4],\"color\":2},{\"a\":\"0,0\",\"b\":\"1,0\",\"color\":\"CYAN_3\"},\n"
+                       "{\"a\":\"0,0\",\"b\":\"0,1\",\"color\":\"BLACK_0\"}],\"circles\":[]}";
+    rg_lines l = read_ok(text, RG_FORMAT_AUTO, NULL);
+    assert_int_equal(l.count, 4);
+    is_line(&l, 0, 'M', -2, -1.5, 3, -4, NAN);
+    is_line(&l, 1, 'V', 1, -2, 3, -4, NAN);
+    is_line(&l, 2, 'F', 0, 0, 1, 0, NAN);
+    is_line(&l, 3, 'B', 0, 0, 0, -1, NAN);
+    assert_int_equal(l.line[3].where, 3);
+    assert_string_equal(l.title, "lid");
+    rg_lines_free(&l);
+    refused("{\"@version\":\"v2\",\"lineSegments\":[]}", RG_FORMAT_AUTO, NULL, 1, "\"v2\" is not known");
+    refused("{\"lineSegments\":[{\"a\":\"0,0\",\"b\":\"1,0\"},\n{\"a\":\"0;0\",\"b\":\"1,0\"}]}", RG_FORMAT_AUTO, NULL, 2, "lineSegments[1]");
+    refused("{\"lineSegments\":[]}", RG_FORMAT_ORI, NULL, 1, "none");
+}
+
 static void the_format_asked_for(void **state)
 {
     (void)state;
@@ -173,7 +194,7 @@ static void damaged_at_random(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(content_goes_before_the_name), cmocka_unit_test(the_format_asked_for), cmocka_unit_test(what_is_no_crease_pattern),
+        cmocka_unit_test(content_goes_before_the_name), cmocka_unit_test(ori), cmocka_unit_test(the_format_asked_for), cmocka_unit_test(what_is_no_crease_pattern),
         cmocka_unit_test(byte_order_marks), cmocka_unit_test(memory_runs_short), cmocka_unit_test(damaged_at_random)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -88,6 +88,49 @@ static void angles(void **state)
     refused(ONE("\"M\"", "-200"), RG_FORMAT_FOLD, NULL, 1, "edges_foldAngle[4]");
 }
 
+/* Hardly off a plane: read, and told how far. A form that is folded shows by the lengths of its edges. */
+static void nearly_flat(void **state)
+{
+    (void)state;
+    const char *form = "{\"vertices_coords\":[[0,0,0],[4,0,0],[4,%g,3],[0,%g,3]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0],[0,2]],"
+                       "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"V\"]}";
+    char text[400];
+    snprintf(text, sizeof text, form, 0.0, 0.004);
+    rg_lines l = read_fold(text);
+    is_line(&l, 4, 'V', 0, 0, 4, -3, NAN);
+    assert_true(warned(&l, "off a plane by up to 0.004"));
+    rg_lines_free(&l);
+    snprintf(text, sizeof text, form, 0.0, 0.4);
+    refused(text, RG_FORMAT_FOLD, NULL, 1, "a folded form");
+    rg_settings s = rg_settings_default();
+    s.merge = 0.01; /* and it is for the user to say how far */
+    l = read_ok(text, RG_FORMAT_FOLD, &s);
+    assert_true(warned(&l, "off a plane"));
+    rg_lines_free(&l);
+}
+
+/* A program that draws downwards: one paper, whether its faces are listed or not. */
+static void who_draws_down(void **state)
+{
+    (void)state;
+    const char *form = "{\"file_creator\":\"%s\",\"vertices_coords\":[[0,0],[8,0],[8,6],[0,6]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0],[0,2]],"
+                       "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"M\"]%s}";
+    const char *faces = ",\"faces_vertices\":[[0,2,1],[0,3,2]]"; /* clockwise where y points up */
+    for (int i = 0; i < 2; i++) {
+        char text[500];
+        snprintf(text, sizeof text, form, "Oriedita", i ? faces : "");
+        rg_lines l = read_fold(text);
+        is_line(&l, 4, 'M', 0, 0, 8, -6, NAN);
+        assert_true(l.y_down && l.warnings == 0);
+        rg_lines_free(&l);
+        snprintf(text, sizeof text, form, "somebody", i ? faces : "");
+        l = read_fold(text);
+        is_line(&l, 4, i ? 'V' : 'M', 0, 0, 8, 6, NAN);
+        assert_int_equal(warned(&l, "--flip"), !i);
+        rg_lines_free(&l);
+    }
+}
+
 static void radians(void **state)
 {
     (void)state;
@@ -285,7 +328,7 @@ static void depth_and_truncation(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(letters_of_all_kinds), cmocka_unit_test(what_is_missing), cmocka_unit_test(angles), cmocka_unit_test(radians),
+        cmocka_unit_test(letters_of_all_kinds), cmocka_unit_test(what_is_missing), cmocka_unit_test(angles), cmocka_unit_test(nearly_flat), cmocka_unit_test(who_draws_down), cmocka_unit_test(radians),
         cmocka_unit_test(sides), cmocka_unit_test(planes_and_folded_forms), cmocka_unit_test(frames),
         cmocka_unit_test(places_of_errors), cmocka_unit_test(lines_of_the_file), cmocka_unit_test(depth_and_truncation)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -157,7 +157,7 @@ static void the_place_is_told(void **state)
     rg_pattern *p = pattern_of(&l);
     const char *at = strchr(info_of(p).not_disk, '(');
     double x, y;
-    char copy[200];
+    char copy[240];
     assert_non_null(at);
     snprintf(copy, sizeof copy, "%s", info_of(p).not_disk);
     assert_int_equal(sscanf(strchr(copy, '('), "(%lf, %lf)", &x, &y), 2);

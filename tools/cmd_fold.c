@@ -4,6 +4,7 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "say.h"
+#include "states.h"
 
 #include <errno.h>
 #include <math.h>
@@ -150,48 +151,40 @@ static int write_all(const options *o, const rg_motion *m, progress *bar)
 }
 
 /* Several patterns: a sequence of states of one sheet. */
-static int fold_states(const options *o, const rg_pattern *const *state, progress *bar, rg_motion **m)
+static int fold_states(const options *o, const states *q, progress *bar, rg_motion **m)
 {
     rg_diag why = {0, ""};
-    for (int i = 0; i < o->operands && o->operands > 1; i++) {
-        const rg_status same = rg_pattern_same_sheet(state[0], state[i], &o->settings, &why);
-        if (same != RG_OK) return say_status(same, o->operand[i], &why);
+    for (int i = 0; i < q->count && q->count > 1; i++) {
+        const rg_status same = rg_pattern_same_sheet(q->pattern[0], q->pattern[i], &o->settings, &why);
+        if (same != RG_OK) return say_status(same, o->operand[q->operand[i]], &why);
     }
     interrupt_hold();
-    rg_status s = rg_motion_create_states(state, o->operands, &o->settings, progress_show, bar, m, &why);
+    rg_status s = rg_motion_create_states((const rg_pattern *const *)q->pattern, q->count, &o->settings, progress_show, bar, m, &why);
     progress_erase(bar);
     if (s == RG_OK) return ENDS_WELL;
     const int status = say_status(s, o->operand[0], &why);
     return s == RG_EABSENT ? ENDS_USAGE : status; /* a solver that this build lacks is an option that it lacks */
 }
 
-static int read_states(const options *o, rg_pattern **state)
-{
-    int status = ENDS_WELL;
-    for (int i = 0; i < o->operands && status == ENDS_WELL; i++) status = input_read(o, i, &state[i]);
-    return status;
-}
-
 int cmd_fold(const options *o)
 {
-    rg_pattern **state = calloc((size_t)o->operands, sizeof *state);
+    states q = {.count = 0};
     rg_motion *m = NULL;
     progress bar;
     progress_init(&bar, o->quiet && o->progress < 0 ? 0 : o->progress);
-    int status = state ? check(o) : say_status(RG_ENOMEM, NULL, NULL);
-    if (status == ENDS_WELL) status = read_states(o, state);
-    if (status == ENDS_WELL) status = fold_states(o, (const rg_pattern *const *)state, &bar, &m);
+    int status = check(o);
+    if (status == ENDS_WELL) status = states_read(o, &q);
+    if (status == ENDS_WELL) status = fold_states(o, &q, &bar, &m);
     if (status == ENDS_WELL) {
         const rg_report *r = rg_motion_report(m);
         /* The state that was not reached is the one to name, else the last. */
-        const char *name = o->operand[r->states && r->states_reached < r->states ? r->states_reached : o->operands - 1];
+        const char *name = o->operand[q.operand[r->states && r->states_reached < r->states ? r->states_reached : q.count - 1]];
         status = write_all(o, m, &bar);
         if (r->outcome != RG_FOLDED) say_short(name, r);
         if (!o->quiet && !(o->report && strcmp(o->report, "-") == 0)) summarize(name, m);
         if (status == ENDS_WELL && r->outcome != RG_FOLDED) status = ENDS_SHORT;
     }
     rg_motion_destroy(m);
-    for (int i = 0; state && i < o->operands; i++) rg_pattern_destroy(state[i]);
-    free(state);
+    states_free(&q);
     return status;
 }

@@ -10,7 +10,7 @@
 #define DEG (3.14159265358979323846 / 180)
 
 /* How the value of an option is read, and where to. */
-typedef enum kind { SWITCH, WHOLE, REAL, ABOVE, CHOICE, TEXT, OUTPUT, KIND, SIZE, CAMERA, ADJUST } kind;
+typedef enum kind { SWITCH, WHOLE, REAL, ABOVE, CHOICE, TEXT, OUTPUT, KIND, FRAMES, SIZE, CAMERA, ADJUST } kind;
 
 typedef struct rule {
     int commands;            /* FOR_... */
@@ -73,7 +73,9 @@ static const rule rules[] = {
      "the input's format; auto: by content, then by name (auto):"},
     {FOR_CONVERT, "as", 0, "FORMAT", CHOICE, AT(as), 0, 0, 1, formats,
      "the output's format; auto: by its name; dxf is read only (auto):"},
-    {READS, "frame", 0, "K", WHOLE, AT(settings.file_frame), 0, INT32_MAX, 1, NULL,
+    {FOR_FOLD, "frame", 0, "K[-L]", FRAMES, 0, NOTHING,
+     "FOLD files: the frame to read, 0 is the key frame (the first crease pattern); several, such as 1-4, 1,3 or all, are states of one sheet"},
+    {FOR_INFO | FOR_CONVERT | FOR_CHART, "frame", 0, "K", WHOLE, AT(settings.file_frame), 0, INT32_MAX, 1, NULL,
      "FOLD files: the frame to read, 0 is the key frame (the first crease pattern)"},
     {READS, "flip", 0, NULL, SWITCH, AT(settings.flip), 1, 0, 1, NULL,
      "the file's y runs the other way than is usual for its format"},
@@ -199,6 +201,36 @@ static int set_adjust(const rule *r, const char *text, rg_settings *s)
     return ENDS_WELL;
 }
 
+/* K, K-L, lists of these with commas, or all: then there is one range from 1 to 0. */
+static int set_frames(const rule *r, const char *text, options *o)
+{
+    free(o->range);
+    o->ranges = 0;
+    o->range = calloc(strlen(text) + 1, sizeof *o->range);
+    if (!o->range) return refuse(r, text, "held: out of memory");
+    if (strcmp(text, "all") == 0) {
+        o->range[o->ranges++] = (frame_range){1, 0};
+        return ENDS_WELL;
+    }
+    for (const char *c = text;; c++) {
+        const size_t n = strspn(c, "0123456789");
+        if (n == 0 || n > 9) break;
+        frame_range *one = &o->range[o->ranges++];
+        one->first = one->last = (int32_t)atol(c);
+        c += n;
+        const size_t m = *c == '-' ? strspn(c + 1, "0123456789") : 0;
+        if (*c == '-' && (m == 0 || m > 9)) break;
+        if (m) one->last = (int32_t)atol(c + 1), c += m + 1;
+        if (one->last < one->first) break;
+        if (*c == 0) {
+            if (o->ranges == 1 && one->first == one->last) o->settings.file_frame = one->first;
+            return ENDS_WELL;
+        }
+        if (*c != ',') break;
+    }
+    return refuse(r, text, "a frame, such as 2, or several, such as 1-4 or 1,3, or all");
+}
+
 static int set(options *o, const rule *r, const char *text)
 {
     void *to = (char *)o + r->at;
@@ -208,6 +240,7 @@ static int set(options *o, const rule *r, const char *text)
     case TEXT: *(const char **)to = text; return ENDS_WELL;
     case OUTPUT: o->output[o->outputs++] = text; return ENDS_WELL;
     case KIND: o->kind[o->settings.kinds++] = text; return ENDS_WELL;
+    case FRAMES: return set_frames(r, text, o);
     case SIZE: return set_size(r, text, &o->picture);
     case CAMERA: return set_camera(r, text, &o->picture);
     case ADJUST: return set_adjust(r, text, &o->settings);
@@ -314,6 +347,7 @@ void options_free(options *o)
     free(o->operand);
     free(o->output);
     free(o->kind);
+    free(o->range);
     memset(o, 0, sizeof *o);
 }
 

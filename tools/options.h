@@ -9,12 +9,16 @@
 /* Which commands an option is for. */
 enum { FOR_FOLD = 1, FOR_INFO = 2, FOR_CONVERT = 4, FOR_GEN = 8, FOR_CHART = 16 };
 
+typedef struct frame_range { int32_t first, last; } frame_range; /* of a FOLD file; last below first: to its last one */
+
 typedef struct options {
     rg_settings settings;
     rg_picture picture;
     double angle; /* of gen, radians; 0: the kind's own */
     const char **operand, **output, **kind; /* kind: of --line */
     int operands, outputs;
+    frame_range *range;                                   /* of --frame: states in one file; one frame alone is in `settings` too */
+    int ranges;
     const char *report;                                   /* NULL: none */
     int quiet, json, progress;                            /* progress: 1 yes, 0 no, -1 on a terminal */
     int help, version;                                    /* asked for: nothing after it was looked at */

@@ -83,6 +83,7 @@ static rg_status build(struct rg_pattern *p, const rg_settings *settings, rg_dia
     p->info.merged_max = g.merged_max;
     p->info.lost_creases = g.loose;
     p->info.unit = p->lines.metres;
+    p->info.file_frames = p->lines.frames;
     if (s == RG_OK) s = rg_source_sort(&g, &p->lines);
     if (s == RG_OK) s = rg_points_nearest(&p->mem, g.X, g.nv, &p->info.kept_min, NULL);
     if (s == RG_OK) s = rg_sheet_from_graph(&g, settings->merge * g.size, &p->lines, &p->info, &p->rim);

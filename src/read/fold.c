@@ -483,6 +483,25 @@ static rg_status metadata(reader *r)
     return s;
 }
 
+/* Frames that say how this sheet is folded, and no more: states of it. */
+static rg_status warn_of_states(reader *r)
+{
+    const rg_value *frames = rg_value_get(r->root, "file_frames");
+    const size_t n = rg_value_count(frames);
+    int32_t states = 0, first = 0, last = 0;
+    r->out->frames = n < MOST_ELEMENTS ? (int32_t)n : MOST_ELEMENTS;
+    for (size_t i = 0; r->s->file_frame < 0 && i < n && i < MOST_FRAMES_TRIED; i++) {
+        const rg_value *one = rg_value_at(frames, i);
+        const int says = rg_value_get(one, "edges_foldAngle") || rg_value_get(one, "edges_assignment");
+        if (!says || !rg_value_is_true(rg_value_get(one, "frame_inherit")) || rg_value_get(one, "vertices_coords")) continue;
+        if (!states++) first = (int32_t)i + 1;
+        last = (int32_t)i + 1;
+    }
+    if (states == 0) return RG_OK;
+    return warn(r, "file_frames: %d frames are states of the sheet that are not looked at; --frame %d-%d goes through them", (int)states, (int)first,
+                (int)last);
+}
+
 static rg_status warn_folded(reader *r)
 {
     const rg_value *classes = rg_value_get(r->frame, "frame_classes");
@@ -555,6 +574,7 @@ static rg_status read_frame(reader *r)
     if (s == RG_OK && turn < 0)
         s = warn(r, "faces_vertices: they run clockwise, so this is the back: mountain and valley are exchanged");
     if (s == RG_OK) s = warn_folded(r);
+    if (s == RG_OK) s = warn_of_states(r);
     if (s == RG_OK) s = add_lines(r, turn);
     if (s == RG_OK) s = locate(r);
     return s == RG_OK ? metadata(r) : s;

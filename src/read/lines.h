@@ -44,6 +44,7 @@ typedef struct rg_lines {
     int32_t traits;
     size_t trait_room;
     uint64_t kinds_used; /* of rg_settings.kind, a bit each: those that some line was of */
+    int32_t frames;  /* FOLD: how many there are besides the key frame */
     int y_down;      /* the file's y points down: it was turned round */
     double metres;   /* in a unit of the coordinates; 0: the file does not say */
     double merge;    /* tolerance that the format is usually drawn to, a part of the size; 0: the general one */

@@ -58,12 +58,21 @@ static rg_status lines(const rg_value *list, const char *text, size_t size, rg_l
     return s;
 }
 
+/* Versions "v1", "v1.1"; the first releases gave theirs under another key. */
+static rg_status check_version(const rg_value *root, rg_diag *why)
+{
+    const char *version = rg_value_text(rg_value_get(root, "@version"));
+    if (!version || strcmp(version, "v1") == 0 || strncmp(version, "v1.", 3) == 0) return RG_OK;
+    return rg_fail(RG_EFORMAT, why, 1, "@version: \"%.40s\" is not known, v1 is: save it again as .fold or .cp", version);
+}
+
 rg_status rg_ori_read(const void *bytes, size_t size, const rg_memory *mem, rg_lines *out, rg_diag *why)
 {
     rg_value *root = NULL;
     rg_lines_init(out, mem);
     out->y_down = 1;
     rg_status s = size ? rg_value_parse(bytes, size, &root, why) : rg_fail(RG_EFORMAT, why, 0, "the file is empty");
+    if (s == RG_OK) s = check_version(root, why);
     if (s == RG_OK) s = lines(rg_value_get(root, "lineSegments"), bytes, size, out, why);
     const char *title = rg_value_text(rg_value_get(root, "title"));
     if (s == RG_OK && title && *title && !(out->title = rg_mem_string(mem, title))) s = RG_ENOMEM;
