@@ -129,7 +129,7 @@ static void malformed_files(void **state)
     (void)state;
     static const struct { const char *name; int line; const char *words; int V, E, F, disk; } files[] = {
         {"heavy_test.opx", 0, "empty", 0, 0, 0, 0},
-        {"corrupted.ori", 0, "Oriedita", 0, 0, 0, 0},
+        {"corrupted.ori", 1, "\"unknown\" is not known", 0, 0, 0, 0},
         {"junk.cp", 1, "Lorem", 0, 0, 0, 0},
         {"invalid-mismatch-length.fold", 5, "edges_assignment: 5 of them for 4 edges", 0, 0, 0, 0},
         {"invalid-mismatch-references.fold", 7, "faces_vertices[1][1]: there is no vertex 4", 0, 0, 0, 0},

@@ -108,8 +108,13 @@ static int dispatch(int argc, char **argv)
     return ENDS_WELL;
 }
 
+/* Help and verdicts fit in, so that the one write of them at the end knows why it failed. */
+enum { OUTPUT_BUFFER = 1 << 16 };
+
 int main(int argc, char **argv)
 {
+    static char buffer[OUTPUT_BUFFER];
+    setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     fill_descriptors();
     interrupt_init();
     const int status = dispatch(argc, argv);

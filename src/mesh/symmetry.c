@@ -243,7 +243,7 @@ rg_status rg_symmetry_find(rg_symmetry *G, const rg_memory *mem, const rg_mesh *
     memset(G, 0, sizeof *G);
     rg_edge *E = rg_mem_array(mem, (size_t)m->ne, sizeof *E);
     if (!E) return RG_ENOMEM;
-    for (int32_t e = 0; e < m->ne; e++) E[e] = (rg_edge){{m->edge[e][0], m->edge[e][1]}, m->assignment[e], m->target[e], 0};
+    for (int32_t e = 0; e < m->ne; e++) E[e] = (rg_edge){{m->edge[e][0], m->edge[e][1]}, m->assignment[e], m->target[e], 0, e};
     rg_status s = RG_OK;
     for (int k = 0; s == RG_OK && !found && k < SAME_PLACES; k++) s = find_within(G, mem, m, E, SAME_PLACE[k] * m->size, &found);
     if (s == RG_OK && !found) s = only_nothing(G, mem, m);
