@@ -166,6 +166,40 @@ static rg_status create_motion(void *ctx, counted *c, rg_diag *why)
     return status;
 }
 
+static rg_status find_layers(void *ctx, counted *c, rg_diag *why)
+{
+    job *j = ctx;
+    rg_memory mem = {counted_resize, c};
+    rg_settings s = with(j, &mem);
+    rg_pattern *p = NULL;
+    rg_layers *l = NULL;
+    rg_settings plain = j->settings;
+    if (rg_pattern_read(j->path, &plain, &p, why) != RG_OK) fail_msg("%s", why->text);
+    rg_status status = rg_layers_create(p, &s, &l, why);
+    assert_int_equal(l != NULL, status == RG_OK);
+    if (l) {
+        rg_layers_info info;
+        rg_layers_get_info(l, &info);
+        uint64_t *which = calloc((size_t)info.parts + 1, sizeof *which);
+        rg_layers_pair *pair = calloc((size_t)info.pairs, sizeof *pair);
+        assert_int_equal(info.state, RG_LAYERS_VALID);
+        assert_int_equal(rg_layers_which(l, 40, which), RG_OK);
+        status = rg_layers_order(l, which, pair);
+        free(which);
+        free(pair);
+    }
+    rg_layers_destroy(l);
+    rg_pattern_destroy(p);
+    return status;
+}
+
+static void layers(void **state)
+{
+    (void)state;
+    job j = {.path = "patterns/four-crane.opx", .settings = rg_settings_default()};
+    refuse_everywhere(find_layers, &j);
+}
+
 /* ------------------------------------------------------------------------------------------------------- reading ---- */
 
 static void reading(void **state)
@@ -400,6 +434,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reading),
+        cmocka_unit_test(layers),
         cmocka_unit_test(folds),
         cmocka_unit_test(stepping_asks_for_nothing),
         cmocka_unit_test(motions),

@@ -605,7 +605,7 @@ static const struct { const char *part; const char *keys[20]; } promised[] = {
              "seconds_solving", "seconds_writing", "peak_bytes"}},
     {"result", {"outcome", "reason", "folded_percent", "least_folded_percent", "max_closure_residual", "max_edge_strain",
                 "max_facet_gap", "max_overfold_deg", "max_adjustment", "max_strain_from_original", "blocking_vertices",
-                "blocking_creases", "first_contact_frame"}}};
+                "blocking_creases", "first_contact_frame", "layers", "layer_orders"}}};
 
 static double value(const json_t *report, const char *part, const char *key)
 {
@@ -649,6 +649,9 @@ static void info_as_json_has_what_is_promised(void **state)
     for (int k = 0; promised[0].keys[k]; k++) assert_non_null(json_object_get(info, promised[0].keys[k]));
     assert_true(json_is_array(json_object_get(info, "closed")));
     assert_true(json_is_array(json_object_get(info, "warnings")));
+    assert_string_equal(json_string_value(json_object_get(info, "layers")), "none");
+    assert_true(json_is_null(json_object_get(info, "layer_orders")));
+    assert_true(json_array_size(json_object_get(info, "layers_where")) > 0);
     assert_int_equal(json_array_size(json_object_get(info, "unfoldable")), 1);
     near(json_number_value(json_object_get(info, "kawasaki_max_deg")), 0.2 / 3.14159265358979323846 * 180, 1e-9);
     json_decref(info);

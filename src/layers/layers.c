@@ -284,37 +284,93 @@ int rg_layers_above_of_mesh(const rg_layers *l, int32_t i, int32_t j)
     return above && (whole || (apart(l, i, j) < -l->cells.tol && apart(l, j, i) < -l->cells.tol)) ? above : 0;
 }
 
+typedef struct climb {
+    const rg_layers *l;
+    int32_t *under;  /* [nf] facets right under each that have no level yet; -1: it has one */
+    int32_t *queue;  /* [nf] those with a level, and those that can get one */
+    int32_t *ring;   /* [nf] scratch: facets of a circle */
+    int32_t *mark;   /* [nf] */
+    int32_t head, tail;
+} climb;
+
+/* Goes from facet f to what lies above it (below: -1) and has no level, over facets with one mark, which get another. Returns how
+ * many it found, in c->ring. */
+static int32_t spread(climb *c, int32_t f, int side, int32_t from, int32_t to)
+{
+    const rg_pairs *p = &c->l->pairs;
+    int32_t n = 0;
+    c->ring[n++] = f;
+    c->mark[f] = to;
+    for (int32_t i = 0; i < n; i++)
+        for (int32_t j = p->start[c->ring[i]]; j < p->start[c->ring[i] + 1]; j++) {
+            const int32_t *of = p->facet[p->number[j]], g = of[of[0] == c->ring[i]];
+            if (c->mark[g] != from || rg_layers_above(c->l, c->ring[i], g) != side) continue;
+            c->mark[g] = to;
+            c->ring[n++] = g;
+        }
+    return n;
+}
+
+/* Which facet to let through where all that wait lie on one that waits: of a circle with nothing but itself under it, the one that has
+ * least of it below. */
+static int32_t cut_circle(climb *c)
+{
+    const int32_t nf = c->l->flat.nf;
+    const rg_pairs *p = &c->l->pairs;
+    int32_t root = -1, best = -1, least = 0;
+    for (int32_t f = 0; f < nf; f++) c->mark[f] = c->under[f] > 0;
+    /* Whoever lies under the last root of all has been reached from it: they are in one circle. */
+    for (int32_t f = 0; f < nf; f++)
+        if (c->mark[f] == 1) spread(c, root = f, 1, 1, 2);
+    const int32_t n = spread(c, root, -1, 2, 3);
+    for (int32_t i = 0; i < n; i++) {
+        const int32_t f = c->ring[i];
+        int32_t below = 0;
+        for (int32_t j = p->start[f]; j < p->start[f + 1]; j++) {
+            const int32_t *of = p->facet[p->number[j]], g = of[of[0] == f];
+            below += c->mark[g] == 3 && rg_layers_above(c->l, f, g) < 0;
+        }
+        if (best >= 0 && below >= least) continue;
+        best = f, least = below;
+    }
+    return best;
+}
+
+/* Gives facet f its turn: what lies on it comes higher, and what should lie under it but has not had its turn yet too. */
+static void climb_over(climb *c, int32_t f, int32_t *level)
+{
+    const rg_pairs *p = &c->l->pairs;
+    for (int32_t j = p->start[f]; j < p->start[f + 1]; j++) {
+        const int32_t *of = p->facet[p->number[j]], g = of[of[0] == f];
+        if (c->under[g] < 0) continue;
+        if (level[g] <= level[f]) level[g] = level[f] + 1;
+        if (rg_layers_above(c->l, f, g) > 0 && --c->under[g] == 0) c->queue[c->tail++] = g;
+    }
+}
+
 int32_t rg_layers_levels(const rg_layers *l, int32_t *level, int32_t *cuts)
 {
     const rg_pairs *p = &l->pairs;
-    const int32_t nf = l->flat.nf;
-    int32_t *under = rg_mem_array(&l->mem, 2 * (size_t)nf, sizeof *under), *queue = under + nf, head = 0, tail = 0, top = 0, cut = 0;
-    if (!under) return -1;
-    for (int32_t i = 0; i < p->count; i++) under[p->facet[i][l->orders.value[i] > 0]]++;
-    for (int32_t f = 0; f < nf; f++) {
+    const size_t nf = (size_t)l->flat.nf;
+    int32_t *room = rg_mem_array(&l->mem, 4 * nf, sizeof *room), top = 0, cut = 0;
+    climb c = {l, room, room + nf, room + 2 * nf, room + 3 * nf, 0, 0};
+    if (!room) return -1;
+    for (int32_t i = 0; i < p->count; i++) c.under[p->facet[i][l->orders.value[i] > 0]]++;
+    for (int32_t f = 0; f < l->flat.nf; f++) {
         level[f] = 0;
-        if (!under[f]) queue[tail++] = f;
+        if (!c.under[f]) c.queue[c.tail++] = f;
     }
-    for (; head < nf; head++) {
-        if (head == tail) { /* a circle: of those that wait, the one with the fewest under it, on top of all before */
-            int32_t best = -1;
-            for (int32_t f = 0; f < nf; f++)
-                if (under[f] > 0 && (best < 0 || under[f] < under[best])) best = f;
-            under[best] = 0;
-            level[best] = top + 1;
-            queue[tail++] = best;
+    for (; c.head < l->flat.nf; c.head++) {
+        if (c.head == c.tail) {
+            c.queue[c.tail++] = cut_circle(&c);
             cut++;
         }
-        const int32_t f = queue[head];
+        const int32_t f = c.queue[c.head];
+        c.under[f] = -1;
         if (level[f] > top) top = level[f];
-        for (int32_t j = p->start[f]; j < p->start[f + 1]; j++) {
-            const int32_t pair = p->number[j], g = p->facet[pair][p->facet[pair][0] == f];
-            if (under[g] <= 0 || rg_layers_above(l, f, g) < 0) continue;
-            if (level[g] <= level[f]) level[g] = level[f] + 1;
-            if (--under[g] == 0) queue[tail++] = g;
-        }
+        climb_over(&c, f, level);
     }
-    rg_mem_free(&l->mem, under);
+    rg_mem_free(&l->mem, room);
     if (cuts) *cuts = cut;
     return top + 1;
 }

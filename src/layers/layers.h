@@ -43,8 +43,8 @@ static inline int rg_layers_above(const rg_layers *l, int32_t f, int32_t g)
 /* The same of facets i and j of the mesh that the layers were made of, which parts of the facets here may be. */
 int rg_layers_above_of_mesh(const rg_layers *l, int32_t i, int32_t j);
 /* level[l->flat.nf]: out, after a choice: 0 the lowest; every facet is higher than all that it lies on. Returns how many levels there
- * are. Where facets lie on each other in a circle, as the flaps of a closed box do, it is cut: `cuts` (may be NULL) says how often,
- * and two facets that overlap still have different levels. RG_ENOMEM: -1. */
+ * are. Where facets lie on each other in a circle, as the flaps of a closed box do, it is cut where few pairs come to be the wrong way
+ * round: `cuts` (may be NULL) says how often. Two facets that overlap still have different levels. RG_ENOMEM: -1. */
 int32_t rg_layers_levels(const rg_layers *l, int32_t *level, int32_t *cuts);
 
 #endif
