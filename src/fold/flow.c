@@ -25,6 +25,10 @@ static const double AT_FLAT = 0.005;
 static const double LEAST_AREA = 0.1;
 /* A correction this much longer than the step it corrects, plus a little, has left the branch. */
 static const double FARTHEST_CORRECTION = 0.7, LITTLE = 1e-3;
+/* Even corrections go on while each leaves at most this part of what was open: they converge quadratically until what is left is
+ * what the drawing is uneven by. That is then closed plainly, with creases that give way this much less than the vertices:
+ * those move by what the drawing is off, too little to be seen, while near flat creases would turn by its square root. */
+static const double STILL_CLOSES = 0.1, STIFF = 0.01;
 static const double LEAST_STEP = 1e-7, LEAST_H = 1e-4;
 /* A run that for so many steps betters neither the mean nor the least by so much is stuck. */
 static const int32_t MOST_IDLE = 80, MOST_STEPS = 1500;
@@ -149,31 +153,56 @@ static void renew(rg_flow *F)
     rg_joint_renew(&F->J, F->scale);
 }
 
-/* Works off r and r' as assembled, to first order: eqs. (14), (19) with no wish. */
-static void correct_once(rg_flow *F, double *rho, double *u)
+/* A step, or a state before it is closed: what the symmetry leaves of it. Of steps that an even state allows the mean is
+ * allowed as well. */
+static void even_out(const rg_flow *F, double *rho, double *u)
 {
-    renew(F);
-    rg_step_solve(&F->J.A, F->J.r, F->dz); /* eqs. (14), (15), (19) */
-    for (int32_t i = 0; i < F->N; i++) rho[i] -= F->scale[i] * F->dz[i];
-    for (int32_t i = 0; i < F->U; i++) u[i] -= F->scale[F->N + i] * F->dz[F->N + i];
+    if (!F->symmetry) return;
+    rg_symmetry_mean(F->symmetry, rho);
+    rg_freedom_mean(&F->freedom, F->symmetry, u, F->spare);
 }
 
-/* The same until it closes. Zero: it does not. */
+/* Works off r and r' as assembled, to first order: eqs. (14), (19) with no wish. */
+static void correct_once(rg_flow *F, double *rho, double *u, int evenly)
+{
+    const int32_t n = F->N + F->U;
+    renew(F);
+    rg_step_solve(&F->J.A, F->J.r, F->dz); /* eqs. (14), (15), (19) */
+    for (int32_t i = 0; i < n; i++) F->dz[i] *= F->scale[i];
+    if (evenly) even_out(F, F->dz, F->dz + F->N);
+    for (int32_t i = 0; i < F->N; i++) rho[i] -= F->dz[i];
+    for (int32_t i = 0; i < F->U; i++) u[i] -= F->dz[F->N + i];
+}
+
+static void stiffen(rg_flow *F, double by)
+{
+    for (int32_t i = 0; i < F->N; i++) F->scale[i] *= by;
+}
+
+/* The same until it closes. Zero: it does not. As the mean of even steps is a step, so is that of corrections; only what
+ * the drawing itself is uneven by is left to each vertex. */
 static int correct(rg_flow *F, double *rho, double *u)
 {
     double before = INFINITY;
-    int poor = 0;
+    int poor = 0, evenly = F->symmetry != NULL, closes = 0, stiff = 0;
     for (int32_t n = 0;; n++) {
         double off;
         F->closure = rg_joint_assemble(&F->J, rho, u, &off);
         F->assemblies++;
-        if (F->closure <= F->tol && off <= F->tol) return 1;
-        if (n >= CORRECTIONS || !(F->closure <= 2.5)) return 0;
+        closes = F->closure <= F->tol && off <= F->tol;
+        if (closes || n >= CORRECTIONS || !(F->closure <= 2.5)) break;
+        if (evenly && F->closure > STILL_CLOSES * before) {
+            evenly = 0;
+            stiff = F->U > 0;
+            if (stiff) stiffen(F, STIFF);
+        }
         poor = F->closure > 0.7 * before && F->closure > 100 * F->tol ? poor + 1 : 0;
-        if (poor >= 3) return 0;
+        if (poor >= 3) break;
         before = F->closure;
-        correct_once(F, rho, u);
+        correct_once(F, rho, u, evenly);
     }
+    if (stiff) stiffen(F, 1 / STIFF);
+    return closes;
 }
 
 /* Once more, for F->trial, which closes, to close better; taken back where it does not: near singular states more
@@ -185,7 +214,7 @@ static void polish(rg_flow *F)
     if (before <= CLOSE_ENOUGH * F->tol) return;
     memcpy(spare, F->trial, (size_t)F->N * sizeof *spare);
     memcpy(spare_u, F->trial_u, (size_t)F->U * sizeof *spare);
-    correct_once(F, F->trial, F->trial_u);
+    correct_once(F, F->trial, F->trial_u, 0);
     F->closure = rg_joint_assemble(&F->J, F->trial, F->trial_u, NULL);
     F->assemblies++;
     if (F->closure < before) return;
@@ -242,15 +271,6 @@ static int32_t hold_what_overfolds(rg_flow *F, const double *dz, double beyond)
         more++;
     }
     return more;
-}
-
-/* A step, or a state before it is closed: what the symmetry leaves of it. Of steps that an even state allows the mean is
- * allowed as well. Closing is not averaged: a drawing is symmetric to its own rounding only, and would not close. */
-static void even_out(const rg_flow *F, double *rho, double *u)
-{
-    if (!F->symmetry) return;
-    rg_symmetry_mean(F->symmetry, rho);
-    rg_freedom_mean(&F->freedom, F->symmetry, u, F->spare);
 }
 
 /* wish - A^+ (A wish + r), with the columns of A scaled: eqs. (14), (19). */
