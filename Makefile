@@ -144,7 +144,7 @@ run-tests: all $(test_bin)
 	 UBSAN_OPTIONS=print_stacktrace=1 RIGAMI=$B/rigami sh tools/run_tests $(test_bin)
 
 run-demo: all
-	@sh tools/run_demo $B/rigami $(GL)
+	@sh tools/run_demo $B/rigami
 
 asan:
 	@$(MAKE) --no-print-directory $(jobs) config=asan run-tests

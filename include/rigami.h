@@ -355,20 +355,42 @@ RG_API const double (*rg_motion_flat(const rg_motion *m, int32_t frame))[2];
 
 /* ------------------------------------------------------------------------------------- write, render ---- */
 
+typedef enum rg_lines_shown { RG_LINES_NONE, RG_LINES_CREASES, RG_LINES_EDGES } rg_lines_shown;
+typedef enum rg_colouring {
+    RG_COLOUR_PAPER,
+    RG_COLOUR_STRAIN, /* of a facet: largest | length of an edge in this frame / in the pattern given - 1 | */
+    RG_COLOUR_ROLL,   /* how far its corners moved through the sheet */
+    RG_COLOUR_SPEED,  /* the fastest of its creases, from the frame before */
+    RG_COLOUR_LAYER   /* how high it lies among those that lie in its plane */
+} rg_colouring;
+typedef enum rg_loop { RG_LOOP_BACK, RG_LOOP_FORWARD, RG_LOOP_ONCE } rg_loop;
+
+/* Start from rg_picture_default() and change what you need. */
 typedef struct rg_picture {
-    int32_t width, height;             /* pixels; 960 x 720 */
-    double azimuth, elevation;         /* of the camera about the sheet's centre, radians; -60 and 35 degrees */
-    double zoom;                       /* 1: the whole motion just fits */
-    unsigned char front[3], back[3];   /* paper colours */
+    int32_t width, height;           /* pixels; 960 x 720 */
+    int aimed;                       /* 0: azimuth and elevation are chosen from the motion; non-zero: as they are here; 0 */
+    double azimuth, elevation;       /* of the camera about the sheet, radians; -60 and 35 degrees */
+    double zoom;                     /* 1: the sheet just fits in every frame */
+    int targeted;                    /* non-zero: look at `target`; 0: at the sheet's middle as it is seen; 0 */
+    double target[2];                /* a point of the sheet, as in the pattern */
+    unsigned char front[3], back[3]; /* paper colours */
     unsigned char background[3];
-    int creases;                       /* non-zero: draw creases and edges */
-    double fps;                        /* of animations: frames a second, 0.01 ... 1000; 30 */
+    rg_lines_shown lines;            /* creases in their colours, all edges alike, or none; creases */
+    double line_width;               /* over the usual one, 0.1 ... 10; 1 */
+    double see_through;              /* part of the light that passes a facet, 0 ... 0.9; 0 */
+    int shadow;                      /* non-zero: a soft one on the floor; 1 */
+    int caption;                     /* non-zero: title and percent below; 0 */
+    const char *image;               /* PNG file, printed on the paper's front, its upper side towards +y; NULL: none */
+    rg_colouring colour;             /* what the colours of facets tell; paper */
+    double fps;                      /* of animations: frames a second, 0.01 ... 1000; 30 */
+    double hold;                     /* seconds for which an animation stands still at its end, 0 ... 60; 1 */
+    rg_loop loop;                    /* of animations: there and back for ever, forwards for ever, or once; back */
 } rg_picture;
 
 RG_API rg_picture rg_picture_default(void);
 
 /* RG_OK if a motion can be written to this path (by its shape and extension) in this build, else why->text says why
- * not: RG_EARG for an unknown form, RG_EABSENT for pictures in a build without them. The forms are those of
+ * not: RG_EARG for an unknown form, RG_EABSENT for films where the program ffmpeg is missing. The forms are those of
  * docs/outputs.md; "-" is none of them, as nothing says what to write there. */
 RG_API rg_status rg_output_check(const char *path, rg_diag *why);
 /* Writes the motion in the form that the path's shape and extension ask for; each file is written to a temporary name

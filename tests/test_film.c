@@ -9,7 +9,6 @@
 #include "near.h"
 #include "counted.h"
 #include "motions.h"
-#include "render/gl.h"
 #include "write/film.h"
 #include "write/palette.h"
 
@@ -23,14 +22,9 @@
 #include <zlib.h>
 
 enum { WIDTH = 121, HEIGHT = 90, FRAMES = 7 }; /* odd on purpose */
-
-static void skip_without_gl(void)
-{
-    rg_diag why = {0, ""};
-    if (rg_gl_check(&why) == RG_OK) return;
-    printf("SKIPPED: %s\n", why.text);
-    skip();
-}
+/* There and back: all frames, then those between the ends; the end is held for a second, the beginning for half of one. */
+enum { SHOWN = 2 * FRAMES - 2, RATE = 30, LASTING = SHOWN + RATE + RATE / 2 };
+static int frame_shown(int k) { return k < FRAMES ? k : 2 * FRAMES - 2 - k; }
 
 /* A folder of its own for each test; file names in it are made by in(). */
 static char folder[200];
@@ -187,23 +181,7 @@ static void forms_are_told_by_their_names(void **state)
     assert_int_equal(rg_film_check("x-%d.gif", &why), RG_EARG);
     assert_int_equal(rg_film_check("x.obj", &why), RG_EARG);
     assert_non_null(strstr(why.text, "x.obj"));
-    assert_int_equal(rg_film_check("x.png", &why), rg_gl_check(&why));
-}
-
-static void a_build_without_gl_says_so(void **state)
-{
-    (void)state;
-    rg_diag why = {0, ""};
-    if (rg_gl_check(&why) == RG_OK) { /* then all other tests run */
-        assert_int_equal(rg_film_check("x.png", &why), RG_OK);
-        return;
-    }
-    rg_motion *m = some_motion(3);
-    refuse(m, in("x.png"), RG_EABSENT, "GL=none");
-    refuse(m, in("d/"), RG_EABSENT, "GL=none");
-    refuse(m, in("x.gif"), RG_EABSENT, "GL=none");
-    assert_int_equal(entries(folder), 0);
-    rg_motion_destroy(m);
+    assert_int_equal(rg_film_check("x.png", &why), RG_OK);
 }
 
 /* ------------------------------------------------------------------------------------------------ frames ---- */
@@ -211,7 +189,6 @@ static void a_build_without_gl_says_so(void **state)
 static void frames_are_numbered(void **state)
 {
     (void)state;
-    skip_without_gl();
     rg_motion *m = some_motion(FRAMES);
     write_by(m, in("made/"), 0);
     assert_int_equal(entries(in("made")), FRAMES);
@@ -244,7 +221,6 @@ static void frames_are_numbered(void **state)
 static void a_shorter_run_leaves_no_frames_of_a_longer_one(void **state)
 {
     (void)state;
-    skip_without_gl();
     rg_motion *longer = some_motion(FRAMES), *shorter = some_motion(3);
     write_by(longer, in("d/"), 0);
     spill(in("d/0008.png"), "somebody's own");
@@ -268,7 +244,6 @@ static void a_shorter_run_leaves_no_frames_of_a_longer_one(void **state)
 static void threads_change_nothing(void **state)
 {
     (void)state;
-    skip_without_gl();
     static const char *const names[] = {"%d.gif", "%d.apng", "%d.png", "%d/0000.png", "%d/0003.png", "%d/0006.png"};
     rg_motion *m = some_motion(FRAMES);
     for (int threads = 1; threads <= 5; threads += 2) {
@@ -297,7 +272,6 @@ static void threads_change_nothing(void **state)
 static void apng_frames_are_the_pictures(void **state)
 {
     (void)state;
-    skip_without_gl();
     rg_motion *m = some_motion(FRAMES);
     write_by(m, in("x.apng"), 0);
     write_by(m, in("f%d.png"), 0);
@@ -317,7 +291,7 @@ static void apng_frames_are_the_pictures(void **state)
             assert_int_equal(number(data), WIDTH);
             assert_int_equal(number(data + 4), HEIGHT);
         } else if (memcmp(kind, "acTL", 4) == 0) {
-            assert_int_equal(number(data), FRAMES);
+            assert_int_equal(number(data), SHOWN);
             assert_int_equal(number(data + 4), 0);
         } else if (memcmp(kind, "fcTL", 4) == 0) {
             assert_int_equal(number(data), sequence++);
@@ -339,7 +313,7 @@ static void apng_frames_are_the_pictures(void **state)
                 memcpy(canvas + 3 * ((y + r) * WIDTH + x), row + 1, 3 * w);
             }
             char name[40];
-            snprintf(name, sizeof name, "f%d.png", shown++);
+            snprintf(name, sizeof name, "f%d.png", frame_shown(shown++));
             unsigned char *rgb = decode_png(in(name));
             assert_memory_equal(canvas, rgb, 3 * WIDTH * HEIGHT);
             free(rgb);
@@ -349,9 +323,9 @@ static void apng_frames_are_the_pictures(void **state)
         at += 12 + n;
     }
     assert_true(ended);
-    assert_int_equal(shown, FRAMES);
-    assert_int_equal(smaller, FRAMES - 1);
-    near(seconds, FRAMES / 30.0, 1e-9);
+    assert_int_equal(shown, SHOWN);
+    assert_int_equal(smaller, SHOWN - 1);
+    near(seconds, (double)LASTING / RATE, 1e-9);
     /* Readers that know nothing of animations show the first frame. */
     unsigned char *first = decode_png(in("x.apng")), *rgb = decode_png(in("f0.png"));
     assert_memory_equal(first, rgb, 3 * WIDTH * HEIGHT);
@@ -367,7 +341,6 @@ static void apng_frames_are_the_pictures(void **state)
 static void gif_frames_are_near_the_pictures(void **state)
 {
     (void)state;
-    skip_without_gl();
     rg_motion *m = some_motion(FRAMES);
     write_by(m, in("x.gif"), 0);
     write_by(m, in("f%d.png"), 0);
@@ -377,11 +350,11 @@ static void gif_frames_are_near_the_pictures(void **state)
     assert_int_equal(DGifSlurp(g), GIF_OK);
     assert_int_equal(g->SWidth, WIDTH);
     assert_int_equal(g->SHeight, HEIGHT);
-    assert_int_equal(g->ImageCount, FRAMES);
+    assert_int_equal(g->ImageCount, SHOWN);
     unsigned char canvas[3 * WIDTH * HEIGHT];
     memset(canvas, 0, sizeof canvas);
     int forever = 0;
-    for (int k = 0; k < FRAMES; k++) {
+    for (int k = 0; k < SHOWN; k++) {
         const SavedImage *s = &g->SavedImages[k];
         GraphicsControlBlock control;
         assert_int_equal(DGifSavedExtensionToGCB(g, k, &control), GIF_OK);
@@ -397,7 +370,7 @@ static void gif_frames_are_near_the_pictures(void **state)
         }
         char name[40];
         double off = 0;
-        snprintf(name, sizeof name, "f%d.png", k);
+        snprintf(name, sizeof name, "f%d.png", frame_shown(k));
         unsigned char *rgb = decode_png(in(name));
         for (int i = 0; i < 3 * WIDTH * HEIGHT; i++) off += abs(rgb[i] - canvas[i]);
         below(off / (3 * WIDTH * HEIGHT), 1.5);
@@ -405,8 +378,47 @@ static void gif_frames_are_near_the_pictures(void **state)
         free(rgb);
     }
     assert_true(forever);
-    assert_int_equal(hundredths, (int)(100.0 * FRAMES / 30 + 0.5));
+    assert_int_equal(hundredths, 100 * LASTING / RATE);
     DGifCloseFile(g, NULL);
+    rg_motion_destroy(m);
+}
+
+/* What goes round forwards has each frame once; what is shown once is not told to go round. */
+static void films_go_as_they_are_told(void **state)
+{
+    (void)state;
+    rg_motion *m = some_motion(FRAMES);
+    static const rg_loop loops[] = {RG_LOOP_BACK, RG_LOOP_FORWARD, RG_LOOP_ONCE};
+    static const int images[] = {SHOWN, FRAMES, FRAMES}, last[] = {SHOWN + 3, FRAMES + 3, FRAMES + 2};
+    for (int i = 0; i < 3; i++) {
+        rg_picture p = small_picture();
+        rg_diag why = {0, ""};
+        p.loop = loops[i];
+        p.hold = 2 / p.fps; /* two frames more at the end, one at the beginning of what comes again */
+        if (rg_film_write(m, in("x.gif"), &p, &why) != RG_OK) fail_msg("%s", why.text);
+        if (rg_film_write(m, in("x.apng"), &p, &why) != RG_OK) fail_msg("%s", why.text);
+        GifFileType *g = DGifOpenFileName(in("x.gif"), NULL);
+        int hundredths = 0, forever = 0;
+        assert_non_null(g);
+        assert_int_equal(DGifSlurp(g), GIF_OK);
+        assert_int_equal(g->ImageCount, images[i]);
+        for (int k = 0; k < g->ImageCount; k++) {
+            GraphicsControlBlock control;
+            assert_int_equal(DGifSavedExtensionToGCB(g, k, &control), GIF_OK);
+            hundredths += control.DelayTime;
+            for (int j = 0; j < g->SavedImages[k].ExtensionBlockCount; j++)
+                forever |= memcmp(g->SavedImages[k].ExtensionBlocks[j].Bytes, "NETSCAPE", 8) == 0;
+        }
+        near(hundredths, 100.0 * last[i] / RATE, 1);
+        assert_int_equal(forever, loops[i] != RG_LOOP_ONCE);
+        DGifCloseFile(g, NULL);
+        bytes b = slurp(in("x.apng"));
+        const unsigned char *control = b.at + 8 + 25; /* after the signature and the header: acTL */
+        assert_memory_equal(control + 4, "acTL", 4);
+        assert_int_equal(number(control + 8), images[i]);
+        assert_int_equal(number(control + 12), loops[i] == RG_LOOP_ONCE);
+        free(b.at);
+    }
     rg_motion_destroy(m);
 }
 
@@ -445,7 +457,6 @@ static void palettes_are_close(void **state)
 static void a_film_is_not_large(void **state)
 {
     (void)state;
-    skip_without_gl();
     rg_motion *m = some_motion(60);
     rg_picture p = rg_picture_default();
     struct stat is;
@@ -461,7 +472,6 @@ static void a_film_is_not_large(void **state)
 static void one_frame_and_still_frames_are_films_too(void **state)
 {
     (void)state;
-    skip_without_gl();
     rg_motion *one = some_motion(1), *still = some_motion(4);
     for (int32_t i = 0; i < 4 * still->mesh.N; i++) still->rho[i] = 0;
     write_by(one, in("one.gif"), 0);
@@ -473,7 +483,7 @@ static void one_frame_and_still_frames_are_films_too(void **state)
     GifFileType *g = DGifOpenFileName(in("still.gif"), NULL);
     assert_non_null(g);
     assert_int_equal(DGifSlurp(g), GIF_OK);
-    assert_int_equal(g->ImageCount, 4);
+    assert_int_equal(g->ImageCount, 6);
     assert_int_equal(g->SavedImages[1].ImageDesc.Width * g->SavedImages[1].ImageDesc.Height, 1);
     DGifCloseFile(g, NULL);
     rg_motion_destroy(one);
@@ -496,7 +506,6 @@ static void with_program(const char *script)
 static void videos_go_through_a_program(void **state)
 {
     (void)state;
-    skip_without_gl();
     char *path = strdup(getenv("PATH")), script[1000], expected[40], here[4096];
     rg_motion *m = some_motion(FRAMES);
     rg_diag why = {0, ""};
@@ -518,7 +527,7 @@ static void videos_go_through_a_program(void **state)
         assert_int_equal(rg_film_check(names[i], &why), RG_OK);
         write_by(m, names[i], 0);
         bytes got = slurp(names[i]), said = slurp(in("arguments"));
-        snprintf(expected, sizeof expected, "%d\n", 3 * WIDTH * HEIGHT * FRAMES);
+        snprintf(expected, sizeof expected, "%d\n", 3 * WIDTH * HEIGHT * LASTING);
         assert_string_equal((char *)got.at, expected);
         snprintf(expected, sizeof expected, "\n%dx%d\n", WIDTH, HEIGHT);
         assert_non_null(strstr((char *)said.at, expected));
@@ -553,7 +562,6 @@ static void videos_go_through_a_program(void **state)
 static void videos_are_videos(void **state)
 {
     (void)state;
-    skip_without_gl();
     rg_diag why = {0, ""};
     if (rg_film_check("x.mp4", &why) != RG_OK) {
         printf("SKIPPED: %s\n", why.text);
@@ -590,7 +598,6 @@ static void videos_are_videos(void **state)
 static void what_cannot_be_written_is_named(void **state)
 {
     (void)state;
-    skip_without_gl();
     rg_motion *m = some_motion(3);
     spill(in("file"), "");
     refuse(m, in("no/such/"), RG_EWRITE, "no/such/");
@@ -626,7 +633,6 @@ static void what_cannot_be_written_is_named(void **state)
 static void shortage_leaves_nothing(void **state)
 {
     (void)state;
-    skip_without_gl();
     static const char *const names[] = {"x.gif", "x.apng", "d/"};
     rg_picture p = small_picture();
     p.width = 32;
@@ -658,12 +664,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         in_a_folder(forms_are_told_by_their_names),
-        in_a_folder(a_build_without_gl_says_so),
         in_a_folder(frames_are_numbered),
         in_a_folder(a_shorter_run_leaves_no_frames_of_a_longer_one),
         in_a_folder(threads_change_nothing),
         in_a_folder(apng_frames_are_the_pictures),
         in_a_folder(gif_frames_are_near_the_pictures),
+        in_a_folder(films_go_as_they_are_told),
         cmocka_unit_test(palettes_are_close),
         in_a_folder(a_film_is_not_large),
         in_a_folder(one_frame_and_still_frames_are_films_too),

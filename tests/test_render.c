@@ -10,9 +10,16 @@
 #include "counted.h"
 #include "motions.h"
 #include "render/camera.h"
+#include "render/canvas.h"
+#include "render/frames.h"
 #include "render/gl.h"
 #include "render/lift.h"
 #include "render/render.h"
+
+#include <dirent.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 /* ------------------------------------------------------------------------------------------------ layers ---- */
 
@@ -236,37 +243,40 @@ static void a_circle_of_flaps_is_cut(void **state)
 
 /* ---------------------------------------------------------------------------------------------- pictures ---- */
 
-static void skip_without_gl(void)
-{
-    rg_diag why = {0, ""};
-    if (rg_gl_check(&why) == RG_OK) return;
-    printf("SKIPPED: %s\n", why.text);
-    skip();
-}
-
 typedef struct photo {
     rg_picture picture;
+    rg_place place; /* on the stage */
     rg_camera camera;
     unsigned char *rgb;
 } photo;
 
+/* Also without OpenGL pictures are made. */
 static photo take(const rg_motion *m, int32_t frame, rg_picture picture)
 {
     photo p = {.picture = picture};
     rg_triangles t;
+    rg_stage stage;
     rg_render *r = NULL;
     rg_diag why = {0, ""};
     rg_vec3 *x = calloc((size_t)m->mesh.nv, sizeof *x);
+    rg_camera *camera = calloc((size_t)m->report.frame_count, sizeof *camera);
     p.rgb = calloc((size_t)picture.width * (size_t)picture.height, 3);
-    assert_true(x && p.rgb);
+    assert_true(x && p.rgb && camera);
     assert_int_equal(rg_triangles_init(NULL, &m->mesh, &t), RG_OK);
-    if (rg_camera_fit(m, &picture, &p.camera, &why) != RG_OK) fail_msg("%s", why.text);
-    if (rg_render_create(NULL, &m->mesh, &t, &picture, &r, &why) != RG_OK) fail_msg("%s", why.text);
+    assert_int_equal(rg_stage_init(&m->mem, m, &picture, &stage), RG_OK);
+    if (rg_camera_follow(&stage, &picture, camera, &why) != RG_OK) fail_msg("%s", why.text);
+    if (rg_render_create(NULL, &m->mesh, &t, &picture, NULL, &r, &why) != RG_OK) fail_msg("%s", why.text);
     assert_int_equal(rg_motion_place(m, frame, x), RG_OK);
-    if (rg_render_frame(r, x, NULL, &p.camera, p.rgb, &why) != RG_OK) fail_msg("%s", why.text);
+    rg_stage_put(&stage, frame, x, m->mesh.nv);
+    const rg_shot shot = {x, NULL, &camera[frame], NULL};
+    rg_render_frame(r, &shot, p.rgb);
+    p.place = stage.place[frame];
+    p.camera = camera[frame];
     rg_render_destroy(r);
     rg_triangles_free(&t);
+    rg_stage_free(&stage);
     free(x);
+    free(camera);
     return p;
 }
 
@@ -279,13 +289,17 @@ static rg_picture plain(int32_t width, int32_t height)
     rg_picture p = rg_picture_default();
     p.width = width;
     p.height = height;
-    p.creases = 0;
+    p.lines = RG_LINES_NONE;
+    p.shadow = 0;
+    p.aimed = 1;
     return p;
 }
 
 /* A pinhole camera, written down anew: along the axis, the picture's plane is where a unit is c->scale pixels. */
-static rg_vec2 seen(const rg_camera *c, rg_vec3 x)
+static rg_vec2 seen(const photo *p, rg_vec3 at)
 {
+    const rg_camera *c = &p->camera;
+    const rg_vec3 x = rg_vec3_add(rg_mat3_mul_vec(p->place.R, at), p->place.t);
     const double d[3] = {x.x - c->eye.x, x.y - c->eye.y, x.z - c->eye.z};
     const double away = -(d[0] * c->back.x + d[1] * c->back.y + d[2] * c->back.z);
     return (rg_vec2){c->scale * (d[0] * c->right.x + d[1] * c->right.y + d[2] * c->right.z) / away,
@@ -296,7 +310,6 @@ static rg_vec2 seen(const rg_camera *c, rg_vec3 x)
 static void covered_area_is_the_projected_one(void **state)
 {
     (void)state;
-    skip_without_gl();
     static const int32_t size[][2] = {{320, 240}, {97, 411}, {1500, 1100}};
     static const double view[][2] = {{-60, 35}, {20, 80}, {130, -25}};
     static const double width[] = {1.25, 0.8};
@@ -308,8 +321,8 @@ static void covered_area_is_the_projected_one(void **state)
         picture.azimuth = view[i][0] * RG_DEG;
         picture.elevation = view[i][1] * RG_DEG;
         photo p = take(m, 0, picture);
-        const rg_vec2 at[] = {seen(&p.camera, (rg_vec3){0, 0, 0}), seen(&p.camera, (rg_vec3){2.05, 0, 0}),
-                              seen(&p.camera, (rg_vec3){2.05, 1.37, 0}), seen(&p.camera, (rg_vec3){0, 1.37, 0})};
+        const rg_vec2 at[] = {seen(&p, (rg_vec3){0, 0, 0}), seen(&p, (rg_vec3){2.05, 0, 0}),
+                              seen(&p, (rg_vec3){2.05, 1.37, 0}), seen(&p, (rg_vec3){0, 1.37, 0})};
         const double area = 0.5 * fabs(rg_vec2_turn(at[0], at[1], at[2]) + rg_vec2_turn(at[0], at[2], at[3]));
         const unsigned char *paper = NULL;
         double covered = 0;
@@ -341,7 +354,6 @@ static int shows(const photo *p, int x, int y, const unsigned char paper[3])
 static void each_side_has_its_colour(void **state)
 {
     (void)state;
-    skip_without_gl();
     static const double width[] = {1, 0.9};
     rg_lines l = strip(2, width, "V", 1);
     rg_motion *m = motion_by(&l, 1, all_alike, NULL);
@@ -362,8 +374,7 @@ static void each_side_has_its_colour(void **state)
     for (int32_t c = 0; c < m->mesh.N; c++) m->rho[c] = 100 * RG_DEG;
     int fronts = 0, backs = 0;
     rg_picture picture = plain(200, 150);
-    picture.azimuth = 0;
-    picture.elevation = 60 * RG_DEG;
+    picture.elevation = 20 * RG_DEG;
     for (int turn = 0; turn < 2; turn++) {
         picture.azimuth = turn * RG_PI;
         photo p = take(m, 0, picture);
@@ -378,36 +389,175 @@ static void each_side_has_its_colour(void **state)
     rg_motion_destroy(m);
 }
 
-/* Over all frames nothing touches the rim, and the motion fills the picture in one direction but for the margin. */
-static void the_whole_motion_is_in_the_picture(void **state)
+typedef struct covered { int left, right, top, bottom; } covered;
+
+static covered covered_by(const photo *p)
+{
+    covered c = {p->picture.width, 0, p->picture.height, 0};
+    for (int y = 0; y < p->picture.height; y++)
+        for (int x = 0; x < p->picture.width; x++) {
+            if (is_background(p, x, y)) continue;
+            c.left = x < c.left ? x : c.left, c.right = x + 1 > c.right ? x + 1 : c.right;
+            c.top = y < c.top ? y : c.top, c.bottom = y + 1 > c.bottom ? y + 1 : c.bottom;
+        }
+    return c;
+}
+
+/* WCAG 2.1: relative luminance of sRGB, and the contrast of two. */
+static double luminance(const unsigned char c[3])
+{
+    double linear[3];
+    for (int k = 0; k < 3; k++) linear[k] = c[k] / 255.0 <= 0.03928 ? c[k] / 255.0 / 12.92 : pow((c[k] / 255.0 + 0.055) / 1.055, 2.4);
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2];
+}
+
+static double contrast(const unsigned char a[3], const unsigned char b[3])
+{
+    const double x = luminance(a), y = luminance(b);
+    return (fmax(x, y) + 0.05) / (fmin(x, y) + 0.05);
+}
+
+/* In no frame is anything cut off; from frame to frame the camera does not turn and does not jump; the end fills at least 15 % of the
+ * picture by its box, in the middle; all paper stands out from what is behind it. */
+static void check_film(const rg_motion *m, const char *name, int32_t every)
+{
+    rg_picture picture = rg_picture_default();
+    picture.width = 240, picture.height = 180;
+    picture.lines = RG_LINES_NONE;
+    picture.shadow = 0;
+    const int32_t last = m->report.frame_count - 1;
+    photo before = {.rgb = NULL};
+    double least = INFINITY, area = 0, off = 0;
+    for (int32_t k = last % every; k <= last; k += every) {
+        photo p = take(m, k, picture);
+        const covered c = covered_by(&p);
+        const double w = picture.width, h = picture.height;
+        if (!(c.left > 0.02 * w && c.right < 0.98 * w && c.top > 0.02 * h && c.bottom < 0.98 * h))
+            fail_msg("%s, frame %d: cut off: %d ... %d, %d ... %d", name, (int)k, c.left, c.right, c.top, c.bottom);
+        area = (c.right - c.left) * (c.bottom - c.top) / (w * h);
+        off = fmax(fabs(0.5 * (c.left + c.right) / w - 0.5), fabs(0.5 * (c.top + c.bottom) / h - 0.5));
+        if (!(area >= 0.1 && off <= 0.1)) fail_msg("%s, frame %d: covers %g, %g off the middle", name, (int)k, area, off);
+        for (int y = 1; y + 1 < picture.height; y++)
+            for (int x = 1; x + 1 < picture.width; x++) {
+                int inside = !is_background(&p, x, y); /* of a facet: what is behind has no part in its colour */
+                for (int i = -1; i < 2; i++)
+                    for (int j = -1; j < 2; j++) inside &= memcmp(pixel(&p, x + i, y + j), pixel(&p, x, y), 3) == 0;
+                if (inside) least = fmin(least, contrast(pixel(&p, x, y), picture.background));
+            }
+        if (before.rgb) {
+            const double cosine = rg_vec3_dot(before.camera.back, p.camera.back), up = rg_vec3_dot(before.camera.up, p.camera.up);
+            const double step = rg_vec3_length(rg_vec3_sub(before.camera.eye, p.camera.eye)) / rg_vec3_length(p.camera.eye);
+            assert_true(acos(fmin(1, cosine)) <= every * 3 * RG_DEG && acos(fmin(1, up)) <= every * 3 * RG_DEG);
+            if (!(step <= 0.1 * every)) fail_msg("%s, frame %d: the camera jumps by %g", name, (int)k, step);
+            free(before.rgb);
+        }
+        before = p;
+    }
+    free(before.rgb);
+    print_message("%-40s box of the end %4.1f %% of the picture, %4.1f %% off its middle, least contrast %.2f\n", name, 100 * area, 100 * off,
+                  least);
+    if (!(area >= 0.15)) fail_msg("%s: the end covers %g", name, area);
+    if (!(least >= 3)) fail_msg("%s: contrast %g", name, least);
+}
+
+static void film_of(const char *path, int32_t every)
+{
+    rg_settings s = rg_settings_default();
+    rg_diag why = {0, ""};
+    rg_pattern *cp = NULL;
+    rg_motion *m = NULL;
+    s.frames = 41;
+    s.effort = RG_EFFORT_FAST;
+    if (rg_pattern_read(path, &s, &cp, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
+    if (rg_motion_create(cp, &s, NULL, NULL, &m, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
+    check_film(m, path, every);
+    rg_motion_destroy(m);
+    rg_pattern_destroy(cp);
+}
+
+static void the_sheet_is_in_the_middle_and_fills_the_picture(void **state)
 {
     (void)state;
-    skip_without_gl();
-    static const int32_t size[][2] = {{240, 180}, {120, 260}};
-    double alpha = 70 * RG_DEG;
-    for (int i = 0; i < 2; i++) {
-        rg_lines l = miura(5, 4, 1, 1.25, alpha);
-        rg_motion *m = motion_by(&l, 12, miura_folds, &alpha);
-        rg_picture picture = plain(size[i][0], size[i][1]);
-        picture.creases = 1;
-        int left = picture.width, right = 0, top = picture.height, bottom = 0;
-        for (int32_t k = 0; k < 12; k++) {
-            photo p = take(m, k, picture);
-            for (int y = 0; y < picture.height; y++)
-                for (int x = 0; x < picture.width; x++) {
-                    if (is_background(&p, x, y)) continue;
-                    left = x < left ? x : left, right = x > right ? x : right;
-                    top = y < top ? y : top, bottom = y > bottom ? y : bottom;
-                }
-            free(p.rgb);
-        }
-        const double w = picture.width, h = picture.height;
-        assert_true(left > 0.03 * w && right < 0.97 * w && top > 0.03 * h && bottom < 0.97 * h);
-        assert_true(right - left > 0.87 * w || bottom - top > 0.87 * h);
-        near(0.5 * (left + right) / w, 0.5, 0.02); /* in the middle */
-        near(0.5 * (top + bottom) / h, 0.5, 0.02);
-        rg_motion_destroy(m);
+    DIR *d = opendir("patterns");
+    char path[300];
+    int films = 0;
+    assert_non_null(d);
+    for (struct dirent *e; (e = readdir(d));) {
+        const char *dot = strrchr(e->d_name, '.');
+        if (!dot || strcmp(dot, ".opx") != 0) continue;
+        snprintf(path, sizeof path, "patterns/%s", e->d_name);
+        film_of(path, 4);
+        films++;
     }
+    closedir(d);
+    assert_true(films >= 15);
+}
+
+/* The frames lie as near to each other as turning can bring them: then the positions of one and the next have no moment about their
+ * middle, sum of weight * a x b = 0. And they are the frames: distances are those of the motion. */
+static void the_stage_turns_as_little_as_it_can(void **state)
+{
+    (void)state;
+    static const double width[] = {1.3, 0.7, 1.1, 0.6};
+    rg_lines l = strip(4, width, "VMV", 1.7);
+    rg_motion *m = motion_by(&l, 13, one_by_one, NULL);
+    const rg_picture picture = plain(80, 60);
+    rg_stage stage;
+    const int32_t nv = m->mesh.nv;
+    rg_vec3 *x = calloc((size_t)nv, sizeof *x), *before = calloc((size_t)nv, sizeof *before), *was = calloc((size_t)nv, sizeof *was);
+    double *weight = calloc((size_t)nv, sizeof *weight);
+    assert_true(x && before && was && weight);
+    for (int i = 0; i < 4; i++) { /* rectangles: a quarter of the area at each corner */
+        const int32_t f = facet_at(&m->mesh, (i > 0 ? width[0] : 0) + (i > 1 ? width[1] : 0) + (i > 2 ? width[2] : 0) + 0.5 * width[i], 1);
+        for (int32_t j = m->mesh.facet_start[f]; j < m->mesh.facet_start[f + 1]; j++) weight[m->mesh.facet_vertex[j]] += width[i];
+    }
+    assert_int_equal(rg_stage_init(&m->mem, m, &picture, &stage), RG_OK);
+    for (int32_t k = 0; k < 13; k++) {
+        rg_vec3 moment = {0, 0, 0}, middle = {0, 0, 0};
+        assert_int_equal(rg_motion_place(m, k, was), RG_OK);
+        memcpy(x, was, (size_t)nv * sizeof *x);
+        rg_stage_put(&stage, k, x, nv);
+        for (int32_t v = 0; v < nv; v++) {
+            middle = rg_vec3_axpy(weight[v], x[v], middle);
+            if (k > 0) moment = rg_vec3_axpy(weight[v], rg_vec3_cross(before[v], x[v]), moment);
+            for (int32_t u = 0; u < v; u++)
+                near(rg_vec3_length(rg_vec3_sub(x[u], x[v])), rg_vec3_length(rg_vec3_sub(was[u], was[v])), 1e-12);
+        }
+        near(rg_vec3_length(middle), 0, 1e-12);
+        near(rg_vec3_length(moment), 0, 1e-4); /* staying has a small say, see stage.c */
+        memcpy(before, x, (size_t)nv * sizeof *x);
+    }
+    rg_stage_free(&stage);
+    free(x), free(before), free(was), free(weight);
+    rg_motion_destroy(m);
+}
+
+/* A mirror of the pattern is one of its pictures, from flat to folded. */
+static void symmetry_is_seen(void **state)
+{
+    (void)state;
+    rg_settings s = rg_settings_default();
+    rg_diag why = {0, ""};
+    rg_pattern *cp = NULL;
+    rg_motion *m = NULL;
+    s.frames = 9;
+    if (rg_pattern_read("patterns/fish.opx", &s, &cp, &why) != RG_OK) fail_msg("%s", why.text);
+    if (rg_motion_create(cp, &s, NULL, NULL, &m, &why) != RG_OK) fail_msg("%s", why.text);
+    for (int32_t k = 0; k < 9; k += 2) {
+        rg_picture picture = plain(200, 150);
+        picture.aimed = 0;
+        photo p = take(m, k, picture);
+        int paper = 0, differ = 0;
+        for (int y = 0; y < 150; y++)
+            for (int x = 0; x < 100; x++) {
+                paper += !is_background(&p, x, y);
+                differ += is_background(&p, x, y) != is_background(&p, 199 - x, y);
+            }
+        if (!(paper > 1000 && differ < 0.03 * paper)) fail_msg("frame %d: %d of %d", (int)k, differ, paper);
+        free(p.rgb);
+    }
+    rg_motion_destroy(m);
+    rg_pattern_destroy(cp);
 }
 
 static void count_inks(const photo *p, int *red, int *blue)
@@ -426,22 +576,22 @@ static void count_inks(const photo *p, int *red, int *blue)
 static void creases_are_drawn_where_they_are_seen(void **state)
 {
     (void)state;
-    skip_without_gl();
     static const double width[] = {1, 1, 1};
     rg_lines l = strip(3, width, "MV", 2);
     rg_motion *m = motion_by(&l, 2, all_alike, NULL);
     rg_picture picture = rg_picture_default();
-    picture.width = 640;
-    picture.height = 480;
+    picture.width = 1280;
+    picture.height = 960;
+    picture.shadow = 0;
     int red, blue;
     photo p = take(m, 0, picture);
     count_inks(&p, &red, &blue);
-    const rg_vec2 a = seen(&p.camera, (rg_vec3){1, 0, 0}), b = seen(&p.camera, (rg_vec3){1, 2, 0});
+    const rg_vec2 a = seen(&p, (rg_vec3){1, 0, 0}), b = seen(&p, (rg_vec3){1, 2, 0});
     const double length = rg_vec2_length(rg_vec2_sub(a, b));
     assert_true(red > 0.5 * length && red < 3 * length);
     assert_true(blue > 0.5 * length && blue < 3 * length);
     free(p.rgb);
-    picture.creases = 0;
+    picture.lines = RG_LINES_NONE;
     p = take(m, 0, picture);
     count_inks(&p, &red, &blue);
     assert_int_equal(red + blue, 0);
@@ -453,13 +603,19 @@ static void creases_are_drawn_where_they_are_seen(void **state)
     rg_lines h = strip(3, hiding, "VM", 2);
     m = motion_by(&h, 1, all_alike, NULL);
     for (int32_t i = 0; i < m->mesh.N; i++) m->rho[i] = mountain_or_valley(&m->mesh, i) > 0 ? 178 * RG_DEG : -1e-3;
-    picture.creases = 1;
-    picture.elevation = 89 * RG_DEG;
+    picture.lines = RG_LINES_CREASES;
+    p = take(m, 0, picture);
+    const rg_vec3 front = p.place.R.c[2]; /* of the first panel, which is the fixed one */
+    free(p.rgb);
+    picture.aimed = 1;
+    picture.azimuth = atan2(front.y, front.x);
+    picture.elevation = asin(front.z);
     p = take(m, 0, picture);
     count_inks(&p, &red, &blue);
     assert_true(red > 100);
     free(p.rgb);
-    picture.elevation = -89 * RG_DEG;
+    picture.azimuth += RG_PI;
+    picture.elevation = -picture.elevation;
     p = take(m, 0, picture);
     count_inks(&p, &red, &blue);
     assert_int_equal(red, 0);
@@ -471,12 +627,11 @@ static void creases_are_drawn_where_they_are_seen(void **state)
 static void pictures_repeat(void **state)
 {
     (void)state;
-    skip_without_gl();
     double alpha = 55 * RG_DEG;
     rg_lines l = miura(6, 5, 1, 1, alpha);
     rg_motion *m = motion_by(&l, 5, miura_folds, &alpha);
     rg_picture picture = plain(333, 222);
-    picture.creases = 1;
+    picture.lines = RG_LINES_CREASES;
     photo a = take(m, 3, picture), b = take(m, 3, picture);
     assert_memory_equal(a.rgb, b.rgb, 3 * 333 * 222);
     free(a.rgb);
@@ -490,7 +645,7 @@ static void wrong_pictures_are_refused(void **state)
     static const double width[] = {1, 1};
     rg_lines l = strip(2, width, "V", 1);
     rg_motion *m = motion_by(&l, 2, all_alike, NULL);
-    for (int i = 0; i < 12; i++) {
+    for (int i = 0; i < 19; i++) {
         rg_picture p = rg_picture_default();
         switch (i) {
         case 0: p.width = 0; break;
@@ -505,11 +660,21 @@ static void wrong_pictures_are_refused(void **state)
         case 9: p.fps = 0; break;
         case 10: p.fps = NAN; break;
         case 11: p.fps = 1e6; break;
+        case 12: p.line_width = 0; break;
+        case 13: p.line_width = NAN; break;
+        case 14: p.see_through = 1; break;
+        case 15: p.see_through = NAN; break;
+        case 16: p.hold = -1; break;
+        case 17: p.targeted = 1, p.target[0] = NAN; break;
+        case 18: p.targeted = 1, p.target[0] = 77; break; /* beside the sheet */
         }
-        rg_camera c;
+        rg_camera c[2];
+        rg_stage stage;
         rg_diag why = {0, ""};
-        assert_int_equal(rg_camera_fit(m, &p, &c, &why), RG_EARG);
+        assert_int_equal(rg_stage_init(&m->mem, m, &p, &stage), RG_OK);
+        assert_int_equal(rg_camera_follow(&stage, &p, c, &why), RG_EARG);
         assert_true(strlen(why.text) > 10);
+        rg_stage_free(&stage);
     }
     rg_motion_destroy(m);
 }
@@ -518,37 +683,42 @@ static void wrong_pictures_are_refused(void **state)
 static void shortage_is_told(void **state)
 {
     (void)state;
-    skip_without_gl();
     double alpha = 55 * RG_DEG;
     rg_lines l = miura(3, 3, 1, 1, alpha);
     rg_motion *m = motion_by(&l, 3, miura_folds, &alpha);
     rg_picture picture = plain(40, 30);
-    rg_camera c;
-    assert_int_equal(rg_camera_fit(m, &picture, &c, NULL), RG_OK);
+    picture.shadow = 1;
+    picture.aimed = 0;
     rg_vec3 *x = calloc((size_t)m->mesh.nv, sizeof *x), *lift = calloc((size_t)m->mesh.nf, sizeof *lift);
     unsigned char rgb[3 * 40 * 30];
     rg_status s = RG_ENOMEM;
     for (long k = 0; s != RG_OK; k++) {
         counted count = {k, 0, 0};
         const rg_memory mem = {counted_resize, &count};
-        rg_triangles t;
+        rg_triangles t = {.start = NULL};
         rg_lift *y = NULL;
         rg_render *r = NULL;
+        rg_stage stage;
+        rg_camera c[3];
         m->mesh.mem = mem;
-        s = rg_triangles_init(&mem, &m->mesh, &t);
+        s = rg_stage_init(&mem, m, &picture, &stage);
+        if (s == RG_OK) s = rg_camera_follow(&stage, &picture, c, NULL);
+        if (s == RG_OK) s = rg_triangles_init(&mem, &m->mesh, &t);
         if (s == RG_OK) s = rg_lift_create(&mem, m, &t, &y);
         for (int i = 0; s == RG_OK && i < 3; i++) s = rg_lift_next(y, x, lift);
-        if (s == RG_OK) s = rg_render_create(&mem, &m->mesh, &t, &picture, &r, NULL);
+        if (s == RG_OK) s = rg_render_create(&mem, &m->mesh, &t, &picture, NULL, &r, NULL);
         if (s == RG_OK) {
             const long asked = count.asked;
-            s = rg_render_frame(r, x, lift, &c, rgb, NULL);
+            const rg_shot shot = {x, lift, &c[2], NULL};
+            rg_render_frame(r, &shot, rgb);
             assert_int_equal(count.asked, asked);
         } else {
             assert_int_equal(s, RG_ENOMEM);
         }
         rg_render_destroy(r);
         rg_lift_destroy(y);
-        rg_triangles_free(&t);
+        if (t.start) rg_triangles_free(&t);
+        rg_stage_free(&stage);
         assert_int_equal(count.out, 0);
         assert_true(k < 1000);
     }
@@ -568,7 +738,9 @@ int main(void)
         cmocka_unit_test(a_circle_of_flaps_is_cut),
         cmocka_unit_test(covered_area_is_the_projected_one),
         cmocka_unit_test(each_side_has_its_colour),
-        cmocka_unit_test(the_whole_motion_is_in_the_picture),
+        cmocka_unit_test(the_sheet_is_in_the_middle_and_fills_the_picture),
+        cmocka_unit_test(the_stage_turns_as_little_as_it_can),
+        cmocka_unit_test(symmetry_is_seen),
         cmocka_unit_test(creases_are_drawn_where_they_are_seen),
         cmocka_unit_test(pictures_repeat),
         cmocka_unit_test(wrong_pictures_are_refused),

@@ -10,7 +10,7 @@
 #define DEG (3.14159265358979323846 / 180)
 
 /* How the value of an option is read, and where to. */
-typedef enum kind { SWITCH, WHOLE, REAL, ABOVE, CHOICE, TEXT, OUTPUT, KIND, FRAMES, SIZE, CAMERA, ADJUST } kind;
+typedef enum kind { SWITCH, WHOLE, REAL, ABOVE, CHOICE, TEXT, OUTPUT, KIND, FRAMES, SIZE, CAMERA, ADJUST, COLOURS, LINES } kind;
 
 typedef struct rule {
     int commands;            /* FOR_... */
@@ -38,6 +38,10 @@ static const char *const triangulations[] = {[RG_TRIANGULATE_AUTO] = "auto", [RG
 static const char *const symmetries[] = {[RG_SYMMETRY_AUTO] = "auto", [RG_SYMMETRY_OFF] = "off", NULL};
 static const char *const efforts[] = {[RG_EFFORT_FAST] = "fast", [RG_EFFORT_NORMAL] = "normal",
                                       [RG_EFFORT_THOROUGH] = "thorough", NULL};
+
+static const char *const colourings[] = {[RG_COLOUR_PAPER] = "paper", [RG_COLOUR_STRAIN] = "strain", [RG_COLOUR_ROLL] = "roll",
+                                         [RG_COLOUR_SPEED] = "speed", [RG_COLOUR_LAYER] = "layer", NULL};
+static const char *const loops[] = {[RG_LOOP_BACK] = "back", [RG_LOOP_FORWARD] = "forward", [RG_LOOP_ONCE] = "once", NULL};
 
 #define AT(field) offsetof(options, field)
 #define READS (FOR_FOLD | FOR_INFO | FOR_CONVERT | FOR_CHART)
@@ -87,9 +91,23 @@ static const rule rules[] = {
     {FOR_FOLD | FOR_INFO | FOR_CHART, "sheet", 0, "N", WHOLE, AT(settings.sheet), 1, INT32_MAX, 1, NULL,
      "of several sheets in a drawing the one to take, in the order of the file"},
     {FOR_FOLD, "size", 0, "WxH", SIZE, 0, 1, 16384, 1, NULL, "pictures: width and height in pixels (960x720)"},
-    {FOR_FOLD, "camera", 0, "AZ,EL[,ZOOM]", CAMERA, 0, NOTHING,
-     "pictures: azimuth and elevation in degrees, and zoom; 1 just shows the whole motion (-60,35,1)"},
+    {FOR_FOLD, "camera", 0, "AZ,EL[,ZOOM[,X,Y]]", CAMERA, 0, NOTHING,
+     "pictures: azimuth and elevation in degrees, zoom (1: the sheet just fits), and a point of the pattern to look at (chosen from the "
+     "motion, 1, the sheet's middle)"},
+    {FOR_FOLD, "background", 0, "COLOUR", COLOURS, AT(picture.background), 1, 1, 1, NULL, "pictures: rrggbb or a name (323844)"},
+    {FOR_FOLD, "paper", 0, "FRONT,BACK", COLOURS, AT(picture.front), 2, 2, 1, NULL, "pictures: the two sides (f6b850,fcf8f0)"},
+    {FOR_FOLD, "lines", 0, "WHAT[,WIDTH]", LINES, 0, 0.1, 10, 1, NULL,
+     "pictures: creases (mountains red, valleys blue), edges (all alike) or none, and how wide (creases,1)"},
+    {FOR_FOLD, "see-through", 0, "PCT", REAL, AT(picture.see_through), 0, 90, 0.01, NULL,
+     "pictures: how much light passes a facet, in percent (0)"},
+    {FOR_FOLD, "no-shadow", 0, NULL, SWITCH, AT(picture.shadow), 0, 0, 1, NULL, "pictures: no shadow on the floor"},
+    {FOR_FOLD, "caption", 0, NULL, SWITCH, AT(picture.caption), 1, 0, 1, NULL, "pictures: title and percent at their lower edge"},
+    {FOR_FOLD, "image", 0, "FILE", TEXT, AT(picture.image), NOTHING, "pictures, .html, .glb: a PNG printed on the paper's front"},
+    {FOR_FOLD, "colour", 0, "BY", CHOICE, AT(colour), 0, 0, 1, colourings, "pictures: what the colours of facets tell (paper):"},
     {FOR_FOLD, "fps", 0, "N", REAL, AT(picture.fps), 0.01, 1000, 1, NULL, "animations: frames a second (30)"},
+    {FOR_FOLD, "loop", 0, "HOW", CHOICE, AT(loop), 0, 0, 1, loops,
+     "animations: there and back, forward over and over, or once (back):"},
+    {FOR_FOLD, "hold", 0, "SEC", REAL, AT(picture.hold), 0, 60, 1, NULL, "animations: seconds to stay at the end (1)"},
     {FOR_FOLD, "report", 0, "FILE", TEXT, AT(report), NOTHING, "write a report as JSON, - for standard output"},
     {FOR_INFO, "json", 0, NULL, SWITCH, AT(json), 1, 0, 1, NULL, "print one JSON object instead of text"},
     {FOR_GEN, "angle", 0, "DEG", ABOVE, AT(angle), 0, 180, DEG, NULL, "the kind's angle, degrees (its own)"},
@@ -175,21 +193,71 @@ static int set_size(const rule *r, const char *text, rg_picture *p)
 
 static int set_camera(const rule *r, const char *text, rg_picture *p)
 {
-    double v[3] = {0, 0, p->zoom};
+    double v[5] = {0, 0, p->zoom};
     const char *c = text;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 5; i++) {
         const char *end;
         if (!number(c, &v[i], &end)) break;
-        if (*end == 0 && i > 0 && fabs(v[0]) <= 360 && fabs(v[1]) <= 90 && v[2] >= 0.01 && v[2] <= 100) {
+        if (*end == 0 && i > 0 && i != 3 && fabs(v[0]) <= 360 && fabs(v[1]) <= 90 && v[2] >= 0.01 && v[2] <= 100) {
+            p->aimed = 1;
             p->azimuth = v[0] * DEG;
             p->elevation = v[1] * DEG;
             p->zoom = v[2];
+            p->targeted = i == 4;
+            if (i == 4) p->target[0] = v[3], p->target[1] = v[4];
             return ENDS_WELL;
         }
         if (*end != ',') break;
         c = end + 1;
     }
-    return refuse(r, text, "AZ,EL or AZ,EL,ZOOM: -360 to 360 and -90 to 90 degrees, zoom 0.01 to 100");
+    return refuse(r, text, "AZ,EL or AZ,EL,ZOOM or AZ,EL,ZOOM,X,Y: -360 to 360 and -90 to 90 degrees, zoom 0.01 to 100");
+}
+
+/* A name or six hexadecimal digits, with or without a #. */
+static int colour(const char *text, size_t n, unsigned char rgb[3])
+{
+    static const struct { const char *name; unsigned char rgb[3]; } names[] = {
+        {"white", {255, 255, 255}}, {"black", {0, 0, 0}},     {"grey", {128, 128, 128}},  {"gray", {128, 128, 128}},
+        {"red", {208, 64, 56}},     {"green", {80, 160, 88}}, {"blue", {72, 120, 208}},   {"yellow", {250, 214, 90}},
+        {"orange", {246, 184, 80}}, {"pink", {242, 160, 176}}, {"purple", {150, 104, 184}}, {"brown", {150, 108, 72}}};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strlen(names[i].name) == n && strncmp(names[i].name, text, n) == 0) {
+            memcpy(rgb, names[i].rgb, 3);
+            return 1;
+        }
+    if (n > 0 && *text == '#') text++, n--;
+    if (n != 6 || strspn(text, "0123456789abcdefABCDEF") < 6) return 0;
+    const long value = strtol((char[]){text[0], text[1], text[2], text[3], text[4], text[5], 0}, NULL, 16);
+    for (int k = 0; k < 3; k++) rgb[k] = (unsigned char)(value >> (16 - 8 * k));
+    return 1;
+}
+
+/* As many colours as r->low says, one behind the other. */
+static int set_colours(const rule *r, const char *text, unsigned char *to)
+{
+    const char *c = text;
+    for (int i = 0; i < (int)r->low; i++) {
+        const size_t n = strcspn(c, ",");
+        if (!colour(c, n, to + 3 * i) || (c[n] != 0) != (i + 1 < (int)r->low))
+            return refuse(r, text, r->low > 1 ? "two colours such as d04038,white" : "a colour such as 323844 or white");
+        c += n + (c[n] != 0);
+    }
+    return ENDS_WELL;
+}
+
+static int set_lines(const rule *r, const char *text, rg_picture *p)
+{
+    static const char *const what[] = {[RG_LINES_NONE] = "none", [RG_LINES_CREASES] = "creases", [RG_LINES_EDGES] = "edges"};
+    const size_t n = strcspn(text, ",");
+    double wide = p->line_width;
+    for (int i = 0; i < 3; i++) {
+        if (strlen(what[i]) != n || strncmp(what[i], text, n) != 0) continue;
+        if (text[n] && (!whole_text(text + n + 1, &wide) || !(wide >= r->low && wide <= r->high))) break;
+        p->lines = (rg_lines_shown)i;
+        p->line_width = wide;
+        return ENDS_WELL;
+    }
+    return refuse(r, text, "creases, edges or none, and maybe a width from 0.1 to 10, such as edges,1.5");
 }
 
 static int set_adjust(const rule *r, const char *text, rg_settings *s)
@@ -244,6 +312,8 @@ static int set(options *o, const rule *r, const char *text)
     case SIZE: return set_size(r, text, &o->picture);
     case CAMERA: return set_camera(r, text, &o->picture);
     case ADJUST: return set_adjust(r, text, &o->settings);
+    case COLOURS: return set_colours(r, text, to);
+    case LINES: return set_lines(r, text, &o->picture);
     default: return set_number(r, text, to);
     }
 }
@@ -311,6 +381,8 @@ static void settle(options *o)
     o->settings.triangulate = (rg_triangulation)o->triangulate;
     o->settings.symmetry = (rg_symmetry_kept)o->symmetry;
     o->settings.effort = (rg_effort)o->effort;
+    o->picture.colour = (rg_colouring)o->colour;
+    o->picture.loop = (rg_loop)o->loop;
 }
 
 int options_parse(options *o, const command *c, int argc, char **argv)

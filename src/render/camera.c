@@ -3,33 +3,25 @@
 
 #include <float.h>
 
-/* The eye is this many radii of the motion away: perspective is felt and parallel folds still look parallel. */
-#define DISTANCE 7.0
+/* A sheet that just fills the picture's shorter side is that many halves of it away: perspective is felt and parallel folds still
+ * look parallel. */
+static const double LENS = 7;
 /* Part of the picture left free on each side. */
-#define MARGIN 0.05
-/* Room before and behind the motion, in parts of its depth, for lifted layers. */
-#define DEPTH_ROOM 0.02
+static const double MARGIN = 0.06;
+/* Room before and behind the sheet, in parts of its size, for lifted layers. */
+static const double DEPTH_ROOM = 0.02;
+/* The floor is that part of the sheet's size below its lowest point: a sheet that lies flat has a soft seam. */
+static const double FLOOR = 0.01;
+/* Frames before and after that have a say in where the camera is, in parts of all frames. */
+static const double REACH = 0.1;
 /* Beyond this zoom one looks at less than a pixel's worth of a large sheet. */
-#define MAX_ZOOM 1000.0
+static const double MAX_ZOOM = 1000;
 /* Frames a second: what the formats of animations can say. */
-#define MIN_RATE 0.01
-#define MAX_RATE 1000.0
-
-rg_picture rg_picture_default(void)
-{
-    return (rg_picture){
-        .width = 960,
-        .height = 720,
-        .azimuth = -60 * RG_DEG,
-        .elevation = 35 * RG_DEG,
-        .zoom = 1,
-        .front = {240, 178, 74},
-        .back = {252, 248, 240},
-        .background = {236, 240, 244},
-        .creases = 1,
-        .fps = 30,
-    };
-}
+static const double MIN_RATE = 0.01, MAX_RATE = 1000;
+/* Beyond these a picture is no longer one of the sheet: lines cover it, or nothing of it is seen. */
+static const double MIN_LINE = 0.1, MAX_LINE = 10, MOST_CLEAR = 0.9;
+/* Seconds. */
+static const double LONGEST_HOLD = 60;
 
 rg_status rg_camera_check(const rg_picture *p, rg_diag *why)
 {
@@ -38,87 +30,227 @@ rg_status rg_camera_check(const rg_picture *p, rg_diag *why)
                        (int)p->height, RG_MAX_PICTURE);
     if (!isfinite(p->azimuth) || !isfinite(p->elevation))
         return rg_fail(RG_EARG, why, 0, "the camera's azimuth and elevation have to be finite");
+    if (p->targeted && !(isfinite(p->target[0]) && isfinite(p->target[1])))
+        return rg_fail(RG_EARG, why, 0, "the camera's target has to be finite");
     if (!(p->zoom > 0 && p->zoom <= MAX_ZOOM))
         return rg_fail(RG_EARG, why, 0, "a zoom of %g: it may be up to %g, and above 0", p->zoom, MAX_ZOOM);
     if (!(p->fps >= MIN_RATE && p->fps <= MAX_RATE))
         return rg_fail(RG_EARG, why, 0, "%g frames a second: it may be %g to %g", p->fps, MIN_RATE, MAX_RATE);
+    if (!(p->line_width >= MIN_LINE && p->line_width <= MAX_LINE))
+        return rg_fail(RG_EARG, why, 0, "lines %g times as wide as usual: it may be %g to %g", p->line_width, MIN_LINE, MAX_LINE);
+    if (!(p->see_through >= 0 && p->see_through <= MOST_CLEAR))
+        return rg_fail(RG_EARG, why, 0, "facets that let %g of the light pass: it may be 0 to %g", p->see_through, MOST_CLEAR);
+    if (!(p->hold >= 0 && p->hold <= LONGEST_HOLD))
+        return rg_fail(RG_EARG, why, 0, "an end that is held for %g seconds: it may be 0 to %g", p->hold, LONGEST_HOLD);
     return RG_OK;
 }
 
-typedef struct box {
-    double lo[3], hi[3];
-} box;
+/* ---- where the sheet is seen */
 
-static const box nothing = {{DBL_MAX, DBL_MAX, DBL_MAX}, {-DBL_MAX, -DBL_MAX, -DBL_MAX}};
+/* Along the camera's axes: what is seen of a point at (r, u, b) from the eye at (0, 0, d) is at r / (d - b), u / (d - b). The sheet
+ * fits between -w and w where d >= b + |r| / w for all of it. */
+typedef struct extent {
+    double right, left, top, bottom; /* most of b + r / w, b - r / w, b + u / h, b - u / h */
+    double front, back;              /* most and least of b */
+    double ground;                   /* least height */
+} extent;
 
-static void box_add(box *b, double x, double y, double z)
+typedef struct track {
+    const rg_stage *stage;
+    rg_camera camera;   /* what all frames have in common */
+    double wide, high;  /* w, h of above: the half picture without its margins */
+    rg_vec3 *x;         /* [nv] */
+    double *at[4];      /* [frames] of the eye: right, up, back; the floor */
+    double *work;       /* [frames] */
+    int32_t frames;
+} track;
+
+static extent extent_of(const track *t, double r0, double u0)
 {
-    const double at[3] = {x, y, z};
-    for (int i = 0; i < 3; i++) {
-        if (at[i] < b->lo[i]) b->lo[i] = at[i];
-        if (at[i] > b->hi[i]) b->hi[i] = at[i];
+    const rg_camera *c = &t->camera;
+    const int32_t nv = t->stage->motion->mesh.nv;
+    extent e = {-DBL_MAX, -DBL_MAX, -DBL_MAX, -DBL_MAX, -DBL_MAX, DBL_MAX, DBL_MAX};
+    for (int32_t v = 0; v < nv; v++) {
+        const double r = (rg_vec3_dot(c->right, t->x[v]) - r0) / t->wide, u = (rg_vec3_dot(c->up, t->x[v]) - u0) / t->high;
+        const double b = rg_vec3_dot(c->back, t->x[v]);
+        e.right = fmax(e.right, b + r), e.left = fmax(e.left, b - r);
+        e.top = fmax(e.top, b + u), e.bottom = fmax(e.bottom, b - u);
+        e.front = fmax(e.front, b), e.back = fmin(e.back, b);
+        e.ground = fmin(e.ground, t->x[v].z);
+    }
+    return e;
+}
+
+/* The nearest eye that sees all of it. Where the picture is not filled across one of its sides, that side's middle is found anew from
+ * there. */
+static void middle_of(const track *t, double eye[3])
+{
+    const rg_camera *c = &t->camera;
+    const extent e = extent_of(t, 0, 0);
+    const double by_width = 0.5 * (e.right + e.left), by_height = 0.5 * (e.top + e.bottom);
+    double low[2] = {DBL_MAX, DBL_MAX}, high[2] = {-DBL_MAX, -DBL_MAX};
+    eye[0] = 0.5 * t->wide * (e.right - e.left);
+    eye[1] = 0.5 * t->high * (e.top - e.bottom);
+    eye[2] = fmax(by_width, by_height);
+    enum { ROUNDS = 4 }; /* each leaves about a seventh, the lens's perspective, of what was off */
+    for (int i = 0; i < ROUNDS; i++) {
+        for (int k = 0; k < 2; k++) low[k] = DBL_MAX, high[k] = -DBL_MAX;
+        for (int32_t v = 0; v < t->stage->motion->mesh.nv; v++) {
+            const double away = eye[2] - rg_vec3_dot(c->back, t->x[v]);
+            const double seen[2] = {(rg_vec3_dot(c->right, t->x[v]) - eye[0]) / away, (rg_vec3_dot(c->up, t->x[v]) - eye[1]) / away};
+            for (int k = 0; k < 2; k++) low[k] = fmin(low[k], seen[k]), high[k] = fmax(high[k], seen[k]);
+        }
+        const int slack = by_width < by_height ? 0 : 1;
+        eye[slack] += 0.5 * (low[slack] + high[slack]) * (eye[2] - 0.5 * (e.front + e.back));
     }
 }
 
-static void look(rg_camera *c, double azimuth, double elevation)
+/* ---- over time */
+
+static int32_t clamp(int32_t k, int32_t n) { return k < 0 ? 0 : k >= n ? n - 1 : k; }
+
+/* The mean of the frames around, the nearer the more; beyond the ends it is as at the ends. */
+static void smooth(const track *t, double *a, int32_t reach)
+{
+    for (int32_t k = 0; k < t->frames; k++) {
+        double sum = 0, weights = 0;
+        for (int32_t i = -reach; i <= reach; i++) {
+            const double w = 1 + reach - (i < 0 ? -i : i);
+            sum += w * a[clamp(k + i, t->frames)];
+            weights += w;
+        }
+        t->work[k] = sum / weights;
+    }
+    for (int32_t k = 0; k < t->frames; k++) a[k] = t->work[k];
+}
+
+/* Above all frames around, and smooth. */
+static void smooth_above(const track *t, double *a, int32_t reach)
+{
+    for (int32_t k = 0; k < t->frames; k++) {
+        t->work[k] = a[k];
+        for (int32_t i = -reach; i <= reach; i++) t->work[k] = fmax(t->work[k], a[clamp(k + i, t->frames)]);
+    }
+    for (int32_t k = 0; k < t->frames; k++) a[k] = t->work[k];
+    smooth(t, a, reach);
+}
+
+/* The facet that has a point of the pattern in it or on its rim, else -1; corners are counter-clockwise, facets need not be convex. */
+static int32_t facet_with(const rg_mesh *m, rg_vec2 p)
+{
+    for (int32_t f = 0; f < m->nf; f++) {
+        const int32_t first = m->facet_start[f], last = m->facet_start[f + 1];
+        int inside = 0;
+        for (int32_t j = first, i = last - 1; j < last; i = j++) {
+            const rg_vec2 a = m->X[m->facet_vertex[i]], b = m->X[m->facet_vertex[j]], d = rg_vec2_sub(b, a), q = rg_vec2_sub(p, a);
+            const double length = rg_vec2_length(d), along = rg_vec2_dot(q, d) / length;
+            if (fabs(rg_vec2_cross(d, q)) <= 1e-9 * m->size * length && along >= -1e-9 * m->size && along <= length + 1e-9 * m->size)
+                return f;
+            if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
+        }
+        if (inside) return f;
+    }
+    return -1;
+}
+
+/* Where a point of the sheet, given on the pattern, is in a frame: by the triangle of three of its facet's corners. */
+static rg_vec3 place_of(const track *t, int32_t facet, rg_vec2 p)
+{
+    const rg_mesh *m = &t->stage->motion->mesh;
+    const int32_t *v = m->facet_vertex + m->facet_start[facet], n = m->facet_start[facet + 1] - m->facet_start[facet];
+    int32_t second = 1, third = 2;
+    double most = 0;
+    for (int32_t i = 1; i < n; i++)
+        for (int32_t j = i + 1; j < n; j++) {
+            const double turn = fabs(rg_vec2_turn(m->X[v[0]], m->X[v[i]], m->X[v[j]]));
+            if (turn > most) most = turn, second = i, third = j;
+        }
+    const rg_vec2 a = m->X[v[0]], b = m->X[v[second]], c = m->X[v[third]];
+    const double whole = rg_vec2_turn(a, b, c), B = rg_vec2_turn(a, p, c) / whole, C = rg_vec2_turn(a, b, p) / whole;
+    return rg_vec3_axpy(1 - B - C, t->x[v[0]], rg_vec3_axpy(B, t->x[v[second]], rg_vec3_scale(C, t->x[v[third]])));
+}
+
+static rg_status pose(const track *t, int32_t k)
+{
+    const rg_status s = rg_motion_place(t->stage->motion, k, t->x);
+    if (s == RG_OK) rg_stage_put(t->stage, k, t->x, t->stage->motion->mesh.nv);
+    return s;
+}
+
+static rg_status follow(track *t, const rg_picture *p, rg_camera *camera, rg_diag *why)
+{
+    const rg_mesh *m = &t->stage->motion->mesh;
+    const int32_t reach = (int32_t)(REACH * t->frames);
+    const rg_vec2 target = {p->target[0], p->target[1]};
+    const int32_t facet = p->targeted ? facet_with(m, target) : -1;
+    if (p->targeted && facet < 0)
+        return rg_fail(RG_EARG, why, 0, "the camera's target (%g, %g) is not on the sheet", target.x, target.y);
+    rg_status s = RG_OK;
+    for (int32_t k = 0; s == RG_OK && k < t->frames; k++) {
+        double eye[3];
+        if ((s = pose(t, k)) != RG_OK) break;
+        middle_of(t, eye);
+        if (facet >= 0) {
+            const rg_vec3 at = place_of(t, facet, target);
+            eye[0] = rg_vec3_dot(t->camera.right, at), eye[1] = rg_vec3_dot(t->camera.up, at);
+        }
+        for (int i = 0; i < 2; i++) t->at[i][k] = eye[i];
+    }
+    if (s == RG_OK) smooth(t, t->at[0], reach), smooth(t, t->at[1], reach);
+    for (int32_t k = 0; s == RG_OK && k < t->frames; k++) {
+        if ((s = pose(t, k)) != RG_OK) break;
+        const extent e = extent_of(t, t->at[0][k], t->at[1][k]);
+        t->at[2][k] = fmax(fmax(e.right, e.left), fmax(e.top, e.bottom));
+        t->at[3][k] = -e.ground;
+        camera[k] = t->camera;
+        camera[k].near = e.front, camera[k].far = e.back;
+    }
+    if (s != RG_OK) return rg_fail(s, why, 0, "%s", rg_status_text(s));
+    smooth_above(t, t->at[2], reach);
+    smooth_above(t, t->at[3], reach);
+    const double room = DEPTH_ROOM * m->size;
+    for (int32_t k = 0; k < t->frames; k++) {
+        rg_camera *c = &camera[k];
+        const double away = t->at[2][k];
+        c->near = away - c->near - room, c->far = away - c->far + room;
+        if (!(c->near > 0) || !isfinite(c->far)) return rg_fail(RG_EARG, why, 0, "there is nothing to take a picture of");
+        c->eye = rg_vec3_axpy(t->at[0][k], c->right, rg_vec3_axpy(t->at[1][k], c->up, rg_vec3_scale(away, c->back)));
+        c->ground = -t->at[3][k] - FLOOR * m->size;
+    }
+    return RG_OK;
+}
+
+static void aim(rg_camera *c, double azimuth, double elevation, double roll)
 {
     const double ca = cos(azimuth), sa = sin(azimuth), ce = cos(elevation), se = sin(elevation);
     c->back = (rg_vec3){ce * ca, ce * sa, se};
     c->right = (rg_vec3){-sa, ca, 0};
     c->up = rg_vec3_cross(c->back, c->right);
+    const rg_vec3 right = c->right;
+    c->right = rg_vec3_axpy(cos(roll), right, rg_vec3_scale(sin(roll), c->up));
+    c->up = rg_vec3_axpy(cos(roll), c->up, rg_vec3_scale(-sin(roll), right));
 }
 
-/* The motion's box along the camera's axes places the eye; what the eye then sees of it, the picture's scale. */
-static rg_status frame_motion(const rg_motion *m, rg_camera *c, rg_vec3 *x, box *seen)
+rg_status rg_camera_follow(const rg_stage *stage, const rg_picture *p, rg_camera *camera, rg_diag *why)
 {
-    box space = nothing;
-    *seen = nothing;
-    for (int pass = 0; pass < 2; pass++) {
-        for (int32_t f = 0; f < m->report.frame_count; f++) {
-            const rg_status s = rg_motion_place(m, f, x);
-            if (s != RG_OK) return s;
-            for (int32_t v = 0; v < m->mesh.nv; v++) {
-                const rg_vec3 from = pass == 0 ? x[v] : rg_vec3_sub(x[v], c->eye);
-                const double r = rg_vec3_dot(c->right, from), u = rg_vec3_dot(c->up, from);
-                const double b = rg_vec3_dot(c->back, from);
-                if (pass == 0) box_add(&space, r, u, b);
-                else box_add(seen, r / -b, u / -b, -b);
-            }
-        }
-        if (pass == 1) break;
-        const double r = 0.5 * (space.lo[0] + space.hi[0]), u = 0.5 * (space.lo[1] + space.hi[1]);
-        const double b = 0.5 * (space.lo[2] + space.hi[2]);
-        const rg_vec3 span = {space.hi[0] - space.lo[0], space.hi[1] - space.lo[1], space.hi[2] - space.lo[2]};
-        const double distance = DISTANCE * 0.5 * rg_vec3_length(span);
-        c->eye = rg_vec3_axpy(r, c->right, rg_vec3_axpy(u, c->up, rg_vec3_scale(b + distance, c->back)));
-    }
-    return RG_OK;
-}
-
-rg_status rg_camera_fit(const rg_motion *m, const rg_picture *p, rg_camera *camera, rg_diag *why)
-{
-    rg_camera c = {.half_width = 0.5 * p->width, .half_height = 0.5 * p->height};
     rg_status s = rg_camera_check(p, why);
     if (s != RG_OK) return s;
-    look(&c, p->azimuth, p->elevation);
-    rg_vec3 *x = rg_mem_array(&m->mem, (size_t)m->mesh.nv, sizeof *x);
-    box seen = nothing;
-    s = x ? frame_motion(m, &c, x, &seen) : RG_ENOMEM;
-    rg_mem_free(&m->mem, x);
-    if (s != RG_OK) return rg_fail(s, why, 0, "%s", rg_status_text(s));
-    const double wide = seen.hi[0] - seen.lo[0], high = seen.hi[1] - seen.lo[1];
-    if (!(wide + high > 0) || !isfinite(wide + high) || !(seen.lo[2] > 0))
-        return rg_fail(RG_EARG, why, 0, "there is nothing to take a picture of");
-    /* Seen from the edge a flat sheet has no height: then its width alone sets the scale. */
-    const double fit = fmin((1 - 2 * MARGIN) * p->width / wide, (1 - 2 * MARGIN) * p->height / high);
-    c.scale = p->zoom * fit;
-    c.u0 = 0.5 * (seen.lo[0] + seen.hi[0]);
-    c.v0 = 0.5 * (seen.lo[1] + seen.hi[1]);
-    const double room = DEPTH_ROOM * (seen.hi[2] - seen.lo[2] + m->mesh.size);
-    c.near = seen.lo[2] - room;
-    c.far = seen.hi[2] + room;
-    *camera = c;
-    return RG_OK;
+    const rg_memory *mem = &stage->mem;
+    const size_t frames = (size_t)stage->motion->report.frame_count;
+    track t = {.stage = stage, .frames = (int32_t)frames};
+    t.camera.half_width = 0.5 * p->width, t.camera.half_height = 0.5 * p->height;
+    const double scale = LENS * fmin(t.camera.half_width, t.camera.half_height);
+    aim(&t.camera, stage->azimuth, stage->elevation, stage->roll);
+    t.camera.scale = p->zoom * scale;
+    t.wide = (1 - 2 * MARGIN) * t.camera.half_width / scale, t.high = (1 - 2 * MARGIN) * t.camera.half_height / scale;
+    t.x = rg_mem_array(mem, (size_t)stage->motion->mesh.nv, sizeof *t.x);
+    t.at[0] = rg_mem_array(mem, 5 * frames, sizeof *t.at[0]);
+    for (int i = 1; t.at[0] && i < 4; i++) t.at[i] = t.at[0] + (size_t)i * frames;
+    if (t.at[0]) t.work = t.at[0] + 4 * frames;
+    s = t.x && t.at[0] ? follow(&t, p, camera, why) : rg_fail(RG_ENOMEM, why, 0, "out of memory for the camera");
+    rg_mem_free(mem, t.x);
+    rg_mem_free(mem, t.at[0]);
+    return s;
 }
 
 rg_vec3 rg_camera_project(const rg_camera *c, rg_vec3 x)
@@ -128,5 +260,5 @@ rg_vec3 rg_camera_project(const rg_camera *c, rg_vec3 x)
     const double u = rg_vec3_dot(c->right, d) / away, v = rg_vec3_dot(c->up, d) / away;
     /* 1 / away is what is linear on the screen. */
     const double depth = (1 / c->near - 1 / away) / (1 / c->near - 1 / c->far);
-    return (rg_vec3){c->half_width + c->scale * (u - c->u0), c->half_height - c->scale * (v - c->v0), depth};
+    return (rg_vec3){c->half_width + c->scale * u, c->half_height - c->scale * v, depth};
 }

@@ -1,25 +1,28 @@
-/* camera.h -- one still camera for a whole motion: nothing jumps, nothing is cut off.
- * Paper    section 4        Uses  motion.h        Used by  render.c frames.c */
+/* camera.h -- one steady move of the camera for a whole motion: the sheet stays in the middle and fills the picture.
+ * Paper    section 4        Uses  stage.h        Used by  render.c frames.c html.c
+ *
+ * The camera never turns. It comes nearer as the sheet grows small, goes farther as it unfolds, and moves sideways so that the sheet
+ * is in the middle; all of it smoothed over a part of the motion. Nothing of the sheet is cut off unless one zooms in. */
 #ifndef RG_CAMERA_H
 #define RG_CAMERA_H
 
-#include "motion/motion.h"
+#include "render/stage.h"
 
 #define RG_MAX_PICTURE 16384 /* pixels; a picture's side, so that its bytes and its samples fit in 32 bits */
 
 typedef struct rg_camera {
     rg_vec3 right, up, back;  /* orthonormal; `back` points from the sheet to the camera */
-    rg_vec3 eye;
+    rg_vec3 eye;              /* on the stage */
     double scale;             /* pixels per unit of x / distance */
-    double u0, v0;            /* the middle of the picture, in units of x / distance */
     double near, far;         /* distances from the eye along -back, with room to spare */
     double half_width, half_height; /* pixels */
+    double ground;            /* height of the floor under the sheet */
 } rg_camera;
 
 /* RG_EARG: a size, an angle, the zoom or the rate is out of range, why->text says which. */
 rg_status rg_camera_check(const rg_picture *p, rg_diag *why);
-/* Frames all frames of the motion. RG_EARG as above; RG_ENOMEM. */
-rg_status rg_camera_fit(const rg_motion *m, const rg_picture *p, rg_camera *c, rg_diag *why);
+/* camera[frame_count]: out, for each frame of the motion on the stage. RG_EARG: as above, or no such place to look at; RG_ENOMEM. */
+rg_status rg_camera_follow(const rg_stage *s, const rg_picture *p, rg_camera *camera, rg_diag *why);
 /* Pixels right, pixels down, depth 0 (near) ... 1 (far). Planes stay planes. */
 rg_vec3 rg_camera_project(const rg_camera *c, rg_vec3 x);
 

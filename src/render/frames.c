@@ -23,7 +23,8 @@ typedef struct studio {
     rg_memory mem; /* through the guard */
     rg_triangles triangles;
     rg_lift *layers;
-    rg_camera camera;
+    rg_stage stage;
+    rg_camera *camera; /* [frames] */
     pthread_mutex_t lock;
     pthread_cond_t moved;
     int32_t next, taken; /* frame to be drawn next, to be taken next */
@@ -100,9 +101,12 @@ static void *paint(void *ctx)
     const rg_frames *w = s->wish;
     for (int32_t frame; next_frame(p, &frame);) {
         rg_diag why = {0, ""};
-        rg_status status = rg_render_frame(p->render, p->x, p->lift, &s->camera, p->rgb, &why);
+        rg_stage_put(&s->stage, frame, p->x, s->motion->mesh.nv);
+        rg_stage_turn(&s->stage, frame, p->lift, s->motion->mesh.nf);
+        const rg_shot shot = {p->x, p->lift, &s->camera[frame], NULL};
+        rg_render_frame(p->render, &shot, p->rgb);
         if (w->in_order && !wait_turn(s, frame)) break;
-        if (status == RG_OK) status = w->take(w->ctx, &s->mem, frame, p->rgb, &why);
+        const rg_status status = w->take(w->ctx, &s->mem, frame, p->rgb, &why);
         end_turn(s, status, &why);
     }
     return NULL;
@@ -112,7 +116,7 @@ static rg_status painter_init(painter *p, studio *s)
 {
     const rg_picture *picture = &s->wish->picture;
     *p = (painter){.studio = s};
-    const rg_status status = rg_render_create(&s->mem, &s->motion->mesh, &s->triangles, picture, &p->render, s->why);
+    const rg_status status = rg_render_create(&s->mem, &s->motion->mesh, &s->triangles, picture, NULL, &p->render, s->why);
     if (status != RG_OK) return status;
     p->x = rg_mem_array(&s->mem, (size_t)s->motion->mesh.nv, sizeof *p->x);
     p->lift = rg_mem_array(&s->mem, (size_t)s->motion->mesh.nf, sizeof *p->lift);
@@ -172,21 +176,36 @@ static rg_status draw(studio *s)
     return status != RG_OK ? status : s->status;
 }
 
+/* Stage, camera, triangles, layers. */
+static rg_status set_up(studio *s)
+{
+    const rg_motion *m = s->motion;
+    rg_status status = rg_camera_check(&s->wish->picture, s->why);
+    if (status != RG_OK) return status;
+    s->camera = rg_mem_array(&s->mem, (size_t)m->report.frame_count, sizeof *s->camera);
+    status = s->camera ? rg_stage_init(&s->mem, m, &s->wish->picture, &s->stage) : RG_ENOMEM;
+    if (status == RG_OK) {
+        status = rg_camera_follow(&s->stage, &s->wish->picture, s->camera, s->why);
+        if (status != RG_OK) return status;
+    }
+    if (status == RG_OK) status = rg_triangles_init(&s->mem, &m->mesh, &s->triangles);
+    if (status == RG_OK) status = rg_lift_create(&s->mem, m, &s->triangles, &s->layers);
+    return status == RG_OK ? status : rg_fail(status, s->why, 0, "%s", rg_status_text(status));
+}
+
 rg_status rg_frames_draw(const rg_motion *m, const rg_frames *f, rg_diag *why)
 {
     studio s = {.motion = m, .wish = f, .guard = {.mem = m->mem}, .taken = f->first, .why = why};
-    rg_status status = rg_camera_fit(m, &f->picture, &s.camera, why);
-    if (status != RG_OK) return status;
     pthread_mutex_init(&s.guard.lock, NULL);
     pthread_mutex_init(&s.lock, NULL);
     pthread_cond_init(&s.moved, NULL);
     s.mem = (rg_memory){guarded_resize, &s.guard};
-    status = rg_triangles_init(&s.mem, &m->mesh, &s.triangles);
-    if (status == RG_OK) status = rg_lift_create(&s.mem, m, &s.triangles, &s.layers);
+    rg_status status = set_up(&s);
     if (status == RG_OK) status = draw(&s);
-    else rg_fail(status, why, 0, "%s", rg_status_text(status));
     rg_lift_destroy(s.layers);
     rg_triangles_free(&s.triangles);
+    rg_stage_free(&s.stage);
+    rg_mem_free(&s.mem, s.camera);
     pthread_cond_destroy(&s.moved);
     pthread_mutex_destroy(&s.lock);
     pthread_mutex_destroy(&s.guard.lock);

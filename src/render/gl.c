@@ -16,7 +16,7 @@ static rg_status context_open(context *c, int32_t width, int32_t height, rg_diag
                                OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, 0};
     (void)width, (void)height;
     c->handle = OSMesaCreateContextAttribs(wish, NULL);
-    return c->handle ? RG_OK : rg_fail(RG_EABSENT, why, 0, "OSMesa gives no OpenGL context, so no pictures can be made");
+    return c->handle ? RG_OK : rg_fail(RG_EABSENT, why, 0, "OSMesa gives no OpenGL context");
 }
 
 static int context_begin(context *c, uint32_t *rgba, int32_t width, int32_t height)
@@ -58,7 +58,7 @@ typedef struct context {
 
 static rg_status absent(const char *what, rg_diag *why)
 {
-    return rg_fail(RG_EABSENT, why, 0, "EGL gives no %s (error 0x%x), so no pictures can be made", what,
+    return rg_fail(RG_EABSENT, why, 0, "EGL gives no %s (error 0x%x)", what,
                    (unsigned)eglGetError());
 }
 
@@ -209,7 +209,7 @@ void rg_gl_destroy(rg_gl *g)
 
 rg_status rg_gl_check(rg_diag *why)
 {
-    return rg_fail(RG_EABSENT, why, 0, "this build makes no pictures: it was made without OpenGL (GL=none)");
+    return rg_fail(RG_EABSENT, why, 0, "this build is made without OpenGL (GL=none)");
 }
 
 rg_status rg_gl_create(const rg_memory *mem, int32_t width, int32_t height, rg_gl **gl, rg_diag *why)

@@ -1,5 +1,5 @@
 /* gl.h -- the one door to OpenGL: a context off the screen that tells which triangle is nearest at each sample.
- * Paper    section 4        Uses  base        Used by  render.c
+ * Paper    section 4        Uses  base        Used by  canvas.c
  *
  * Built for OSMesa, for EGL without a surface, or for neither (RG_GL_osmesa, RG_GL_egl, RG_GL_none). What GL keeps
  * inside is allocated by GL, not by rg_memory. One handle belongs to one thread at a time. */
@@ -21,7 +21,7 @@ typedef struct rg_gl_scene {
     int32_t corners;
 } rg_gl_scene;
 
-/* RG_OK if this build makes pictures, else RG_EABSENT and a sentence. */
+/* RG_OK if this build has OpenGL, else RG_EABSENT and a sentence. */
 rg_status rg_gl_check(rg_diag *why);
 /* A canvas of width x height samples; it may be made smaller where GL's limits ask for it: rg_gl_size tells.
  * RG_EABSENT: no such part in this build or on this machine. Owner: the caller, rg_gl_destroy (NULL is fine). */

@@ -41,7 +41,7 @@ void rg_samples_draw(const rg_samples *s, const rg_samples_line *l)
         const int32_t to = centre_beyond(mx + lesser(a + side.reach, b + end.reach), s->width);
         uint32_t *at = s->at + (size_t)row * (size_t)s->pitch;
         for (int32_t i = centre_beyond(mx + greater(a - side.reach, b - end.reach), s->width); i < to; i++)
-            if ((at[i] & MARK) == l->mark) at[i] = l->mark | l->ink << RG_SAMPLES_MARK_BITS;
+            if (l->mark ? (at[i] & MARK) == l->mark : at[i] != 0) at[i] = (at[i] & MARK) | l->ink << RG_SAMPLES_MARK_BITS;
     }
 }
 
@@ -52,6 +52,8 @@ uint64_t rg_samples_colour(const unsigned char rgb[3])
     return (uint64_t)rgb[0] | (uint64_t)rgb[1] << LANE | (uint64_t)rgb[2] << 2 * LANE;
 }
 
+unsigned char rg_samples_channel(uint64_t colour, int k) { return (unsigned char)(colour >> k * LANE); }
+
 static unsigned char mean_of(uint64_t sum, int lane)
 {
     const unsigned n = FINE * FINE;
@@ -61,19 +63,27 @@ static unsigned char mean_of(uint64_t sum, int lane)
 void rg_samples_mean(const rg_samples *s, const uint64_t *paper, const uint64_t *ink, unsigned char *rgb, size_t stride)
 {
     for (int32_t y = 0; y < s->height / FINE; y++) {
-        const uint32_t *at = s->at + (size_t)(FINE * y) * (size_t)s->pitch;
+        const size_t row = (size_t)(FINE * y) * (size_t)s->pitch;
         unsigned char *to = rgb + (size_t)y * stride;
-        for (int32_t x = 0; x < s->width / FINE; x++, at += FINE, to += 3) {
-            uint32_t differ = 0;
+        for (int32_t x = 0; x < s->width / FINE; x++, to += 3) {
+            const size_t first = row + (size_t)(FINE * x);
+            uint32_t differ = 0, any = 0;
             for (int i = 0; i < FINE; i++)
-                for (int j = 0; j < FINE; j++) differ |= at[(size_t)i * (size_t)s->pitch + (size_t)j] ^ at[0];
-            uint64_t sum = 0;
-            for (int i = 0; i < (differ ? FINE : 1); i++)
-                for (int j = 0; j < (differ ? FINE : 1); j++) {
-                    const uint32_t p = at[(size_t)i * (size_t)s->pitch + (size_t)j];
-                    sum += p > MARK ? ink[p >> RG_SAMPLES_MARK_BITS] : paper[p];
+                for (int j = 0; j < FINE; j++) {
+                    const uint32_t p = s->at[first + (size_t)i * (size_t)s->pitch + (size_t)j];
+                    differ |= p ^ s->at[first], any |= p;
                 }
-            if (!differ) sum *= FINE * FINE;
+            if (!any) continue;
+            const uint64_t behind = rg_samples_colour(to);
+            const int n = differ || s->colour ? FINE : 1;
+            uint64_t sum = 0;
+            for (int i = 0; i < n; i++)
+                for (int j = 0; j < n; j++) {
+                    const size_t at = first + (size_t)i * (size_t)s->pitch + (size_t)j;
+                    const uint32_t p = s->at[at];
+                    sum += p > MARK ? ink[p >> RG_SAMPLES_MARK_BITS] : !p ? behind : s->colour ? s->colour[at] : paper[p];
+                }
+            if (n == 1) sum *= FINE * FINE;
             for (int k = 0; k < 3; k++) to[k] = mean_of(sum, k);
         }
     }

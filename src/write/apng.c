@@ -41,13 +41,13 @@ static rg_status put_chunk(rg_apng *a, const char *kind, const unsigned char *da
     return done ? RG_OK : rg_fail(RG_EWRITE, why, 0, "%s", strerror(errno));
 }
 
-static rg_status put_head(rg_apng *a, int32_t frames, rg_diag *why)
+static rg_status put_head(rg_apng *a, int32_t frames, int for_ever, rg_diag *why)
 {
     static const unsigned char signature[8] = {137, 'P', 'N', 'G', 13, 10, 26, 10}, perceptual[1] = {0};
     unsigned char size[13], animation[8];
     big_endian(big_endian(size, (uint32_t)a->width, 4), (uint32_t)a->height, 4);
     memcpy(size + 8, "\10\2\0\0\0", 5); /* 8 bits, RGB, the one way to pack, the one set of filters, not interlaced */
-    big_endian(big_endian(animation, (uint32_t)frames, 4), 0, 4); /* for ever */
+    big_endian(big_endian(animation, (uint32_t)frames, 4), for_ever ? 0 : 1, 4);
     errno = 0;
     if (fwrite(signature, 1, 8, a->file) != 8) return rg_fail(RG_EWRITE, why, 0, "%s", strerror(errno));
     rg_status s = put_chunk(a, "IHDR", size, sizeof size, why);
@@ -66,7 +66,7 @@ static void set_delay(rg_apng *a, double fps)
 }
 
 rg_status rg_apng_create(const rg_memory *mem, FILE *file, int32_t width, int32_t height, double fps, int32_t frames,
-                         rg_apng **apng, rg_diag *why)
+                         int for_ever, rg_apng **apng, rg_diag *why)
 {
     const size_t row = RGB * (size_t)width;
     rg_apng *a = rg_mem_array(mem, 1, sizeof *a);
@@ -77,7 +77,7 @@ rg_status rg_apng_create(const rg_memory *mem, FILE *file, int32_t width, int32_
     a->rows = rg_mem_array(mem, (size_t)height, 1 + row);
     a->packed = rg_mem_array(mem, 4 + a->room, 1);
     set_delay(a, fps);
-    rg_status s = a->before && a->rows && a->packed ? put_head(a, frames, why)
+    rg_status s = a->before && a->rows && a->packed ? put_head(a, frames, for_ever, why)
                                                         : rg_fail(RG_ENOMEM, why, 0, "out of memory for the APNG");
     if (s != RG_OK) {
         rg_apng_destroy(a);
@@ -100,21 +100,29 @@ static size_t gather(rg_apng *a, const unsigned char *rgb, const rg_change *c)
     return (size_t)(to - a->rows);
 }
 
-static rg_status put_control(rg_apng *a, const rg_change *c, rg_diag *why)
+/* The delay times `times`, as a fraction of two numbers of 16 bits: hundredths where it is long. */
+static unsigned char *put_delay(const rg_apng *a, double times, unsigned char *to)
+{
+    const double n = floor(a->delay * times + 0.5), hundredths = fmin(65535, floor(100.0 * a->delay / a->unit * times + 0.5));
+    if (n <= 65535) return big_endian(big_endian(to, (uint32_t)n, 2), a->unit, 2);
+    return big_endian(big_endian(to, (uint32_t)hundredths, 2), 100, 2);
+}
+
+static rg_status put_control(rg_apng *a, const rg_change *c, double times, rg_diag *why)
 {
     unsigned char control[26], *to = big_endian(control, a->sequence++, 4);
     to = big_endian(big_endian(to, (uint32_t)c->width, 4), (uint32_t)c->height, 4);
     to = big_endian(big_endian(to, (uint32_t)c->left, 4), (uint32_t)c->top, 4);
-    to = big_endian(big_endian(to, a->delay, 2), a->unit, 2);
+    to = put_delay(a, times, to);
     *to++ = 0; /* leave it there afterwards */
     *to++ = 0; /* in place of what was there */
     return put_chunk(a, "fcTL", control, sizeof control, why);
 }
 
-rg_status rg_apng_add(rg_apng *a, const unsigned char *rgb, rg_diag *why)
+rg_status rg_apng_add(rg_apng *a, const unsigned char *rgb, double times, rg_diag *why)
 {
     const rg_change c = rg_change_find(rgb, a->frames > 0 ? a->before : NULL, a->width, a->height, RGB);
-    rg_status s = put_control(a, &c, why);
+    rg_status s = put_control(a, &c, times, why);
     if (s != RG_OK) return s;
     uLongf n = (uLongf)a->room;
     if (compress2(a->packed + 4, &n, a->rows, (uLong)gather(a, rgb, &c), RG_PNG_EFFORT) != Z_OK)

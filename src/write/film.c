@@ -3,11 +3,11 @@
 #include "base/status.h"
 #include "render/camera.h"
 #include "render/frames.h"
-#include "render/gl.h"
 #include "write/apng.h"
 #include "write/gif.h"
 #include "write/numbered.h"
 #include "write/png.h"
+#include "write/reel.h"
 #include "write/video.h"
 
 #include <errno.h>
@@ -47,8 +47,7 @@ rg_status rg_film_check(const char *path, rg_diag *why)
     if (is >= GIF && rg_numbered_find(path, &n) > 0)
         return rg_fail(RG_EARG, why, 0, "%.150s: one %s holds all frames: no number in its name", path,
                        strrchr(path, '.'));
-    const rg_status s = rg_gl_check(why);
-    return s == RG_OK && (is == MP4 || is == WEBM) ? rg_video_check(why) : s;
+    return is == MP4 || is == WEBM ? rg_video_check(why) : RG_OK;
 }
 
 /* Puts a file's name before what is wrong with it. */
@@ -200,62 +199,105 @@ static rg_status choose_colours(const rg_motion *m, const rg_frames *f, rg_palet
     return s == RG_OK ? s : rg_fail(s, why, 0, "out of memory for the colours");
 }
 
-static rg_status add_gif(void *ctx, const rg_memory *mem, int32_t frame, const unsigned char *rgb, rg_diag *why)
+/* The first and the last picture stay for a while; then, if it goes back, those between them come again from behind. */
+typedef struct strip {
+    rg_status (*add)(void *to, const unsigned char *rgb, double times, rg_diag *why);
+    void *to;
+    int32_t last;
+    double first_times, last_times; /* how long they stay, in times of the others */
+    int goes_back;
+    rg_reel reel;
+} strip;
+
+/* At its beginning a film that goes round rests for half as long as at its end. */
+static strip strip_of(const rg_motion *m, const rg_picture *p)
 {
-    (void)mem, (void)frame;
-    return rg_gif_add(ctx, rgb, why);
+    const int32_t last = m->report.frame_count - 1;
+    const double rest = p->hold * p->fps;
+    return (strip){.last = last, .first_times = last > 0 && p->loop != RG_LOOP_ONCE ? 1 + 0.5 * rest : 1, .last_times = 1 + rest,
+                   .goes_back = p->loop == RG_LOOP_BACK, .reel = {.pixels = (size_t)p->width * (size_t)p->height}};
 }
+
+static int32_t pictures_of(const strip *f) { return f->last + 1 + (f->goes_back && f->last > 1 ? f->last - 1 : 0); }
+
+static rg_status add_frame(void *ctx, const rg_memory *mem, int32_t frame, const unsigned char *rgb, rg_diag *why)
+{
+    strip *f = ctx;
+    if (f->goes_back && frame > 0 && frame < f->last && rg_reel_keep(&f->reel, mem, rgb) != RG_OK)
+        return rg_fail(RG_ENOMEM, why, 0, "out of memory for the way back");
+    return f->add(f->to, rgb, frame == f->last ? f->last_times : frame == 0 ? f->first_times : 1, why);
+}
+
+static rg_status run_strip(const rg_motion *m, rg_frames *f, strip *film, rg_diag *why)
+{
+    f->take = add_frame;
+    f->ctx = film;
+    rg_status s = rg_frames_draw(m, f, why);
+    unsigned char *rgb = rg_mem_array(&m->mem, film->reel.pixels, 3);
+    if (s == RG_OK && !rgb) s = rg_fail(RG_ENOMEM, why, 0, "out of memory for the way back");
+    for (int32_t i = film->reel.count - 1; s == RG_OK && i >= 0; i--) {
+        rg_reel_show(&film->reel, i, rgb);
+        s = film->add(film->to, rgb, 1, why);
+    }
+    rg_mem_free(&m->mem, rgb);
+    rg_reel_free(&film->reel, &m->mem);
+    return s;
+}
+
+static rg_status add_gif(void *to, const unsigned char *rgb, double times, rg_diag *why) { return rg_gif_add(to, rgb, times, why); }
 
 static rg_status write_gif(const rg_motion *m, rg_file *file, rg_frames *f, rg_diag *why)
 {
     const rg_picture *p = &f->picture;
     rg_palette palette;
+    strip film = strip_of(m, p);
     rg_gif *gif = NULL;
     rg_status s = choose_colours(m, f, &palette, why);
-    if (s == RG_OK) s = rg_gif_create(&m->mem, file->stream, p->width, p->height, p->fps, &palette, &gif, why);
-    f->take = add_gif;
-    f->ctx = gif;
-    if (s == RG_OK) s = rg_frames_draw(m, f, why);
+    if (s == RG_OK) s = rg_gif_create(&m->mem, file->stream, p->width, p->height, p->fps, p->loop != RG_LOOP_ONCE, &palette, &gif, why);
+    film.add = add_gif;
+    film.to = gif;
+    if (s == RG_OK) s = run_strip(m, f, &film, why);
     if (s == RG_OK) s = rg_gif_finish(gif, why);
     rg_gif_destroy(gif);
     rg_palette_free(&palette);
     return s;
 }
 
-static rg_status add_apng(void *ctx, const rg_memory *mem, int32_t frame, const unsigned char *rgb, rg_diag *why)
-{
-    (void)mem, (void)frame;
-    return rg_apng_add(ctx, rgb, why);
-}
+static rg_status add_apng(void *to, const unsigned char *rgb, double times, rg_diag *why) { return rg_apng_add(to, rgb, times, why); }
 
 static rg_status write_apng(const rg_motion *m, rg_file *file, rg_frames *f, rg_diag *why)
 {
     const rg_picture *p = &f->picture;
+    strip film = strip_of(m, p);
     rg_apng *apng = NULL;
-    rg_status s = rg_apng_create(&m->mem, file->stream, p->width, p->height, p->fps, m->report.frame_count, &apng, why);
-    f->take = add_apng;
-    f->ctx = apng;
-    if (s == RG_OK) s = rg_frames_draw(m, f, why);
+    rg_status s = rg_apng_create(&m->mem, file->stream, p->width, p->height, p->fps, pictures_of(&film), p->loop != RG_LOOP_ONCE, &apng,
+                                 why);
+    film.add = add_apng;
+    film.to = apng;
+    if (s == RG_OK) s = run_strip(m, f, &film, why);
     if (s == RG_OK) s = rg_apng_finish(apng, why);
     rg_apng_destroy(apng);
     return s;
 }
 
-static rg_status add_video(void *ctx, const rg_memory *mem, int32_t frame, const unsigned char *rgb, rg_diag *why)
+/* A video has one pace: what stays is shown again. */
+static rg_status add_video(void *to, const unsigned char *rgb, double times, rg_diag *why)
 {
-    (void)mem, (void)frame;
-    return rg_video_add(ctx, rgb, why);
+    rg_status s = RG_OK;
+    for (double k = 0; s == RG_OK && k + 0.5 < times; k++) s = rg_video_add(to, rgb, why);
+    return s;
 }
 
 static rg_status write_video(const rg_motion *m, rg_file *file, const char *container, rg_frames *f, rg_diag *why)
 {
     const rg_picture *p = &f->picture;
     const char *path = file->temporary ? file->temporary : file->path;
+    strip film = strip_of(m, p);
     rg_video *video = NULL;
     rg_status s = rg_video_create(&m->mem, path, container, p->width, p->height, p->fps, p->background, &video, why);
-    f->take = add_video;
-    f->ctx = video;
-    if (s == RG_OK) s = rg_frames_draw(m, f, why);
+    film.add = add_video;
+    film.to = video;
+    if (s == RG_OK) s = run_strip(m, f, &film, why);
     if (s == RG_OK) s = rg_video_finish(video, why);
     rg_video_destroy(video);
     return s;

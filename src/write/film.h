@@ -4,7 +4,7 @@
  *   dir/ or a folder that exists   dir/0000.png ... ; the folder is made where there is none, its parents are not
  *   name-%04d.png, name-%d.png     name-0000.png ...
  *   x.png                          the last frame
- *   x.gif x.apng                   the animation, going round for ever
+ *   x.gif x.apng                   the animation: its end is held, then it goes back, for ever, or as the picture says
  *   x.mp4 x.webm                   the same through the program ffmpeg
  *
  * Each file is written to a temporary name and renamed. Numbered frames replace those of an earlier run: where that was
@@ -17,7 +17,7 @@
 
 /* Whether a path asks for one of these. */
 int rg_film_is_form(const char *path);
-/* RG_OK, or RG_EABSENT: this build makes no pictures, there is no ffmpeg; RG_EARG: a number in the name of what is one
+/* RG_OK, or RG_EABSENT: there is no ffmpeg; RG_EARG: a number in the name of what is one
  * file, two numbers. why->text says so. */
 rg_status rg_film_check(const char *path, rg_diag *why);
 /* Also RG_EARG for a picture's size, camera or rate that is out of range; RG_EWRITE, RG_ENOMEM. */

@@ -9,7 +9,7 @@
 
 enum { CLEAR = 255 }; /* the colour that shows what was there */
 /* Hundredths of a second, the unit of GIF. */
-static const double LEAST_DELAY = 2;
+static const double LEAST_DELAY = 2, MOST_DELAY = 65535;
 
 struct rg_gif {
     rg_memory mem;
@@ -17,7 +17,7 @@ struct rg_gif {
     FILE *file;
     rg_palette *palette;
     int32_t width, height, frames;
-    double fps;
+    double fps, shown; /* what was added so far, in frames of that rate */
     unsigned char *now, *before; /* [height][width] colour numbers */
     unsigned char *row;          /* [width] */
 };
@@ -33,8 +33,8 @@ static rg_status failed(const rg_gif *g, rg_diag *why)
     return rg_fail(RG_EWRITE, why, 0, "%s", ferror(g->file) && errno ? strerror(errno) : GifErrorString(g->gif->Error));
 }
 
-/* Size, palette, and that it goes round for ever. */
-static int put_head(rg_gif *g)
+/* Size, palette, and whether it goes round for ever. */
+static int put_head(rg_gif *g, int for_ever)
 {
     GifColorType colour[256];
     memset(colour, 0, sizeof colour);
@@ -45,6 +45,7 @@ static int put_head(rg_gif *g)
     EGifSetGifVersion(g->gif, true);
     int ok = EGifPutScreenDesc(g->gif, g->width, g->height, 8, 0, map);
     GifFreeMapObject(map);
+    if (!for_ever) return ok;
     if (ok == GIF_OK) ok = EGifPutExtensionLeader(g->gif, APPLICATION_EXT_FUNC_CODE);
     if (ok == GIF_OK) ok = EGifPutExtensionBlock(g->gif, 11, "NETSCAPE2.0");
     if (ok == GIF_OK) ok = EGifPutExtensionBlock(g->gif, 3, "\1\0\0");
@@ -52,8 +53,8 @@ static int put_head(rg_gif *g)
     return ok;
 }
 
-rg_status rg_gif_create(const rg_memory *mem, FILE *file, int32_t width, int32_t height, double fps, rg_palette *p,
-                        rg_gif **gif, rg_diag *why)
+rg_status rg_gif_create(const rg_memory *mem, FILE *file, int32_t width, int32_t height, double fps, int for_ever,
+                        rg_palette *p, rg_gif **gif, rg_diag *why)
 {
     const size_t pixels = (size_t)width * (size_t)height;
     rg_gif *g = rg_mem_array(mem, 1, sizeof *g);
@@ -65,7 +66,7 @@ rg_status rg_gif_create(const rg_memory *mem, FILE *file, int32_t width, int32_t
     g->gif = g->now && g->before && g->row ? EGifOpen(g, put, NULL) : NULL;
     rg_status s = g->gif ? RG_OK : rg_fail(RG_ENOMEM, why, 0, "out of memory for the GIF");
     errno = 0;
-    if (s == RG_OK && put_head(g) != GIF_OK) s = failed(g, why);
+    if (s == RG_OK && put_head(g, for_ever) != GIF_OK) s = failed(g, why);
     if (s != RG_OK) {
         rg_gif_destroy(g);
         return s;
@@ -75,15 +76,15 @@ rg_status rg_gif_create(const rg_memory *mem, FILE *file, int32_t width, int32_t
 }
 
 /* Delays are whole hundredths; what rounding takes from one frame the next ones give back. */
-static int delay_of(const rg_gif *g)
+static int delay_of(const rg_gif *g, double times)
 {
-    const double ends = floor((g->frames + 1) * 100 / g->fps + 0.5), begins = floor(g->frames * 100 / g->fps + 0.5);
-    return (int)fmax(LEAST_DELAY, ends - begins);
+    const double ends = floor((g->shown + times) * 100 / g->fps + 0.5), begins = floor(g->shown * 100 / g->fps + 0.5);
+    return (int)fmin(MOST_DELAY, fmax(LEAST_DELAY, ends - begins));
 }
 
-static int put_frame(rg_gif *g, const rg_change *c)
+static int put_frame(rg_gif *g, const rg_change *c, double times)
 {
-    const GraphicsControlBlock control = {DISPOSE_DO_NOT, false, delay_of(g), g->frames > 0 ? CLEAR : NO_TRANSPARENT_COLOR};
+    const GraphicsControlBlock control = {DISPOSE_DO_NOT, false, delay_of(g, times), g->frames > 0 ? CLEAR : NO_TRANSPARENT_COLOR};
     GifByteType block[4];
     EGifGCBToExtension(&control, block);
     int ok = EGifPutExtension(g->gif, GRAPHICS_EXT_FUNC_CODE, sizeof block, block);
@@ -99,17 +100,18 @@ static int put_frame(rg_gif *g, const rg_change *c)
     return ok;
 }
 
-rg_status rg_gif_add(rg_gif *g, const unsigned char *rgb, rg_diag *why)
+rg_status rg_gif_add(rg_gif *g, const unsigned char *rgb, double times, rg_diag *why)
 {
     const size_t pixels = (size_t)g->width * (size_t)g->height;
     for (size_t i = 0; i < pixels; i++) g->now[i] = (unsigned char)rg_palette_index(g->palette, rgb + 3 * i);
     const rg_change c = rg_change_find(g->now, g->frames > 0 ? g->before : NULL, g->width, g->height, 1);
     errno = 0;
-    if (put_frame(g, &c) != GIF_OK) return failed(g, why);
+    if (put_frame(g, &c, times) != GIF_OK) return failed(g, why);
     unsigned char *swap = g->now;
     g->now = g->before;
     g->before = swap;
     g->frames++;
+    g->shown += times;
     return RG_OK;
 }
 
