@@ -102,7 +102,7 @@ static const rule rules[] = {
      "pictures: how much light passes a facet, in percent (0)"},
     {FOR_FOLD, "no-shadow", 0, NULL, SWITCH, AT(picture.shadow), 0, 0, 1, NULL, "pictures: no shadow on the floor"},
     {FOR_FOLD, "caption", 0, NULL, SWITCH, AT(picture.caption), 1, 0, 1, NULL, "pictures: title and percent at their lower edge"},
-    {FOR_FOLD, "image", 0, "FILE", TEXT, AT(picture.image), NOTHING, "pictures, .html, .glb: a PNG printed on the paper's front"},
+    {FOR_FOLD, "image", 0, "FILE", TEXT, AT(picture.image), NOTHING, "pictures: a PNG printed on the paper's front"},
     {FOR_FOLD, "colour", 0, "BY", CHOICE, AT(colour), 0, 0, 1, colourings, "pictures: what the colours of facets tell (paper):"},
     {FOR_FOLD, "fps", 0, "N", REAL, AT(picture.fps), 0.01, 1000, 1, NULL, "animations: frames a second (30)"},
     {FOR_FOLD, "loop", 0, "HOW", CHOICE, AT(loop), 0, 0, 1, loops,

@@ -1,5 +1,6 @@
 #include "render/camera.h"
 #include "base/status.h"
+#include "render/caption.h"
 
 #include <float.h>
 
@@ -238,7 +239,8 @@ rg_status rg_camera_follow(const rg_stage *stage, const rg_picture *p, rg_camera
     const rg_memory *mem = &stage->mem;
     const size_t frames = (size_t)stage->motion->report.frame_count;
     track t = {.stage = stage, .frames = (int32_t)frames};
-    t.camera.half_width = 0.5 * p->width, t.camera.half_height = 0.5 * p->height;
+    const int32_t below = p->caption ? rg_caption_height(p->width, p->height) : 0;
+    t.camera.half_width = 0.5 * p->width, t.camera.half_height = 0.5 * (p->height > 2 * below ? p->height - below : p->height);
     const double scale = LENS * fmin(t.camera.half_width, t.camera.half_height);
     aim(&t.camera, stage->azimuth, stage->elevation, stage->roll);
     t.camera.scale = p->zoom * scale;

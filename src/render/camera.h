@@ -1,5 +1,5 @@
 /* camera.h -- one steady move of the camera for a whole motion: the sheet stays in the middle and fills the picture.
- * Paper    section 4        Uses  stage.h        Used by  render.c frames.c html.c
+ * Paper    section 4        Uses  stage.h caption.h        Used by  render.c frames.c html.c
  *
  * The camera never turns. It comes nearer as the sheet grows small, goes farther as it unfolds, and moves sideways so that the sheet
  * is in the middle; all of it smoothed over a part of the motion. Nothing of the sheet is cut off unless one zooms in. */
@@ -15,7 +15,7 @@ typedef struct rg_camera {
     rg_vec3 eye;              /* on the stage */
     double scale;             /* pixels per unit of x / distance */
     double near, far;         /* distances from the eye along -back, with room to spare */
-    double half_width, half_height; /* pixels */
+    double half_width, half_height; /* pixels from the upper left to the middle; what is below both halves is the caption's */
     double ground;            /* height of the floor under the sheet */
 } rg_camera;
 

@@ -1,10 +1,13 @@
 #include "render/frames.h"
 #include "base/status.h"
+#include "render/caption.h"
 #include "render/lift.h"
 #include "render/render.h"
+#include "render/tint.h"
 
 #include <pthread.h>
 #include <signal.h>
+#include <stdio.h>
 #include <unistd.h>
 
 /* More would mostly wait: OpenGL in software has its own threads, and layers are found by one thread at a time. */
@@ -25,6 +28,8 @@ typedef struct studio {
     rg_lift *layers;
     rg_stage stage;
     rg_camera *camera; /* [frames] */
+    rg_tint_scale tint;
+    char title[200];   /* of the caption */
     pthread_mutex_t lock;
     pthread_cond_t moved;
     int32_t next, taken; /* frame to be drawn next, to be taken next */
@@ -36,6 +41,7 @@ typedef struct painter {
     studio *studio;
     rg_render *render;
     rg_vec3 *x, *lift;
+    unsigned char (*tint)[3]; /* [nf] */
     unsigned char *rgb;
     pthread_t thread;
 } painter;
@@ -94,6 +100,16 @@ static void end_turn(studio *s, rg_status status, const rg_diag *why)
     pthread_mutex_unlock(&s->lock);
 }
 
+static void caption(const studio *s, int32_t frame, unsigned char *rgb)
+{
+    const rg_picture *p = &s->wish->picture;
+    unsigned char ink[3];
+    char percent[40];
+    snprintf(percent, sizeof percent, "%.0f %%", s->motion->frame[frame].percent);
+    rg_caption_ink(p->background, ink);
+    rg_caption_draw(s->title, percent, ink, p->width, p->height, rgb);
+}
+
 static void *paint(void *ctx)
 {
     painter *p = ctx;
@@ -103,8 +119,10 @@ static void *paint(void *ctx)
         rg_diag why = {0, ""};
         rg_stage_put(&s->stage, frame, p->x, s->motion->mesh.nv);
         rg_stage_turn(&s->stage, frame, p->lift, s->motion->mesh.nf);
-        const rg_shot shot = {p->x, p->lift, &s->camera[frame], NULL};
+        if (p->tint) rg_tint_facets(&s->tint, s->motion, frame, p->lift, p->tint);
+        const rg_shot shot = {p->x, p->lift, &s->camera[frame], (const unsigned char(*)[3])p->tint};
         rg_render_frame(p->render, &shot, p->rgb);
+        if (w->picture.caption) caption(s, frame, p->rgb);
         if (w->in_order && !wait_turn(s, frame)) break;
         const rg_status status = w->take(w->ctx, &s->mem, frame, p->rgb, &why);
         end_turn(s, status, &why);
@@ -116,12 +134,14 @@ static rg_status painter_init(painter *p, studio *s)
 {
     const rg_picture *picture = &s->wish->picture;
     *p = (painter){.studio = s};
-    const rg_status status = rg_render_create(&s->mem, &s->motion->mesh, &s->triangles, picture, NULL, &p->render, s->why);
+    const rg_status status = rg_render_create(&s->mem, &s->motion->mesh, &s->triangles, picture, s->wish->print, &p->render, s->why);
     if (status != RG_OK) return status;
     p->x = rg_mem_array(&s->mem, (size_t)s->motion->mesh.nv, sizeof *p->x);
     p->lift = rg_mem_array(&s->mem, (size_t)s->motion->mesh.nf, sizeof *p->lift);
     p->rgb = rg_mem_array(&s->mem, (size_t)picture->width * (size_t)picture->height, 3);
-    return p->x && p->lift && p->rgb ? RG_OK : rg_fail(RG_ENOMEM, s->why, 0, "out of memory for the picture");
+    const int tinted = s->tint.by != RG_COLOUR_PAPER;
+    if (tinted) p->tint = rg_mem_array(&s->mem, (size_t)s->motion->mesh.nf, sizeof *p->tint);
+    return p->x && p->lift && p->rgb && (p->tint || !tinted) ? RG_OK : rg_fail(RG_ENOMEM, s->why, 0, "out of memory for the picture");
 }
 
 static void painter_free(painter *p)
@@ -132,6 +152,7 @@ static void painter_free(painter *p)
     rg_mem_free(mem, p->x);
     rg_mem_free(mem, p->lift);
     rg_mem_free(mem, p->rgb);
+    rg_mem_free(mem, p->tint);
     *p = (painter){0};
 }
 
@@ -180,6 +201,10 @@ static rg_status draw(studio *s)
 static rg_status set_up(studio *s)
 {
     const rg_motion *m = s->motion;
+    char tells[80];
+    s->tint = rg_tint_of(m, s->wish->picture.colour);
+    rg_tint_words(&s->tint, tells, sizeof tells);
+    snprintf(s->title, sizeof s->title, "%s%s%s", m->title ? m->title : "", m->title && *m->title && *tells ? ": " : "", tells);
     rg_status status = rg_camera_check(&s->wish->picture, s->why);
     if (status != RG_OK) return status;
     s->camera = rg_mem_array(&s->mem, (size_t)m->report.frame_count, sizeof *s->camera);

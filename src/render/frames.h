@@ -4,9 +4,11 @@
 #define RG_FRAMES_H
 
 #include "motion/motion.h"
+#include "render/print.h"
 
 typedef struct rg_frames {
     rg_picture picture;
+    const rg_print *print; /* on the paper's front; NULL: nothing */
     int32_t first, step; /* frames first, first + step, ... to the last one */
     int32_t threads;     /* at most; 0: as many as there are processors */
     int in_order;        /* take() is called for one frame after the other, else by several threads at once */

@@ -321,14 +321,21 @@ rg_status rg_film_write_by(const rg_motion *m, const char *path, const rg_pictur
     rg_status s = rg_film_check(path, why);
     if (s == RG_OK) s = rg_camera_check(p, why);
     if (s != RG_OK) return s;
-    rg_frames f = {.picture = *p, .step = 1, .threads = threads};
+    rg_print print = {NULL, 0, 0};
+    unsigned char *rgba = NULL;
+    if (p->image) s = name_it(rg_png_read(&m->mem, p->image, &print.width, &print.height, &rgba, why), p->image, why);
+    if (s != RG_OK) return s;
+    print.rgba = rgba;
+    rg_frames f = {.picture = *p, .print = p->image ? &print : NULL, .step = 1, .threads = threads};
     const shape is = shape_of(path);
     switch (is) {
-    case FOLDER: return write_folder(m, path, &f, why);
-    case NUMBERED: return write_numbered(m, path, &f, why);
-    case LAST: return write_last(m, path, &f, why);
-    default: return write_animation(m, is, path, &f, why);
+    case FOLDER: s = write_folder(m, path, &f, why); break;
+    case NUMBERED: s = write_numbered(m, path, &f, why); break;
+    case LAST: s = write_last(m, path, &f, why); break;
+    default: s = write_animation(m, is, path, &f, why); break;
     }
+    rg_mem_free(&m->mem, rgba);
+    return s;
 }
 
 rg_status rg_film_write(const rg_motion *m, const char *path, const rg_picture *p, rg_diag *why)

@@ -69,3 +69,56 @@ rg_status rg_png_write(FILE *file, int32_t width, int32_t height, const unsigned
     png_destroy_write_struct(&png, &info);
     return s;
 }
+
+/* ---- reading */
+
+/* Larger ones are no pictures to be printed on a sheet: 64 million pixels. */
+enum { LARGEST = 1 << 26 };
+
+/* Everything that libpng may jump out of; *rgba is the caller's, whatever happens. */
+static rg_status read_all(png_structp png, png_infop info, FILE *file, const rg_memory *mem, int32_t *width, int32_t *height,
+                          unsigned char **rgba)
+{
+    if (setjmp(png_jmpbuf(png))) return RG_EREAD;
+    png_init_io(png, file);
+    png_read_info(png, info);
+    const png_uint_32 w = png_get_image_width(png, info), h = png_get_image_height(png, info);
+    if ((uint64_t)w * h > LARGEST) png_error(png, "too large");
+    png_set_expand(png);
+    png_set_scale_16(png);
+    png_set_gray_to_rgb(png);
+    png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
+    const int passes = png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+    *rgba = rg_mem_array(mem, (size_t)w * h, 4);
+    if (!*rgba) return RG_ENOMEM;
+    for (int pass = 0; pass < passes; pass++)
+        for (png_uint_32 y = 0; y < h; y++) png_read_row(png, *rgba + 4 * (size_t)w * y, NULL);
+    *width = (int32_t)w, *height = (int32_t)h;
+    return RG_OK;
+}
+
+static void on_read_error(png_structp png, png_const_charp words)
+{
+    trouble *t = png_get_error_ptr(png);
+    t->status = rg_fail(RG_EREAD, t->why, 0, "no PNG that can be read: %s", words);
+    png_longjmp(png, 1);
+}
+
+rg_status rg_png_read(const rg_memory *mem, const char *path, int32_t *width, int32_t *height, unsigned char **rgba, rg_diag *why)
+{
+    errno = 0;
+    FILE *file = fopen(path, "rb");
+    if (!file) return rg_fail(RG_EREAD, why, 0, "%s", strerror(errno));
+    trouble t = {why, file, RG_OK};
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &t, on_read_error, on_warning);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    unsigned char *pixels = NULL;
+    rg_status s = info ? read_all(png, info, file, mem, width, height, &pixels) : RG_ENOMEM;
+    png_destroy_read_struct(&png, &info, NULL);
+    fclose(file);
+    if (s == RG_ENOMEM) rg_fail(s, why, 0, "out of memory for the picture");
+    if (s != RG_OK) rg_mem_free(mem, pixels);
+    else *rgba = pixels;
+    return s;
+}
