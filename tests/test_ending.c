@@ -9,6 +9,7 @@
 #include "near.h"
 #include "counted.h"
 #include "motion/ending.h"
+#include "motions.h"
 #include "render/lift.h"
 #include "stacked.h"
 #include "written.h"
@@ -153,8 +154,49 @@ static void ends_that_are_none(void **state)
     rg_motion_destroy(m);
 }
 
+/* Creases one after the other, from that end of the strip on. */
+static void one_by_one(const rg_mesh *m, double t, double *rho, void *ctx)
+{
+    const int from_the_right = *(const int *)ctx;
+    for (int32_t i = 0; i < m->N; i++) {
+        int32_t before = 0;
+        for (int32_t j = 0; j < m->N; j++) {
+            const double d = m->X[m->edge[m->crease_edge[j]][0]].x - m->X[m->edge[m->crease_edge[i]][0]].x;
+            before += from_the_right ? d > 0 : d < 0;
+        }
+        rho[i] = RG_PI * mountain_or_valley(m, i) * fmin(1, fmax(0, m->N * t - before));
+    }
+}
+
+/* Rolled up, even panels have several orders; the one kept is the one that the motion came in: from the right the end is inside, from
+ * the left outside. Seen with the front of the first panel up. */
+static void the_order_is_that_of_the_motion(void **state)
+{
+    (void)state;
+    static const double even[] = {1, 1, 1};
+    static const char *const expected[2] = {"201", "021"}; /* panels, lowest first */
+    for (int right = 0; right < 2; right++) {
+        rg_diag why = {0, ""};
+        rg_lines lines = strip(3, even, "VV", 2.385);
+        rg_motion *m = motion_by(&lines, 31, one_by_one, &right);
+        assert_int_equal(rg_ending_find(m, &why), RG_OK);
+        assert_string_equal(m->report.layer_orders, "2");
+        const rg_layers *l = rg_ending_layers(m, 30);
+        assert_non_null(l);
+        int32_t level[3], cuts;
+        assert_int_equal(rg_layers_levels(l, level, &cuts), 3);
+        const int up = l->flat.up[facet_at(&m->mesh, 0.5, 1)];
+        for (int i = 0; i < 3; i++) {
+            const int32_t f = facet_at(&m->mesh, expected[right][i] - '0' + 0.5, 1);
+            assert_int_equal(level[f], up > 0 ? i : 2 - i);
+        }
+        rg_motion_destroy(m);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(flat_ends), cmocka_unit_test(ends_that_are_none)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(flat_ends), cmocka_unit_test(ends_that_are_none),
+                                       cmocka_unit_test(the_order_is_that_of_the_motion)};
     return cmocka_run_group_tests(tests, written_begin, written_end);
 }

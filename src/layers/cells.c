@@ -21,7 +21,7 @@ void rg_cells_free(rg_cells *c)
     const rg_memory mem = c->mem;
     rg_graph_free(&c->graph);
     rg_faces_free(&c->faces);
-    void *block[] = {c->along_start, c->along, c->across_start, c->across, c->over_start, c->over};
+    void *block[] = {c->along_start, c->along, c->across_start, c->across, c->point, c->over_start, c->over};
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&mem, block[i]);
     memset(c, 0, sizeof *c);
 }
@@ -192,6 +192,7 @@ static rg_status walk_cells(rg_cells *c, const rg_mesh *m, const rg_flat *f, con
         if (c->faces.area[i] > 0 && best_point(corner, n, scratch, &x) > WIDE * c->tol)
             for (int32_t g = 0; s == RG_OK && g < f->nf; g++)
                 if (in_box(&of_facet[g], x, 0) && inside(m, f, g, x)) s = append(&c->mem, over, g);
+        c->point[i] = x;
         c->over_start[i + 1] = (int32_t)over->count;
     }
     rg_mem_free(&c->mem, corner);
@@ -211,7 +212,8 @@ rg_status rg_cells_init(rg_cells *c, const rg_memory *mem, const rg_mesh *m, con
     c->along_start = rg_mem_array(mem, (size_t)c->graph.ne + 1, sizeof *c->along_start);
     c->across_start = rg_mem_array(mem, (size_t)c->graph.ne + 1, sizeof *c->across_start);
     c->over_start = rg_mem_array(mem, (size_t)c->faces.count + 1, sizeof *c->over_start);
-    if (!of_facet || !c->along_start || !c->across_start || !c->over_start) s = RG_ENOMEM;
+    c->point = rg_mem_array(mem, (size_t)c->faces.count, sizeof *c->point);
+    if (!of_facet || !c->point || !c->along_start || !c->across_start || !c->over_start) s = RG_ENOMEM;
     for (int32_t g = 0; s == RG_OK && g < f->nf; g++) {
         of_facet[g] = (box){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
         for (int32_t j = f->start[g]; j < f->start[g + 1]; j++) {

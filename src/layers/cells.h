@@ -18,6 +18,7 @@ typedef struct rg_cells {
     int32_t *along;        /* edges of the mesh that lie along a segment */
     int32_t *across_start; /* [segments + 1] */
     int32_t *across;       /* facets whose inside a segment runs through, rising */
+    rg_vec2 *point;        /* [cells] a point well inside each */
     int32_t *over_start;   /* [cells + 1] */
     int32_t *over;         /* facets over a cell, rising; none over one that is no wider than rounding */
 } rg_cells;

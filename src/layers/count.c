@@ -254,14 +254,43 @@ static void choose_part(counter *c, size_t first, int32_t n, uint64_t which)
     }
 }
 
+static void choose_part_near(counter *c, size_t first, int32_t n, const double *wish)
+{
+    const int wanted = wish[c->list[first]] < 0 ? -1 : 1;
+    const int value = try_order(c, first, n, wanted, 1) ? wanted : -wanted;
+    const size_t begin = c->used;
+    if (c->status != RG_OK || !rg_orders_set(c->o, c->list[first], value) || !rg_orders_propagate(c->o)) return;
+    divide(c, &first, n);
+    const size_t end = c->used;
+    for (size_t at = begin; c->status == RG_OK && at < end; at += 1 + (size_t)c->list[at]) choose_part_near(c, at + 1, c->list[at], wish);
+    c->used = begin;
+}
+
+/* The part's pairs as a list. */
+static rg_status begin_part(counter *c, const rg_parts *q, rg_orders *o, int32_t i)
+{
+    rg_status s = begin(c, o, INT64_MAX);
+    for (int32_t j = q->start[i]; s == RG_OK && j < q->start[i + 1]; j++) {
+        push(c, q->pair[j]);
+        s = c->status;
+    }
+    return s;
+}
+
+rg_status rg_parts_choose_near(const rg_parts *q, rg_orders *o, int32_t i, const double *wish)
+{
+    counter c;
+    rg_status s = begin_part(&c, q, o, i);
+    if (s == RG_OK) choose_part_near(&c, 0, q->start[i + 1] - q->start[i], wish);
+    if (s == RG_OK) s = c.status;
+    end(&c);
+    return s;
+}
+
 rg_status rg_parts_choose(const rg_parts *q, rg_orders *o, int32_t i, uint64_t which)
 {
     counter c;
-    rg_status s = begin(&c, o, INT64_MAX);
-    for (int32_t j = q->start[i]; s == RG_OK && j < q->start[i + 1]; j++) {
-        push(&c, q->pair[j]);
-        s = c.status;
-    }
+    rg_status s = begin_part(&c, q, o, i);
     if (s == RG_OK) choose_part(&c, 0, q->start[i + 1] - q->start[i], which);
     if (s == RG_OK) s = c.status;
     end(&c);

@@ -19,11 +19,13 @@ typedef struct rg_parts {
 typedef enum rg_count_result { RG_COUNT_DONE, RG_COUNT_NONE, RG_COUNT_UNSOLVED } rg_count_result;
 
 /* Of what is not known in o, which is propagated. NONE: part `*at` has no order. UNSOLVED: the work ran out before an order of each
- * part was found. work: as o->work counts it; stop (may be NULL) is asked now and then, non-zero ends it as if work ran out.
+ * part was found. work: of finding an order of each, and again of counting all, as o->work counts it.
  * RG_ENOMEM. Owner: the caller, rg_parts_free, also after a failure. */
 rg_status rg_parts_init(rg_parts *q, const rg_memory *mem, rg_orders *o, int64_t work, rg_count_result *result, int32_t *at);
 void rg_parts_free(rg_parts *q);
 /* Makes part i of o known: order `which` of it, which < q->orders[i]. RG_ENOMEM. */
 rg_status rg_parts_choose(const rg_parts *q, rg_orders *o, int32_t i, uint64_t which);
+/* An order of part i that agrees with wish[pairs] as far as pair after pair can: > 0, < 0 or 0, as orders of pairs. RG_ENOMEM. */
+rg_status rg_parts_choose_near(const rg_parts *q, rg_orders *o, int32_t i, const double *wish);
 
 #endif

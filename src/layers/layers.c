@@ -244,6 +244,14 @@ rg_status rg_layers_choose(rg_layers *l, const uint64_t *which)
     return s;
 }
 
+rg_status rg_layers_choose_near(rg_layers *l, const double *wish)
+{
+    rg_status s = l->info.state == RG_LAYERS_VALID ? RG_OK : RG_EARG;
+    if (s == RG_OK) rg_orders_undo(&l->orders, l->settled);
+    for (int32_t i = 0; s == RG_OK && i < l->parts.count; i++) s = rg_parts_choose_near(&l->parts, &l->orders, i, wish);
+    return s;
+}
+
 rg_status rg_layers_order(rg_layers *l, const uint64_t *which, rg_layers_pair *pair)
 {
     const rg_status s = rg_layers_choose(l, which);
@@ -290,8 +298,31 @@ typedef struct climb {
     int32_t *queue;  /* [nf] those with a level, and those that can get one */
     int32_t *ring;   /* [nf] scratch: facets of a circle */
     int32_t *mark;   /* [nf] */
+    unsigned char *seen; /* [pairs] one of the two is the topmost or the lowest facet somewhere where both are: a mistake would be seen */
     int32_t head, tail;
 } climb;
+
+/* Of the facets over a cell the one on top (side 1) or lowest (-1). */
+static int32_t outermost(const rg_layers *l, const int32_t *facet, int32_t n, int side)
+{
+    int32_t best = facet[0];
+    for (int32_t i = 1; i < n; i++)
+        if (rg_layers_above(l, best, facet[i]) == side) best = facet[i];
+    return best;
+}
+
+static void mark_seen(const rg_layers *l, unsigned char *seen)
+{
+    const rg_cells *c = &l->cells;
+    for (int32_t i = 0; i < c->faces.count; i++) {
+        const int32_t *facet = c->over + c->over_start[i], n = c->over_start[i + 1] - c->over_start[i];
+        for (int side = -1; side <= 1 && n > 1; side += 2) {
+            const int32_t f = outermost(l, facet, n, side);
+            for (int32_t j = 0; j < n; j++)
+                if (facet[j] != f) seen[rg_pairs_find(&l->pairs, f, facet[j])] = 1;
+        }
+    }
+}
 
 /* Goes from facet f to what lies above it (below: -1) and has no level, over facets with one mark, which get another. Returns how
  * many it found, in c->ring. */
@@ -312,12 +343,13 @@ static int32_t spread(climb *c, int32_t f, int side, int32_t from, int32_t to)
 }
 
 /* Which facet to let through where all that wait lie on one that waits: of a circle with nothing but itself under it, the one that has
- * least of it below. */
+ * least of it below, what would be seen first. */
 static int32_t cut_circle(climb *c)
 {
     const int32_t nf = c->l->flat.nf;
     const rg_pairs *p = &c->l->pairs;
-    int32_t root = -1, best = -1, least = 0;
+    int32_t root = -1, best = -1;
+    int64_t least = 0;
     for (int32_t f = 0; f < nf; f++) c->mark[f] = c->under[f] > 0;
     /* Whoever lies under the last root of all has been reached from it: they are in one circle. */
     for (int32_t f = 0; f < nf; f++)
@@ -325,10 +357,10 @@ static int32_t cut_circle(climb *c)
     const int32_t n = spread(c, root, -1, 2, 3);
     for (int32_t i = 0; i < n; i++) {
         const int32_t f = c->ring[i];
-        int32_t below = 0;
+        int64_t below = 0;
         for (int32_t j = p->start[f]; j < p->start[f + 1]; j++) {
             const int32_t *of = p->facet[p->number[j]], g = of[of[0] == f];
-            below += c->mark[g] == 3 && rg_layers_above(c->l, f, g) < 0;
+            if (c->mark[g] == 3 && rg_layers_above(c->l, f, g) < 0) below += c->seen[p->number[j]] ? nf : 1;
         }
         if (best >= 0 && below >= least) continue;
         best = f, least = below;
@@ -353,8 +385,13 @@ int32_t rg_layers_levels(const rg_layers *l, int32_t *level, int32_t *cuts)
     const rg_pairs *p = &l->pairs;
     const size_t nf = (size_t)l->flat.nf;
     int32_t *room = rg_mem_array(&l->mem, 4 * nf, sizeof *room), top = 0, cut = 0;
-    climb c = {l, room, room + nf, room + 2 * nf, room + 3 * nf, 0, 0};
-    if (!room) return -1;
+    climb c = {l, room, room + nf, room + 2 * nf, room + 3 * nf, rg_mem_array(&l->mem, (size_t)p->count, 1), 0, 0};
+    if (!room || !c.seen) {
+        rg_mem_free(&l->mem, room);
+        rg_mem_free(&l->mem, c.seen);
+        return -1;
+    }
+    mark_seen(l, c.seen);
     for (int32_t i = 0; i < p->count; i++) c.under[p->facet[i][l->orders.value[i] > 0]]++;
     for (int32_t f = 0; f < l->flat.nf; f++) {
         level[f] = 0;
@@ -371,6 +408,7 @@ int32_t rg_layers_levels(const rg_layers *l, int32_t *level, int32_t *cuts)
         climb_over(&c, f, level);
     }
     rg_mem_free(&l->mem, room);
+    rg_mem_free(&l->mem, c.seen);
     if (cuts) *cuts = cut;
     return top + 1;
 }

@@ -15,7 +15,7 @@ struct rg_layers {
     rg_cells cells;
     rg_pairs pairs;
     rg_constraints constraints;
-    rg_orders orders;          /* what is the same in all orders; then, while `chosen`, one of them */
+    rg_orders orders;          /* what is the same in all orders; then, after a choice, one of them */
     int32_t settled;           /* pairs that are the same in all */
     rg_parts parts;
     rg_layers_info info;
@@ -24,13 +24,16 @@ struct rg_layers {
     double where_at[RG_LAYERS_NAMED][2];
 };
 
-/* Of a sheet whose creases end at angle[m->N], radians; NAN: not said. m: triangulated or not; it is copied. stop: asked now and
- * then, may be NULL. */
+/* Of a sheet whose creases end at angle[m->N], radians; NAN: not said. m: triangulated or not; it is copied. RG_OK
+ * whatever is found, see l->info; RG_ENOMEM. */
 rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, const rg_memory *mem, rg_layers **layers, rg_diag *why);
 
 /* Sets l->orders.value to the order whose parts have the numbers which[l->parts.count] (NULL: all 0). RG_ENOMEM; RG_EARG: there is
  * none. Scratch of the handle is used: one thread at a time. */
 rg_status rg_layers_choose(rg_layers *l, const uint64_t *which);
+
+/* The same with an order near wish[l->pairs.count], see rg_parts_choose_near. */
+rg_status rg_layers_choose_near(rg_layers *l, const double *wish);
 
 /* After a choice: +1: facet g lies above f (in the plane of flat.h, seen with the front of facet flat.root up), -1: below, 0: they do
  * not overlap. */

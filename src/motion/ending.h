@@ -7,7 +7,7 @@
 #include "motion/motion.h"
 
 /* Makes m->layers, of the last frame where all creases of it are flat or folded by half a turn, else of the end that was aimed at,
- * takes the first order, and fills what the report says of it. RG_ENOMEM. */
+ * takes an order (the one nearest to how the facets lay before, or the first one), and fills what the report says of it. RG_ENOMEM. */
 rg_status rg_ending_find(rg_motion *m, rg_diag *why);
 /* The order in which the facets lie in that frame: m->layers with an order chosen; NULL: it is not flat, or there is none. */
 const rg_layers *rg_ending_layers(const rg_motion *m, int32_t frame);
