@@ -347,6 +347,17 @@ RG_API void rg_motion_get_sheet(const rg_motion *m, rg_sheet *sheet);
 RG_API rg_status rg_motion_pose(const rg_motion *m, int32_t frame, double (*xyz)[3]);
 /* Fold angles of a frame, [creases], radians; borrowed; NULL: no such frame. */
 RG_API const double *rg_motion_angles(const rg_motion *m, int32_t frame);
+/* Whose fold angle is which: a crease of the sheet, as everything that is written numbers it. */
+typedef struct rg_crease {
+    int32_t vertices[2]; /* of rg_sheet */
+    double at[2][2];     /* where they are, as the file has it: files that draw y downwards were turned round */
+    char assignment;     /* M V U F, C for a slit */
+    double target;       /* what was aimed at, radians; NAN: nothing */
+    int added;           /* by triangulation */
+    int32_t line;        /* of the file, 0: none */
+} rg_crease;
+/* RG_EARG: there is no such crease. */
+RG_API rg_status rg_motion_crease(const rg_motion *m, int32_t crease, rg_crease *out);
 /* How many ways the sheet could go from a frame to first order: creases less the rank of C, where N - 3M is only a guess (3.2).
  * In flat and flat-folded frames more than it really can. RG_EARG: no such frame; RG_EABSENT: a build without SPQR; RG_ENOMEM. */
 RG_API rg_status rg_motion_mobility(const rg_motion *m, int32_t frame, int32_t *ways);

@@ -93,6 +93,17 @@ static void report_has_all_keys(void **state)
     assert_int_equal(json_array_size(json_object_get(result, "blocking_vertices")), 2);
     near(json_number_value(json_array_get(json_object_get(result, "blocking_vertices"), 0)), 3, 0);
     near(json_number_value(json_array_get(json_array_get(json_object_get(result, "blocking_at"), 1), 0)), 2.385, 0);
+    const json_t *creases = json_object_get(j, "creases"), *one = json_array_get(creases, 1);
+    assert_int_equal(json_array_size(creases), m->mesh.N);
+    near(number(one, "number"), 1, 0);
+    for (size_t k = 0; k < 2; k++) {
+        const int32_t v = m->mesh.edge[m->mesh.crease_edge[1]][k];
+        assert_int_equal(json_integer_value(json_array_get(json_object_get(one, "vertices"), k)), v);
+        near(json_number_value(json_array_get(json_array_get(json_object_get(one, "at"), k), 1)), m->mesh.X[v].y, 0);
+    }
+    assert_int_equal(json_string_value(json_object_get(one, "assignment"))[0], m->mesh.assignment[m->mesh.crease_edge[1]]);
+    assert_true(json_is_false(json_object_get(one, "added")));
+    near(fabs(number(one, "target_deg")), 180, 0);
     assert_int_equal(json_array_size(frames), 5);
     for (size_t k = 0; k < 5; k++) near(number(json_array_get(frames, k), "percent"), 25.0 * (double)k, 0);
     near(number(json_array_get(frames, 3), "closure_residual"), 0.1, 0);

@@ -259,13 +259,30 @@ static void csv_is_a_table(void **state)
     char *text = written_read("x.csv", NULL), *at_ = text;
     assert_int_equal(lines_in(text), 1 + FRAMES);
     for (int32_t k = -1; k < FRAMES; k++)
-        for (int32_t i = 0; i < m->mesh.N; i++) {
-            char name[32], *end = at_ + strcspn(at_, ",\n");
+        for (int32_t i = -2; i < m->mesh.N; i++) {
+            char *end = at_ + strcspn(at_, ",\n"), letter;
+            int number, v[2];
+            double x[4], target;
             assert_int_equal(*end, i + 1 < m->mesh.N ? ',' : '\n');
             *end = 0;
-            snprintf(name, sizeof name, "c%d_%c", (int)i, m->mesh.assignment[m->mesh.crease_edge[i]]);
-            if (k < 0) assert_string_equal(at_, name);
-            else near(strtod(at_, NULL), rg_number_degrees(rg_motion_angles(m, k)[i]), 0);
+            if (k < 0 && i < 0) assert_string_equal(at_, i == -2 ? "frame" : "percent");
+            else if (i == -2) assert_int_equal(atoi(at_), k);
+            else if (i == -1) near(strtod(at_, NULL), m->frame[k].percent, 0);
+            else if (k < 0) {
+                const int32_t e = m->mesh.crease_edge[i];
+                const int n = sscanf(at_, "c%d_%c %d-%d (%lf %lf)-(%lf %lf) target %lf", &number, &letter, &v[0], &v[1], &x[0], &x[1], &x[2], &x[3], &target);
+                assert_int_equal(number, i);
+                assert_int_equal(letter, m->mesh.assignment[e]);
+                const double wish = m->target ? m->target[i] : m->mesh.target[e];
+                assert_int_equal(n, isnan(wish) ? 8 : 9);
+                if (n == 9) near(target * RG_DEG, wish, 1e-12);
+                for (int j = 0; j < 2; j++) {
+                    assert_int_equal(v[j], m->mesh.edge[e][j]);
+                    near(x[2 * j], m->mesh.X[v[j]].x, 0);
+                    near(fabs(x[2 * j + 1]), fabs(m->mesh.X[v[j]].y), 0);
+                    if (m->source.y_down) near(x[2 * j + 1], -m->mesh.X[v[j]].y, 0);
+                }
+            } else near(strtod(at_, NULL), rg_number_degrees(rg_motion_angles(m, k)[i]), 0);
             at_ = end + 1;
         }
     assert_int_equal(*at_, 0);
@@ -277,6 +294,7 @@ static void check_obj(const char *name, const rg_motion *m, int32_t frame)
 {
     char *text = written_read(name, NULL);
     rg_vec3 *wanted = positions(m, frame);
+    const int32_t nf = m->mesh.nf;
     int32_t v = 0, f = 0, e = 0;
     for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n")) {
         double x, y, z, angle;
@@ -284,9 +302,10 @@ static void check_obj(const char *name, const rg_motion *m, int32_t frame)
         if (sscanf(line, "v %lf %lf %lf", &x, &y, &z) == 3) {
             near(distance((rg_vec3){x, y, z}, wanted[v++]), 0, 0);
         } else if (line[0] == 'f') {
-            char *at_ = line + 1;
-            for (int32_t k = m->mesh.facet_start[f]; k < m->mesh.facet_start[f + 1]; k++)
-                assert_int_equal(strtol(at_, &at_, 10) - 1, m->mesh.facet_vertex[k]);
+            char *at_ = line + 1; /* the front, then the back, the other way round */
+            const int32_t from = m->mesh.facet_start[f % nf], n = m->mesh.facet_start[f % nf + 1] - from;
+            for (int32_t k = 0; k < n; k++)
+                assert_int_equal(strtol(at_, &at_, 10) - 1, m->mesh.facet_vertex[from + (f < nf ? k : n - 1 - k)]);
             assert_int_equal(*at_, 0);
             f++;
         } else if (sscanf(line, "#e %d %d %d %lf", &i, &j, &type, &angle) == 4) {
@@ -296,12 +315,18 @@ static void check_obj(const char *name, const rg_motion *m, int32_t frame)
             assert_int_equal(m->mesh.assignment[e], "BFVM"[type]);
             near(angle, crease < 0 ? 0 : rg_motion_angles(m, frame)[crease] / RG_DEG, 0);
             e++;
+        } else if (line[0] == 'g') {
+            char side[8];
+            int32_t facet;
+            assert_int_equal(sscanf(line, "g %7s facet%d", side, &facet), 2);
+            assert_string_equal(side, f < nf ? "front" : "back");
+            assert_int_equal(facet, f % nf);
         } else {
-            assert_int_equal(line[0], '#');
+            assert_true(line[0] == '#' || strcmp(line, "o sheet") == 0);
         }
     }
     assert_int_equal(v, m->mesh.nv);
-    assert_int_equal(f, m->mesh.nf);
+    assert_int_equal(f, 2 * nf);
     assert_int_equal(e, m->mesh.ne);
     free(text);
     free(wanted);

@@ -247,6 +247,7 @@ rg_status rg_motion_create_states(const rg_pattern *const *states, int32_t count
     if (!m) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
     m->mem = mem;
     m->settings = *settings;
+    m->source.y_down = states[0]->lines.y_down;
     rg_states q;
     s = rg_states_run(&q, states, count, settings, progress, ctx, why);
     if (s == RG_OK) s = make(m, &q, states[count - 1], why);

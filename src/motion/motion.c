@@ -86,6 +86,20 @@ rg_status rg_motion_pose(const rg_motion *m, int32_t frame, double (*xyz)[3])
     return rg_motion_place(m, frame, (rg_vec3 *)xyz);
 }
 
+rg_status rg_motion_crease(const rg_motion *m, int32_t i, rg_crease *out)
+{
+    if (i < 0 || i >= m->mesh.N) return RG_EARG;
+    const int32_t e = m->mesh.crease_edge[i], *v = m->mesh.edge[e];
+    *out = (rg_crease){{v[0], v[1]}, {{0, 0}, {0, 0}}, m->mesh.assignment[e], m->target ? m->target[i] : m->mesh.target[e], i >= m->mesh.N - m->mesh.added,
+                       e < m->source.ne ? m->source.where[e] : 0};
+    for (int k = 0; k < 2; k++) {
+        const rg_vec2 x = m->mesh.X[v[k]];
+        out->at[k][0] = x.x;
+        out->at[k][1] = m->source.y_down ? 0 - x.y : x.y; /* 0, never -0 */
+    }
+    return RG_OK;
+}
+
 rg_status rg_motion_mobility(const rg_motion *m, int32_t frame, int32_t *ways)
 {
     const double *rho = rg_motion_angles(m, frame);
@@ -109,6 +123,7 @@ static rg_status explain(rg_motion *m, const rg_pattern *p)
 {
     rg_report *r = &m->report;
     if (r->outcome != RG_STOPPED || !r->blocking_vertex_count) return RG_OK;
+    const rg_vec2 at = m->mesh.X[r->blocking_vertices[0]];
     const double x = r->blocking_at[0][0], y = r->blocking_at[0][1];
     int32_t creases = 0, closed = 0, locked, at_limit, ways;
     const rg_status s = rg_motion_mobility(m, r->frame_count - 1, &ways);
@@ -118,7 +133,7 @@ static rg_status explain(rg_motion *m, const rg_pattern *p)
         creases += end[0] == r->blocking_vertices[0] || end[1] == r->blocking_vertices[0];
     }
     for (int32_t i = 0; i < p->closed_triples; i++)
-        closed |= hypot(p->closed[i].x - x, p->closed[i].y - y) <= 1e-9 * m->mesh.size;
+        closed |= hypot(p->closed[i].x - at.x, p->closed[i].y - at.y) <= 1e-9 * m->mesh.size;
     count_held(m, &locked, &at_limit);
     const char *help = m->settings.triangulate == RG_TRIANGULATE_NONE ? "added creases may help"
                        : m->settings.adjust == 0                      ? "adjusting creases may help"
@@ -166,7 +181,7 @@ static rg_status adopt(rg_motion *m, rg_choice *c)
     for (int32_t k = 0; k < r->blocking_vertex_count; k++) {
         const rg_vec2 at = m->mesh.X[m->blocking_vertex[k]];
         m->blocking_at[k][0] = at.x;
-        m->blocking_at[k][1] = at.y;
+        m->blocking_at[k][1] = m->source.y_down ? 0 - at.y : at.y;
     }
     r->blocking_vertices = m->blocking_vertex;
     r->blocking_creases = m->blocking_crease;

@@ -339,11 +339,20 @@ static void meshes(rg_json *j, const model *g)
     rg_json_close(j);
 }
 
+/* glTF has y up and metres: what is here z is turned there, and units of the file that are known become metres. */
+static void upright(rg_json *j, double metres)
+{
+    const double half = sqrt(0.5);
+    rg_json_numbers(j, "rotation", (const double[]){-half, 0, 0, half}, 4);
+    if (metres > 0 && metres != 1) rg_json_numbers(j, "scale", (const double[]){metres, metres, metres}, 3);
+}
+
 static void nodes(rg_json *j, const model *g)
 {
     rg_json_open(j, "nodes", '[');
     rg_json_open(j, NULL, '{');
     rg_json_string(j, "name", g->m->title && *g->m->title ? g->m->title : "sheet");
+    upright(j, g->m->report.pattern.unit);
     if (g->morphs) rg_json_integer(j, "mesh", 0);
     if (!g->morphs) {
         rg_json_open_line(j, "children", '[');
@@ -354,7 +363,10 @@ static void nodes(rg_json *j, const model *g)
     for (int32_t f = 0; f < (g->morphs ? 0 : g->mesh->nf); f++) {
         const rg_turn q = g->last_turn[f];
         const rg_vec3 t = g->last_shift[f];
+        char name[24];
+        snprintf(name, sizeof name, "facet %d", (int)f);
         rg_json_open_line(j, NULL, '{');
+        rg_json_string(j, "name", name);
         rg_json_integer(j, "mesh", f);
         rg_json_numbers(j, "rotation", (const double[]){q.x, q.y, q.z, q.w}, 4);
         rg_json_numbers(j, "translation", (const double[]){t.x, t.y, t.z}, 3);

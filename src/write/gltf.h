@@ -6,8 +6,9 @@
  * facets change shape, by percents on real patterns, and no turn does that: then the whole sheet is one mesh with a morph
  * target for every frame but the last, as exact, and straight between frames.
  *
- * Both sides of the paper are there, each its own material, seen from its side only. Coordinates are those of all the other
- * outputs: the flat sheet faces +z. A viewer that plays no animations sees the last frame. */
+ * Both sides of the paper are there, each its own material, seen from its side only. Inside, coordinates are those of all the other
+ * outputs about the sheet's middle: the flat sheet faces +z; the node `sheet` around it turns them to the y up of glTF, and to metres
+ * where the file says what its unit is. Facets are named by their numbers. A viewer that plays no animations sees the last frame. */
 #ifndef RG_GLTF_H
 #define RG_GLTF_H
 

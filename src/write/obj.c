@@ -13,13 +13,16 @@ static void vertices(const rg_vec3 *x, int32_t n, FILE *out)
         fprintf(out, "v %s %s %s\n", rg_number_print(a, x[v].x), rg_number_print(b, x[v].y), rg_number_print(c, x[v].z));
 }
 
+/* Both sides of the paper, a group each, and each facet by its number. */
 static void facets(const rg_mesh *m, FILE *out)
 {
-    for (int32_t f = 0; f < m->nf; f++) {
-        fputc('f', out);
-        for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) fprintf(out, " %d", (int)m->facet_vertex[j] + 1);
-        fputc('\n', out);
-    }
+    for (int back = 0; back < 2; back++)
+        for (int32_t f = 0; f < m->nf; f++) {
+            const int32_t from = m->facet_start[f], n = m->facet_start[f + 1] - from;
+            fprintf(out, "g %s facet%d\nf", back ? "back" : "front", (int)f);
+            for (int32_t k = 0; k < n; k++) fprintf(out, " %d", (int)m->facet_vertex[from + (back ? n - 1 - k : k)] + 1);
+            fputc('\n', out);
+        }
 }
 
 static void edges(const rg_mesh *m, const double *rho, FILE *out)
@@ -41,6 +44,7 @@ rg_status rg_obj_write(const rg_motion *m, int32_t frame, const rg_picture *p, F
     if (s == RG_OK) {
         fprintf(out, "# rigami %s: frame %d, folded %s percent\n", RG_VERSION, (int)frame,
                 rg_number_print(percent, m->frame[frame].percent));
+        fputs("o sheet\n", out);
         vertices(x, m->mesh.nv, out);
         facets(&m->mesh, out);
         edges(&m->mesh, rg_motion_angles(m, frame), out);

@@ -1,7 +1,7 @@
-/* obj.h -- one frame as Wavefront OBJ: facets as the polygons that they are, and creases as comments that name them.
+/* obj.h -- one frame as Wavefront OBJ: facets as the polygons that they are, a group for each side, and creases as comments that name them.
  * Uses  motion.h        Used by  output.c
  *
- * After the facets comes a line `#e i j type angle` for each edge, as Freeform Origami and Origami Simulator have it: i, j
+ * Facet 7 is in groups `front facet7` and, turned over, `back facet7`. After the facets comes a line `#e i j type angle` for each edge, as Freeform Origami and Origami Simulator have it: i, j
  * count vertices from 1, type is 0 border, 1 flat or undecided, 2 valley, 3 mountain; angle is that of the frame in
  * degrees, valley positive. */
 #ifndef RG_OBJ_H

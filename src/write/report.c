@@ -1,5 +1,6 @@
 #include "write/report.h"
 #include "base/file.h"
+#include "base/number.h"
 #include "base/status.h"
 #include "motion/motion.h"
 
@@ -119,6 +120,28 @@ static void states(rg_json *j, const rg_report *r)
     rg_json_close(j);
 }
 
+/* Which crease is which: the numbers are those of the columns of .csv, of the ids in .svg. */
+static void creases(rg_json *j, const rg_motion *m)
+{
+    rg_json_open(j, "creases", '[');
+    for (int32_t i = 0; i < m->mesh.N; i++) {
+        rg_crease c;
+        rg_motion_crease(m, i, &c);
+        rg_json_open_line(j, NULL, '{');
+        rg_json_integer(j, "number", i);
+        rg_json_integers(j, "vertices", c.vertices, 2);
+        rg_json_open(j, "at", '[');
+        for (int k = 0; k < 2; k++) rg_json_numbers(j, NULL, c.at[k], 2);
+        rg_json_close(j);
+        rg_json_string(j, "assignment", (const char[]){c.assignment, 0});
+        rg_json_number(j, "target_deg", isnan(c.target) ? NAN : rg_number_degrees(c.target));
+        rg_json_bool(j, "added", c.added);
+        if (c.line) rg_json_integer(j, "line", c.line);
+        rg_json_close(j);
+    }
+    rg_json_close(j);
+}
+
 rg_status rg_report_write(const rg_motion *m, double seconds_writing, double peak_bytes, const char *file, rg_diag *why)
 {
     const rg_report *r = &m->report;
@@ -140,6 +163,7 @@ rg_status rg_report_write(const rg_motion *m, double seconds_writing, double pea
     run(&j, r, seconds_writing, peak_bytes);
     result(&j, m, at_end);
     states(&j, r);
+    creases(&j, m);
     rg_json_open(&j, "frames", '[');
     for (int32_t k = 0; k < r->frame_count; k++) {
         rg_json_open_line(&j, NULL, '{');

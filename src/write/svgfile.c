@@ -110,7 +110,9 @@ static void lines(const rg_motion *m, const rg_vec2 *X, FILE *out)
         for (int32_t e = 0; e < mesh->ne; e++) {
             if (mesh->assignment[e] != kind[k].assignment) continue;
             const rg_vec2 a = X[mesh->edge[e][0]], b = X[mesh->edge[e][1]];
-            fputs("<line", out);
+            /* Creases by their number, as in .csv and the report; the border by that of its edge. */
+            const int32_t crease = mesh->edge_crease[e];
+            fprintf(out, "<line id=\"%s%d\"", crease < 0 ? "e" : "c", (int)(crease < 0 ? e : crease));
             attribute("x1", a.x, out);
             attribute("y1", -a.y, out);
             attribute("x2", b.x, out);
