@@ -12,6 +12,7 @@ bindir     ?= $(prefix)/bin
 libdir     ?= $(prefix)/lib
 includedir ?= $(prefix)/include
 mandir     ?= $(prefix)/share/man
+bashdir    ?= $(prefix)/share/bash-completion/completions
 VERSION := 0.1.0
 SOVERSION := 0
 
@@ -233,7 +234,8 @@ corpus: $B/rigami
 # --------------------------------------------------------------------------------------------------- install
 
 installed = $(bindir)/rigami $(includedir)/rigami.h $(libdir)/librigami.a $(libdir)/librigami.so.$(VERSION) \
-            $(libdir)/librigami.so.$(SOVERSION) $(libdir)/librigami.so $(libdir)/pkgconfig/rigami.pc $(mandir)/man1/rigami.1
+            $(libdir)/librigami.so.$(SOVERSION) $(libdir)/librigami.so $(libdir)/pkgconfig/rigami.pc $(mandir)/man1/rigami.1 \
+            $(bashdir)/rigami
 
 install: build
 	install -d $(sort $(dir $(addprefix $(DESTDIR),$(installed))))
@@ -247,6 +249,7 @@ install: build
 	    -e 's|@version@|$(VERSION)|' -e 's|@libs@|$(libs)|' rigami.pc.in >$B/rigami.pc
 	install -m 644 $B/rigami.pc $(DESTDIR)$(libdir)/pkgconfig/rigami.pc
 	install -m 644 docs/rigami.1 $(DESTDIR)$(mandir)/man1/rigami.1
+	install -m 644 tools/rigami.bash $(DESTDIR)$(bashdir)/rigami
 
 uninstall:
 	rm -f $(addprefix $(DESTDIR),$(installed))

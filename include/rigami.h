@@ -413,8 +413,11 @@ RG_API rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_
 RG_API rg_status rg_report_write(const rg_motion *m, double seconds_writing, double peak_bytes, const char *file,
                                  rg_diag *why);
 RG_API rg_status rg_info_write(const rg_pattern *p, const char *file, rg_diag *why);
-/* The same for people: counts, what may keep it from folding and where, what triangulating adds, warnings. */
-RG_API rg_status rg_info_text(const rg_pattern *p, const char *file, rg_diag *why);
+/* The same for people: the verdict in a sentence and what to do next, what speaks against it, counts. `lists` non-zero: also every
+ * vertex that is named in a count, creases, what the lines are drawn in, warnings. */
+RG_API rg_status rg_info_text(const rg_pattern *p, int lists, const char *file, rg_diag *why);
+/* What is wrong with a vertex, where and by how much, as part of a sentence: "at (0.5, 2) five creases meet ...". */
+RG_API void rg_unfoldable_text(const rg_pattern *p, const rg_unfoldable *u, char text[240]);
 
 /* ----------------------------------------------------------------------------------------------- chart ---- */
 

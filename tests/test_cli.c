@@ -235,6 +235,75 @@ static void a_fold_that_stops_short_is_written_and_explained(void **state)
     }
 }
 
+static void write_file(const char *name, const char *text)
+{
+    FILE *f = fopen(name, "w");
+    assert_non_null(f);
+    fputs(text, f);
+    assert_int_equal(fclose(f), 0);
+}
+
+/* What, where in the file's own coordinates (y down), why and by how much, what next; then the file; no more. */
+static void the_verdict_comes_first(void **state)
+{
+    (void)state;
+    write_file("odd.cp", "1 0 0 8 0\n1 8 0 8 6\n1 8 6 0 6\n1 0 6 0 0\n2 3 2 0 0\n2 3 2 8 0\n3 3 2 3 6\n");
+    const ran *r = ends(1, run("fold", "odd.cp", "-o", "odd.csv"));
+    assert_int_equal(lines_in(r->err), 2);
+    assert_true(strstr(r->err, "stopped at") && strstr(r->err, "at (3, 2) 3 creases meet, an odd number. Next: "));
+    assert_non_null(strstr(r->err, "rigami: odd.cp: written up to there: odd.csv"));
+    assert_string_equal(r->out, "");
+    r = ends(0, run("info", "odd.cp"));
+    assert_int_equal(strncmp(r->out, "It does not fold flat: at (3, 2) 3 creases meet", 47), 0);
+    const int few = lines_in(r->out);
+    assert_true(lines_in(ends(0, run("info", "odd.cp", "-v"))->out) > few);
+    /* All creases end short of the border: that is no success, whatever there was to fold. */
+    write_file("lost.cp", "1 0 0 8 0\n1 8 0 8 6\n1 8 6 0 6\n1 0 6 0 0\n2 4 0.01 4 5.99\n");
+    r = ends(1, run("fold", "lost.cp"));
+    assert_true(strstr(r->err, "the next line is 0.01 away; --merge 0.0013 joins them") && strstr(r->err, "nothing is folded"));
+    ends(0, run("fold", "lost.cp", "--merge", "0.0013"));
+    r = ends(0, run("fold", "good.opx", "-o", "good.csv"));
+    assert_non_null(strstr(r->out, "written   good.csv"));
+    unlink("odd.csv");
+    unlink("good.csv");
+}
+
+/* States of a sheet in the frames of one file are gone through as those of several files are. */
+static void states_in_frames(void **state)
+{
+    (void)state;
+    write_file("door.fold", "{\"vertices_coords\":[[0,0],[3,0],[3,2],[0,2]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0],[0,2]],"
+               "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"V\"],\"file_frames\":["
+               "{\"frame_parent\":0,\"frame_inherit\":true,\"edges_foldAngle\":[0,0,0,0,40]},"
+               "{\"frame_parent\":0,\"frame_inherit\":true,\"edges_foldAngle\":[0,0,0,0,100]}]}");
+    assert_non_null(strstr(ends(0, run("fold", "door.fold"))->err, "--frame 1-2 goes through them"));
+    const char *const lists[] = {"1-2", "1,2", "all"};
+    for (int i = 0; i < 3; i++) {
+        ends(0, run("fold", "door.fold", "--frame", lists[i], "--frames", "3", "-q", "-o", "door.csv"));
+        static char text[ROOM];
+        double first, last;
+        assert_int_equal(sscanf(strchr(slurp("door.csv", text), '\n'), "\n0,0,%lf\n%*d,%*f,%*f\n2,100,%lf", &first, &last), 2);
+        near(first, 40, 1e-9);
+        near(last, 100, 1e-9);
+    }
+    says(ends(2, run("fold", "door.fold", "--frame", "2-1")), "rigami: --frame: ", "2-1");
+    unlink("door.csv");
+}
+
+static void what_was_meant(void **state)
+{
+    (void)state;
+    says(ends(2, run("fodl", "good.opx")), "rigami: ", "did you mean rigami fold?");
+    says(ends(2, run("fold", "good.opx", "--framse", "3")), "rigami: ", "did you mean --frames?");
+    says(ends(2, run("help", "ifno")), "rigami: ", "did you mean rigami info?");
+    static char help[ROOM];
+    strcpy(help, ends(0, run("fold", "--help"))->out);
+    assert_string_equal(ends(0, run("help", "fold"))->out, help);
+    assert_non_null(strstr(ends(0, run("help"))->out, "rigami fold"));
+    assert_non_null(strstr(ends(0, run("help", "--words", "fold"))->out, "--frames\n"));
+    assert_string_equal(ends(0, run("help", "--words", "fold", "--solver"))->out, "auto\ncg\ncholesky\nsvd\n");
+}
+
 static void wrong_usage_is_refused(void **state)
 {
     (void)state;
@@ -778,6 +847,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_pattern_folds),
         cmocka_unit_test(a_fold_that_stops_short_is_written_and_explained),
+        cmocka_unit_test(the_verdict_comes_first), cmocka_unit_test(states_in_frames), cmocka_unit_test(what_was_meant),
         cmocka_unit_test(wrong_usage_is_refused),
         cmocka_unit_test(unreadable_input_is_refused),
         cmocka_unit_test(a_bad_line_is_named),

@@ -128,7 +128,7 @@ static void nowhere_to_write(void **state)
     assert_int_equal(rg_info_write(p, path, &why), RG_EWRITE);
     assert_non_null(strstr(why.text, "none/x.json"));
     assert_int_equal(why.line, 0);
-    assert_int_equal(rg_info_text(p, path, NULL), RG_EWRITE);
+    assert_int_equal(rg_info_text(p, 0, path, NULL), RG_EWRITE);
     rg_pattern_destroy(p);
 }
 
@@ -167,7 +167,7 @@ static void theorems_are_named(void **state)
         const expected *c = &CASES[i];
         rg_pattern *p = star(c->n, c->angle, c->assignment);
         assert_int_equal(rg_info_write(p, written_path("info.json", path), NULL), RG_OK);
-        assert_int_equal(rg_info_text(p, written_path("info.txt", path), NULL), RG_OK);
+        assert_int_equal(rg_info_text(p, 1, written_path("info.txt", path), NULL), RG_OK);
         json_t *j = read_json("info.json"), *list = json_object_get(j, "unfoldable"), *first = json_array_get(list, 0);
         char *text = written_read("info.txt", NULL);
         if (c->theorem && (json_array_size(list) < 1 || strcmp(json_string_value(json_object_get(first, "theorem")), c->theorem) != 0))
@@ -219,7 +219,7 @@ static void closed_vertices_and_warnings_are_listed(void **state)
     draw(&l, RG_VALLEY, 0.3, 0.3, 0.6, 0.7); /* loose */
     rg_pattern *p = pattern_of(&l);
     assert_int_equal(rg_info_write(p, written_path("info.json", path), NULL), RG_OK);
-    assert_int_equal(rg_info_text(p, written_path("info.txt", path), NULL), RG_OK);
+    assert_int_equal(rg_info_text(p, 1, written_path("info.txt", path), NULL), RG_OK);
     json_t *j = read_json("info.json"), *closed = json_object_get(j, "closed"), *warning = json_object_get(j, "warnings");
     char *text = written_read("info.txt", NULL);
     assert_true(json_array_size(closed) > 0);

@@ -5,17 +5,15 @@
 #include "progress.h"
 #include "say.h"
 #include "states.h"
+#include "verdict.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-enum { BLOCKING_SHOWN = 4 };
 
 /* ------------------------------------------------------------------------------------ before it starts ---- */
 
@@ -74,31 +72,28 @@ static int check(const options *o)
 
 /* --------------------------------------------------------------------------------------------- afterwards ---- */
 
-/* A coordinate as people write it: rounding is no place. */
-static double tidy(double x, double size) { return fabs(x) > 1e-9 * size ? x : 0; }
+/* A pattern that was moved by less is the one given, for all that one sees. */
+static const double SEEN = 1e-3;
 
-static void say_short(const char *name, const rg_report *r)
+/* The first line says what came of it, the second what was written. */
+static void summarize(const options *o, const char *name, const rg_motion *m)
 {
-    char places[400] = "";
-    size_t n = 0;
-    const int32_t shown = r->blocking_vertex_count < BLOCKING_SHOWN ? r->blocking_vertex_count : BLOCKING_SHOWN;
-    say("%s: stopped at %.1f %% folded: %s", name, r->folded_percent, r->reason);
-    if (interrupt_came()) return;
-    for (int32_t i = 0; i < shown && n < sizeof places; i++)
-        n += (size_t)snprintf(places + n, sizeof places - n, "%s(%.6g, %.6g)", i ? ", " : "",
-                              tidy(r->blocking_at[i][0], r->pattern.size), tidy(r->blocking_at[i][1], r->pattern.size));
-    if (shown < r->blocking_vertex_count && n < sizeof places)
-        snprintf(places + n, sizeof places - n, " and %d more", (int)(r->blocking_vertex_count - shown));
-    if (shown > 0) say("%s: what blocks: the %s at %s", name, r->blocking_vertex_count > 1 ? "vertices" : "vertex", places);
+    const rg_report *r = rg_motion_report(m);
+    char files[4096], moved[120] = "";
+    if (r->max_adjustment > SEEN)
+        snprintf(moved, sizeof moved, ", with creases moved by up to %.2g %% of the sheet (--adjust off keeps them)", 100 * r->max_adjustment);
+    printf("%s: %s, %.1f %%%s; %d frames in %.2f s\n", name, r->outcome == RG_FOLDED ? "folded" : "stopped short", r->folded_percent, moved,
+           (int)r->frame_count, r->seconds_total);
+    verdict_files(o, "  written   ", files, sizeof files);
+    if (files[0]) puts(files);
 }
 
-static void summarize(const char *name, const rg_motion *m)
+/* All the rest that the report has. */
+static void tell_details(const rg_motion *m)
 {
     const rg_report *r = rg_motion_report(m);
     int32_t ways;
-    printf("%s: %s, %.1f %% (least of any crease %.1f %%), %d frames in %.2f s\n", name,
-           r->outcome == RG_FOLDED ? "folded" : "stopped short", r->folded_percent, r->least_folded_percent,
-           (int)r->frame_count, r->seconds_total);
+    printf("  reason    %s\n  least     %.1f %% of any crease\n", r->reason, r->least_folded_percent);
     if (r->states > 0)
         printf("  states    %d of %d, %d of the ways through flat\n", (int)r->states_reached, (int)r->states, (int)r->by_flat_count);
     printf("  closure   %.1e rad at the worst vertex, edge strain %.1e, facet gap %.1e\n", r->max_closure_residual,
@@ -180,8 +175,14 @@ int cmd_fold(const options *o)
         /* The state that was not reached is the one to name, else the last. */
         const char *name = o->operand[q.operand[r->states && r->states_reached < r->states ? r->states_reached : q.count - 1]];
         status = write_all(o, m, &bar);
-        if (r->outcome != RG_FOLDED) say_short(name, r);
-        if (!o->quiet && !(o->report && strcmp(o->report, "-") == 0)) summarize(name, m);
+        const int on_output = o->report && strcmp(o->report, "-") == 0, stopped = r->outcome != RG_FOLDED;
+        if (stopped) {
+            char files[4096];
+            verdict_say(o, name, q.pattern[r->states && r->states_reached < r->states ? r->states_reached : q.count - 1], m);
+            verdict_files(o, "written up to there: ", files, sizeof files);
+            if (files[0] && !o->quiet) say("%s: %s", name, files);
+        } else if (!o->quiet && !on_output) summarize(o, name, m);
+        if (o->verbose && !on_output) tell_details(m);
         if (status == ENDS_WELL && r->outcome != RG_FOLDED) status = ENDS_SHORT;
     }
     rg_motion_destroy(m);

@@ -1,4 +1,5 @@
 #include "options.h"
+#include "guess.h"
 #include "say.h"
 
 #include <getopt.h>
@@ -111,6 +112,7 @@ static const rule rules[] = {
     {FOR_FOLD, "report", 0, "FILE", TEXT, AT(report), NOTHING, "write a report as JSON, - for standard output"},
     {FOR_INFO, "json", 0, NULL, SWITCH, AT(json), 1, 0, 1, NULL, "print one JSON object instead of text"},
     {FOR_GEN, "angle", 0, "DEG", ABOVE, AT(angle), 0, 180, DEG, NULL, "the kind's angle, degrees (its own)"},
+    {FOR_FOLD | FOR_INFO, "verbose", 'v', NULL, SWITCH, AT(verbose), 1, 0, 1, NULL, "everything that is known, with lists"},
     {EVERY, "quiet", 'q', NULL, SWITCH, AT(quiet), 1, 0, 1, NULL, "no warnings, no summary, no progress"},
     {FOR_FOLD | FOR_CHART, "progress", 0, NULL, SWITCH, AT(progress), 1, 0, 1, NULL,
      "show progress on standard error (on a terminal)"},
@@ -351,6 +353,22 @@ static int beginning(int bit, const char *word)
     return n;
 }
 
+/* The option of the command that `word` is nearest to; NULL: it is near none. */
+static const char *nearest(int bit, const char *word)
+{
+    const char *best = NULL;
+    int least = 99;
+    char name[40];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(word + strspn(word, "-"), "="), word + strspn(word, "-"));
+    for (int i = 0; i < RULES; i++) {
+        const int d = guess_distance(name, rules[i].name);
+        if (!(rules[i].commands & bit) || d >= least || !guess_is_near(name, rules[i].name, d)) continue;
+        least = d;
+        best = rules[i].name;
+    }
+    return best;
+}
+
 static int refuse_option(const command *c, int code, const char *word)
 {
     const rule *r = rule_of(c->bit, optopt);
@@ -358,6 +376,7 @@ static int refuse_option(const command *c, int code, const char *word)
     else if (r) say("--%s takes no value", r->name);
     else if (optopt && strncmp(word, "--", 2) != 0) say("unknown option -%c; try rigami %s --help", optopt, c->name);
     else if (beginning(c->bit, word) > 1) say("option %s could be several; try rigami %s --help", word, c->name);
+    else if (nearest(c->bit, word)) say("unknown option %s: did you mean --%s? rigami %s --help lists all", word, nearest(c->bit, word), c->name);
     else say("unknown option %s; try rigami %s --help", word, c->name);
     return ENDS_USAGE;
 }
@@ -450,6 +469,18 @@ static void help_option(const rule *r, FILE *out)
     snprintf(text, sizeof text, "%s%s%s", r->help, r->list ? " " : "", names);
     wrap(text, out);
     fputc('\n', out);
+}
+
+int options_words(int bit, const char *option, FILE *out)
+{
+    int n = 0;
+    for (int i = 0; i < RULES; i++) {
+        if (!(rules[i].commands & bit)) continue;
+        if (!option) n += fprintf(out, "--%s\n", rules[i].name) > 0;
+        for (int k = 0; option && strcmp(option, rules[i].name) == 0 && rules[i].list && rules[i].list[k]; k++)
+            n += fprintf(out, "%s\n", rules[i].list[k]) > 0;
+    }
+    return n;
 }
 
 void options_help(const command *c, FILE *out)

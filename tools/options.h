@@ -20,7 +20,7 @@ typedef struct options {
     frame_range *range;                                   /* of --frame: states in one file; one frame alone is in `settings` too */
     int ranges;
     const char *report;                                   /* NULL: none */
-    int quiet, json, progress;                            /* progress: 1 yes, 0 no, -1 on a terminal */
+    int verbose, quiet, json, progress;                            /* progress: 1 yes, 0 no, -1 on a terminal */
     int help, version;                                    /* asked for: nothing after it was looked at */
     int format, method, solver, triangulate, symmetry, effort; /* places in the lists of names; in `settings` at the end */
     int colour, loop;                                     /* the same, of pictures */
@@ -42,6 +42,8 @@ typedef struct command {
  * said. Strings are borrowed from argv. Call options_free in any case. */
 int options_parse(options *o, const command *c, int argc, char **argv);
 void options_free(options *o);
+/* A line each: the options of a command, or the values that one of them takes; returns how many. For completion in shells. */
+int options_words(int bit, const char *option, FILE *out);
 void options_help(const command *c, FILE *out);
 
 #endif

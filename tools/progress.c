@@ -29,10 +29,12 @@ static void draw(progress *p, double now)
 {
     const int full = (int)(BAR * p->reached);
     const double gone = now - p->began;
-    char bar[BAR + 1] = "", left[40] = "";
+    char bar[BAR + 1] = "", left[60] = "";
     memset(bar, '#', (size_t)full);
     memset(bar + full, '.', (size_t)(BAR - full));
-    if (gone >= BEFORE_GUESSING && p->reached > 0.01)
+    /* What a search still takes, nobody knows. */
+    if (p->tries) snprintf(left, sizeof left, ", looking for another way: try %d", p->tries + 1);
+    else if (gone >= BEFORE_GUESSING && p->reached > 0.01)
         snprintf(left, sizeof left, ", %.0f s left", gone * (1 - p->reached) / p->reached);
     fprintf(stderr, "\r%5.1f %% folded [%s]%s\033[K", 100 * p->reached, bar, left);
     fflush(stderr);
@@ -45,8 +47,9 @@ int progress_show(void *ctx, double part)
     progress *p = ctx;
     if (p->shown && part >= 0 && part <= 1) {
         const double now = progress_seconds();
-        if (part < p->reached) p->began = now; /* a new try, from flat */
-        p->reached = part;
+        p->tries += part < p->last; /* from flat again */
+        p->last = part;
+        if (part > p->reached) p->reached = part;
         if (now - p->drawn >= BETWEEN_DRAWINGS) draw(p, now);
     }
     return interrupt_came();

@@ -1,5 +1,6 @@
 /* rigami -- the command line: which commands there are. */
 #include "commands.h"
+#include "guess.h"
 #include "interrupt.h"
 #include "say.h"
 
@@ -55,7 +56,7 @@ static void help(FILE *out)
     fputs("Usage: rigami COMMAND ...\nFolds origami crease patterns as rigid plates.\n\n", out);
     for (int i = 0; i < COMMANDS; i++)
         fprintf(out, "  rigami %s %s\n        %s\n", commands[i].name, commands[i].operands, commands[i].summary);
-    fputs("\nrigami COMMAND --help lists the command's options; rigami --version prints the version.\n\n" STATUSES, out);
+    fputs("\nrigami help COMMAND lists the command's options; rigami --version prints the version.\n\n" STATUSES, out);
 }
 
 /* Descriptors 0, 1, 2 that the caller closed are made such that using them fails; else the first file that is opened
@@ -78,13 +79,18 @@ static void list_kinds(void)
     fputs("\n", stdout);
 }
 
+static void tell_command(const command *c)
+{
+    options_help(c, stdout);
+    if (c->bit == FOR_GEN) list_kinds();
+}
+
 static int run(const command *c, int argc, char **argv)
 {
     options o;
     int status = options_parse(&o, c, argc, argv);
     if (status == ENDS_WELL && o.help) {
-        options_help(c, stdout);
-        if (c->bit == FOR_GEN) list_kinds();
+        tell_command(c);
     } else if (status == ENDS_WELL && o.version) {
         printf("rigami %s\n", rg_version());
     } else if (status == ENDS_WELL) {
@@ -94,16 +100,54 @@ static int run(const command *c, int argc, char **argv)
     return status;
 }
 
+static const command *find(const char *word)
+{
+    for (int i = 0; i < COMMANDS; i++)
+        if (strcmp(word, commands[i].name) == 0) return &commands[i];
+    return NULL;
+}
+
+static int refuse_command(const char *word)
+{
+    const command *best = NULL;
+    for (int i = 0, least = 99; i < COMMANDS; i++) {
+        const int d = guess_distance(word, commands[i].name);
+        if (d >= least || !guess_is_near(word, commands[i].name, d)) continue;
+        least = d;
+        best = &commands[i];
+    }
+    if (best) say("\"%s\" is no command: did you mean rigami %s?", word, best->name);
+    else say("\"%s\" is no command; try rigami --help", word);
+    return ENDS_USAGE;
+}
+
+/* help [VERB]; help --words [VERB [--OPTION]]: what a shell completes. */
+static int help_command(int argc, char **argv)
+{
+    const int words = argc > 0 && strcmp(argv[0], "--words") == 0;
+    argc -= words, argv += words;
+    const command *c = argc > 0 ? find(argv[0]) : NULL;
+    if (argc > 0 && !c && strcmp(argv[0], "help") != 0) return refuse_command(argv[0]);
+    if (words && c) return options_words(c->bit, argc > 1 ? argv[1] + strspn(argv[1], "-") : NULL, stdout) ? ENDS_WELL : ENDS_USAGE;
+    if (words)
+        for (int i = 0; i < COMMANDS; i++) puts(commands[i].name);
+    if (words) puts("help");
+    else if (c) tell_command(c);
+    else help(stdout);
+    return ENDS_WELL;
+}
+
 static int dispatch(int argc, char **argv)
 {
     const char *word = argc > 1 ? argv[1] : "";
-    for (int i = 0; i < COMMANDS; i++)
-        if (strcmp(word, commands[i].name) == 0) return run(&commands[i], argc - 1, argv + 1);
+    const command *c = find(word);
+    if (c) return run(c, argc - 1, argv + 1);
+    if (strcmp(word, "help") == 0) return help_command(argc - 2, argv + 2);
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) help(stdout);
     else if (strcmp(word, "--version") == 0) printf("rigami %s\n", rg_version());
     else {
         if (argc < 2) help(stderr);
-        else say("\"%s\" is no command; try rigami --help", word);
+        else return refuse_command(word);
         return ENDS_USAGE;
     }
     return ENDS_WELL;

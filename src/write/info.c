@@ -1,6 +1,9 @@
 /* What is known of a pattern before it is folded, as JSON and for people. */
 #include "base/file.h"
+#include "base/number.h"
+#include "base/unit.h"
 #include "layers/layers.h"
+#include "motion/motion.h"
 #include "pattern/alike.h"
 #include "pattern/pattern.h"
 #include "write/report.h"
@@ -35,27 +38,34 @@ static int32_t unfoldable_vertices(const rg_pattern *p)
 
 /* ------------------------------------------------------------------------------------------------- JSON ---- */
 
-static void point(rg_json *j, const char *key, double x, double y) { rg_json_numbers(j, key, (const double[]){x, y}, 2); }
+static rg_vec2 own(const rg_pattern *p, double x, double y) { return rg_lines_own(&p->lines, (rg_vec2){x, y}, p->info.size); }
 
-static void closed(rg_json *j, const rg_closed *c)
+/* In the file's coordinates. */
+static void point(rg_json *j, const char *key, const rg_pattern *p, double x, double y)
+{
+    const rg_vec2 at = own(p, x, y);
+    rg_json_numbers(j, key, (const double[]){at.x, at.y}, 2);
+}
+
+static void closed(rg_json *j, const rg_pattern *p, const rg_closed *c)
 {
     rg_json_open_line(j, NULL, '{');
     rg_json_integer(j, "vertex", c->vertex);
-    point(j, "coordinates", c->x, c->y);
+    point(j, "coordinates", p, c->x, c->y);
     rg_json_open(j, "creases", '[');
-    point(j, NULL, c->a[0], c->a[1]);
-    point(j, NULL, c->c[0], c->c[1]);
-    point(j, NULL, c->b[0], c->b[1]);
+    point(j, NULL, p, c->a[0], c->a[1]);
+    point(j, NULL, p, c->c[0], c->c[1]);
+    point(j, NULL, p, c->b[0], c->b[1]);
     rg_json_close(j);
     rg_json_number(j, "inside_angle_deg", c->inside_angle / RG_DEG);
     rg_json_close(j);
 }
 
-static void unfoldable(rg_json *j, const rg_unfoldable *u)
+static void unfoldable(rg_json *j, const rg_pattern *p, const rg_unfoldable *u)
 {
     rg_json_open_line(j, NULL, '{');
     rg_json_integer(j, "vertex", u->vertex);
-    point(j, "coordinates", u->x, u->y);
+    point(j, "coordinates", p, u->x, u->y);
     rg_json_string(j, "theorem", theorem_name(u->theorem));
     rg_json_number(j, "by", u->by);
     rg_json_string(j, "unit", u->theorem == RG_MAEKAWA || u->theorem == RG_DEGREE ? "creases" : "degrees");
@@ -104,7 +114,7 @@ static rg_status find_layers(const rg_pattern *p, rg_layers **l, rg_diag *why)
     return p->info.is_disk ? rg_layers_create(p, &s, l, why) : RG_OK;
 }
 
-static void layers(rg_json *j, const rg_layers *l)
+static void layers(rg_json *j, const rg_pattern *p, const rg_layers *l)
 {
     rg_layers_info i;
     if (!l) return;
@@ -121,7 +131,38 @@ static void layers(rg_json *j, const rg_layers *l)
     for (int32_t k = 0; k < i.where_count; k++) {
         rg_json_open_line(j, NULL, '{');
         rg_json_integer(j, "facet", i.where[k]);
-        point(j, "coordinates", i.where_at[k][0], i.where_at[k][1]);
+        point(j, "coordinates", p, i.where_at[k][0], i.where_at[k][1]);
+        rg_json_close(j);
+    }
+    rg_json_close(j);
+}
+
+static void pieces(rg_json *j, const rg_pattern *p)
+{
+    rg_json_open(j, "sheet_list", '[');
+    for (int32_t k = 0; k < p->info.sheets; k++) {
+        rg_json_open_line(j, NULL, '{');
+        rg_json_integer(j, "sheet", k + 1);
+        rg_json_numbers(j, "low", p->piece[k].low, 2);
+        rg_json_numbers(j, "high", p->piece[k].high, 2);
+        rg_json_integer(j, "lines", p->piece[k].lines);
+        rg_json_close(j);
+    }
+    rg_json_close(j);
+}
+
+/* What --line can name: null where lines of one kind of drawing were taken for several. */
+static void drawn_in(rg_json *j, const rg_pattern *p)
+{
+    static const char *const sorts[RG_TRAIT_SORTS] = {"colour", "layer", "dash"};
+    rg_json_open(j, "drawn_in", '[');
+    for (int32_t k = 0; k < p->lines.traits; k++) {
+        const rg_trait *t = &p->lines.trait[k];
+        rg_json_open_line(j, NULL, '{');
+        rg_json_string(j, "by", sorts[t->sort]);
+        rg_json_string(j, "name", t->name);
+        rg_json_integer(j, "lines", t->count);
+        rg_json_string(j, "assignment", t->assignment ? (const char[]){t->assignment, 0} : NULL);
         rg_json_close(j);
     }
     rg_json_close(j);
@@ -146,13 +187,15 @@ rg_status rg_info_write(const rg_pattern *p, const char *file, rg_diag *why)
     rg_report_pattern(&j, &p->info);
     if (p->info.is_disk) rg_json_integer(&j, "triangulating_adds", triangulating_adds(&p->info));
     symmetry(&j, &alike);
-    layers(&j, l);
+    layers(&j, p, l);
     rg_layers_destroy(l);
+    pieces(&j, p);
+    drawn_in(&j, p);
     rg_json_open(&j, "closed", '[');
-    for (int32_t k = 0; k < p->closed_triples; k++) closed(&j, &p->closed[k]);
+    for (int32_t k = 0; k < p->closed_triples; k++) closed(&j, p, &p->closed[k]);
     rg_json_close(&j);
     rg_json_open(&j, "unfoldable", '[');
-    for (int32_t k = 0; k < p->unfoldables; k++) unfoldable(&j, &p->unfoldable[k]);
+    for (int32_t k = 0; k < p->unfoldables; k++) unfoldable(&j, p, &p->unfoldable[k]);
     rg_json_close(&j);
     rg_json_open(&j, "warnings", '[');
     for (int32_t k = 0; k < p->lines.warnings; k++) warning(&j, &p->lines.warning[k]);
@@ -173,18 +216,28 @@ static void title(const rg_pattern_info *i, FILE *out)
     if (*i->title || *i->author) fputc('\n', out);
 }
 
-static void counts(const rg_pattern_info *i, FILE *out)
+static void counts(const rg_pattern_info *i, int32_t ways, FILE *out)
 {
-    fprintf(out, "graph       %d %s, %d %s, %d %s; size %.6g\n", (int)i->vertices, plural(i->vertices, "vertex", "vertices"),
-            (int)i->edges, plural(i->edges, "edge", "edges"), (int)i->facets, plural(i->facets, "facet", "facets"), i->size);
+    const char *unit = rg_unit_name(i->unit);
+    fprintf(out, "graph       %d %s, %d %s, %d %s; size %.6g%s%s\n", (int)i->vertices, plural(i->vertices, "vertex", "vertices"),
+            (int)i->edges, plural(i->edges, "edge", "edges"), (int)i->facets, plural(i->facets, "facet", "facets"), i->size,
+            unit ? " " : "", unit ? unit : "");
     fprintf(out, "creases     %d: %d mountain, %d valley", (int)i->creases, (int)i->mountains, (int)i->valleys);
     if (i->unassigned) fprintf(out, ", %d unassigned", (int)i->unassigned);
     if (i->flat) fprintf(out, ", %d flat", (int)i->flat);
-    fprintf(out, "\nmodel       M = %d interior %s, N = %d, N0 = %d border %s; degrees of freedom N - 3M = %d\n",
-            (int)i->interior_vertices, plural(i->interior_vertices, "vertex", "vertices"), (int)i->creases,
-            (int)i->boundary_edges, plural(i->boundary_edges, "edge", "edges"), (int)i->degrees_of_freedom);
+    if (i->cuts) fprintf(out, ", %d %s", (int)i->cuts, plural(i->cuts, "slit", "slits"));
+    if (i->lost_creases) fprintf(out, "; %d more %s drawn and left out", (int)i->lost_creases, plural(i->lost_creases, "is", "are"));
+    fputc('\n', out);
+    if (ways >= 0) fprintf(out, "mobility    %d %s to move once it has left flat\n", (int)ways, plural(ways, "way", "ways"));
+}
+
+static void model(const rg_pattern_info *i, FILE *out)
+{
+    fprintf(out, "model       M = %d interior %s, N = %d, N0 = %d border %s; N - 3M = %d\n", (int)i->interior_vertices,
+            plural(i->interior_vertices, "vertex", "vertices"), (int)i->creases, (int)i->boundary_edges,
+            plural(i->boundary_edges, "edge", "edges"), (int)i->degrees_of_freedom);
     if (i->is_disk)
-        fprintf(out, "            cut into triangles: %d more %s, %d degrees of freedom\n", (int)triangulating_adds(i),
+        fprintf(out, "            cut into triangles: %d more %s, N0 - 3 = %d degrees of freedom\n", (int)triangulating_adds(i),
                 plural(triangulating_adds(i), "crease", "creases"), (int)i->boundary_edges - 3);
     fprintf(out, "drawing     largest gap closed %.3g, smallest distance kept %.3g\n", i->merged_max, i->kept_min);
 }
@@ -215,40 +268,66 @@ static void symmetries(const rg_alike *a, FILE *out)
     fputc('\n', out);
 }
 
-static void broken_theorem(const rg_unfoldable *u, FILE *out)
+void rg_unfoldable_text(const rg_pattern *p, const rg_unfoldable *u, char text[240])
 {
-    fprintf(out, "            (%.6g, %.6g): ", u->x, u->y);
+    const rg_vec2 at = rg_lines_own(&p->lines, (rg_vec2){u->x, u->y}, p->info.size);
+    const int n = snprintf(text, 240, "at (%.6g, %.6g) ", at.x, at.y);
+    const size_t room = (size_t)(240 - n);
     switch (u->theorem) {
-    case RG_KAWASAKI: fprintf(out, "Kawasaki: every other angle adds up to 180 degrees but for %.4g\n", u->by); break;
-    case RG_MAEKAWA: fprintf(out, "Maekawa: mountains and valleys differ by %.0f, not by 2\n", u->by); break;
-    case RG_DEGREE: fprintf(out, "%.0f creases meet, an odd number\n", u->by); break;
-    case RG_BIG_LITTLE_BIG:
-        fprintf(out, "big-little-big: a smallest angle, by %.4g degrees, lies between two creases of one kind\n", u->by);
+    case RG_KAWASAKI:
+        snprintf(text + n, room, "every other angle should add up to 180 degrees, and is %.4g degrees off (Kawasaki's theorem)", u->by);
         break;
-    case RG_TARGETS: fprintf(out, "the fold angles of the file do not close: the paper misses itself by %.4g degrees\n", u->by); break;
+    case RG_MAEKAWA:
+        snprintf(text + n, room, "mountains and valleys differ by %.0f, and should by 2 (Maekawa's theorem)", u->by);
+        break;
+    case RG_DEGREE: snprintf(text + n, room, "%.0f creases meet, an odd number", u->by); break;
+    case RG_BIG_LITTLE_BIG:
+        snprintf(text + n, room, "the smallest angle, by %.4g degrees, lies between two creases of one kind: one of them has to be the other (big-little-big)",
+                 u->by);
+        break;
+    case RG_TARGETS:
+        snprintf(text + n, room, "the fold angles of the file contradict each other: with all of them the paper misses itself by %.4g degrees", u->by);
+        break;
     }
 }
 
-static void vertices(const rg_pattern *p, int32_t bad, FILE *out)
+/* The one to tell first: what the file itself contradicts, then what is worst of the first theorem that fails. */
+static const rg_unfoldable *worst(const rg_pattern *p)
 {
+    static const rg_theorem order[] = {RG_TARGETS, RG_DEGREE, RG_KAWASAKI, RG_MAEKAWA, RG_BIG_LITTLE_BIG};
+    for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
+        const rg_unfoldable *found = NULL;
+        for (int32_t k = 0; k < p->unfoldables; k++)
+            if (p->unfoldable[k].theorem == order[i] && (!found || p->unfoldable[k].by > found->by)) found = &p->unfoldable[k];
+        if (found) return found;
+    }
+    return NULL;
+}
+
+static void vertices(const rg_pattern *p, int32_t bad, int lists, FILE *out)
+{
+    char text[240];
     const int32_t M = p->info.interior_vertices;
     if (M == 0) fprintf(out, "vertices    none inside the sheet\n");
     else if (bad == 0) fprintf(out, "vertices    each of %d inside the sheet can fold flat by itself\n", (int)M);
-    else fprintf(out, "vertices    %d of %d inside the sheet cannot fold flat\n", (int)bad, (int)M);
-    for (int32_t k = 0; k < p->unfoldables; k++) broken_theorem(&p->unfoldable[k], out);
+    else fprintf(out, "vertices    %d of %d inside the sheet cannot fold flat%s\n", (int)bad, (int)M, lists || bad < 2 ? "" : "; -v lists them");
+    for (int32_t k = 0; lists && k < p->unfoldables; k++) {
+        rg_unfoldable_text(p, &p->unfoldable[k], text);
+        fprintf(out, "            %s\n", text);
+    }
 }
 
-static void closed_vertices(const rg_pattern *p, FILE *out)
+static void closed_vertices(const rg_pattern *p, int lists, FILE *out)
 {
     const int32_t n = p->info.closed_vertices;
-    if (n == 0) fprintf(out, "closed      none\n");
-    else
-        fprintf(out, "closed      %d %s: a crease halves the angle of two that fold opposite ways\n", (int)n,
-                plural(n, "vertex", "vertices"));
-    for (int32_t k = 0; k < p->closed_triples; k++) {
+    if (n > 0)
+        fprintf(out, "closed      %d %s: a crease halves the angle of two that fold opposite ways, which locks them%s\n", (int)n,
+                plural(n, "vertex", "vertices"), lists ? "" : "; -v lists them");
+    for (int32_t k = 0; lists && k < p->closed_triples; k++) {
         const rg_closed *c = &p->closed[k];
-        fprintf(out, "            (%.6g, %.6g): creases to (%.6g, %.6g), (%.6g, %.6g), (%.6g, %.6g), inside angle %.4g degrees\n",
-                c->x, c->y, c->a[0], c->a[1], c->c[0], c->c[1], c->b[0], c->b[1], c->inside_angle / RG_DEG);
+        const rg_vec2 at[] = {own(p, c->x, c->y), own(p, c->a[0], c->a[1]), own(p, c->c[0], c->c[1]), own(p, c->b[0], c->b[1])};
+        fprintf(out, "            (%.6g, %.6g): creases to (%.6g, %.6g), (%.6g, %.6g), (%.6g, %.6g), inside angle %.4g degrees\n", at[0].x, at[0].y,
+                at[1].x, at[1].y, at[2].x, at[2].y, at[3].x, at[3].y, c->inside_angle / RG_DEG);
     }
 }
 
@@ -271,58 +350,169 @@ static void flat_folding(const rg_layers *l, FILE *out)
     }
 }
 
-static void warnings(const rg_pattern *p, FILE *out)
+static void warnings(const rg_pattern *p, int lists, FILE *out)
 {
     if (p->lines.warnings) fprintf(out, "warnings    %d\n", (int)p->lines.warnings);
-    for (int32_t k = 0; k < p->lines.warnings; k++) {
+    for (int32_t k = 0; lists && k < p->lines.warnings; k++) {
         fprintf(out, "            ");
         if (p->lines.warning[k].line) fprintf(out, "line %d: ", p->lines.warning[k].line);
         fprintf(out, "%s\n", p->lines.warning[k].text);
     }
 }
 
-static const char *verdict(const rg_pattern_info *i, int32_t bad, const rg_layers *l)
+static const char *letter_name(char letter)
 {
-    rg_layers_info layers = {.state = RG_LAYERS_UNSOLVED};
-    if (l) rg_layers_get_info(l, &layers);
-    if (!i->is_disk) return "It cannot be folded here: it is not one sheet without holes.";
-    if (i->creases == 0) return "There is no crease to fold.";
-    if (bad) return "It does not fold flat, for the vertices named cannot; it may fold part of the way.";
-    if (layers.state == RG_LAYERS_NONE)
-        return "Each vertex folds flat by itself, the sheet does not without passing through itself; it may fold part of the way.";
-    if (i->mountains + i->valleys == 0) return "No crease says which way it folds: nothing will move.";
-    if (i->closed_vertices)
-        return "Each vertex folds flat by itself, but the closed ones lock rigid facets: it needs creases added or adjusted.";
-    if (i->degrees_of_freedom <= 0)
-        return "Nothing here speaks against it, but there are as many conditions as creases or more: they have to agree.";
-    return "It is likely to fold: nothing here speaks against it.";
+    switch (letter) {
+    case RG_BORDER: return "border";
+    case RG_MOUNTAIN: return "mountain";
+    case RG_VALLEY: return "valley";
+    case RG_UNASSIGNED: return "unassigned";
+    case RG_FLAT: return "aux";
+    case '-': return "left out";
+    default: return "of several kinds";
+    }
 }
 
-rg_status rg_info_text(const rg_pattern *p, const char *file, rg_diag *why)
+/* What the lines are drawn in: the KEY of --line, how many there are, what they were taken for. */
+static void traits(const rg_pattern *p, FILE *out)
+{
+    static const char *const names[RG_TRAIT_SORTS] = {"colours     ", "layers      ", "dashes      "};
+    for (int sort = 0; sort < RG_TRAIT_SORTS; sort++) {
+        int n = 0;
+        for (int32_t k = 0; k < p->lines.traits; k++) {
+            const rg_trait *t = &p->lines.trait[k];
+            if ((int)t->sort == sort)
+                fprintf(out, "%s%s: %d %s", n++ ? ", " : names[sort], t->name, (int)t->count, letter_name(t->assignment));
+        }
+        if (n) fputc('\n', out);
+    }
+}
+
+static void sheets(const rg_pattern *p, FILE *out)
+{
+    if (p->info.sheets < 2) return;
+    fprintf(out, "sheets      %d; --sheet N takes one\n", (int)p->info.sheets);
+    for (int32_t k = 0; k < p->info.sheets; k++)
+        fprintf(out, "            %d: %.6g x %.6g at (%.6g, %.6g), %d lines\n", (int)k + 1, p->piece[k].high[0] - p->piece[k].low[0],
+                p->piece[k].high[1] - p->piece[k].low[1], p->piece[k].low[0], p->piece[k].low[1], (int)p->piece[k].lines);
+}
+
+/* Creases by the numbers that they have in every output, as long as none are added. */
+static void crease_list(const rg_pattern *p, FILE *out)
+{
+    int32_t number = 0;
+    for (int32_t e = 0; e < p->ne; e++) {
+        const rg_edge *E = &p->E[e];
+        if (E->assignment == RG_BORDER) continue;
+        const rg_vec2 a = own(p, p->X[E->v[0]].x, p->X[E->v[0]].y), b = own(p, p->X[E->v[1]].x, p->X[E->v[1]].y);
+        fprintf(out, "            c%d %c, vertices %d and %d: (%.6g, %.6g) to (%.6g, %.6g)", (int)number++, E->assignment, (int)E->v[0], (int)E->v[1], a.x,
+                a.y, b.x, b.y);
+        if (isfinite(E->target)) fprintf(out, ", target %.6g", rg_number_degrees(E->target));
+        if (E->where) fprintf(out, ", line %d", (int)E->where);
+        fputc('\n', out);
+    }
+}
+
+/* A sheet of more creases is not set in motion only to be counted. */
+enum { MOST_MOVED = 600 };
+
+/* Ways to move, by the rank of C a little off flat; -1: not known. Flat, to first order, there seem to be more (3.2). */
+static rg_status mobility(const rg_pattern *p, int32_t *ways)
+{
+    rg_settings s = rg_settings_default();
+    rg_motion *m = NULL;
+    *ways = -1;
+    if (!p->info.is_disk || p->info.creases == 0 || p->info.creases > MOST_MOVED) return RG_OK;
+    s.memory = &p->mem;
+    s.frames = 2;
+    s.to = 0.05;
+    s.effort = RG_EFFORT_FAST;
+    s.triangulate = RG_TRIANGULATE_NONE;
+    s.adjust = 0;
+    rg_status status = rg_motion_create(p, &s, NULL, NULL, &m, NULL);
+    if (status != RG_OK) return status == RG_ENOMEM ? status : RG_OK;
+    if (rg_motion_report(m)->outcome == RG_FOLDED) {
+        status = rg_motion_mobility(m, 1, ways);
+        if (status == RG_EABSENT) *ways = -1, status = RG_OK;
+    }
+    rg_motion_destroy(m);
+    return status;
+}
+
+/* The verdict, and what to do next. */
+static void verdict(const rg_pattern *p, const rg_layers *l, FILE *out)
 {
     const rg_pattern_info *i = &p->info;
-    const int32_t bad = unfoldable_vertices(p);
+    const rg_unfoldable *u = worst(p);
+    rg_layers_info layers = {.state = RG_LAYERS_UNSOLVED};
+    char text[240];
+    if (l) rg_layers_get_info(l, &layers);
+    if (!i->is_disk) {
+        fprintf(out, "It cannot be folded here, for it is not one sheet without holes: %s.\n", i->not_disk);
+    } else if (i->creases == 0 && i->lost_creases > 0) {
+        fprintf(out, "There is no crease to fold: all that are drawn (%d) are left out.\n", (int)i->lost_creases);
+        fprintf(out, "Next: draw them up to the lines that they should meet, or join them with --merge; the warnings say by how much.\n");
+    } else if (i->creases == 0) {
+        fprintf(out, "There is no crease to fold.\n");
+    } else if (u) {
+        rg_unfoldable_text(p, u, text);
+        if (u->theorem == RG_TARGETS) {
+            fprintf(out, "It cannot get to where it should: %s.\n", text);
+            fprintf(out, "Next: change an angle there, or leave one open (unassigned), or fold with --no-targets.\n");
+        } else {
+            fprintf(out, "It does not fold flat: %s.\n", text);
+            fprintf(out, "Next: mend the creases there, or fold part of the way: rigami fold --to 50.\n");
+        }
+    } else if (layers.state == RG_LAYERS_NONE) {
+        fprintf(out, "Each vertex folds flat by itself, the sheet does not without passing through itself: %s.\n", layers.reason);
+        fprintf(out, "Next: fold part of the way: rigami fold --to 50.\n");
+    } else if (i->mountains + i->valleys == 0) {
+        fprintf(out, "No crease says which way it folds: nothing will move.\n");
+        fprintf(out, "Next: draw mountains and valleys%s.\n", p->lines.traits ? ", or say with --line which lines they are" : "");
+    } else if (i->closed_vertices) {
+        fprintf(out, "Each vertex folds flat by itself, but %d closed %s lock rigid facets: it needs creases added, or moved on the way.\n",
+                (int)i->closed_vertices, plural(i->closed_vertices, "vertex", "vertices"));
+        fprintf(out, "Next: rigami fold does so by itself, and says by how much.\n");
+    } else if (i->degrees_of_freedom <= 0) {
+        fprintf(out, "It may fold: nothing here speaks against it, but its creases have to agree with each other on the way.\n");
+    } else {
+        fprintf(out, "It is likely to fold: nothing here speaks against it.\n");
+    }
+}
+
+static void tell(const rg_pattern *p, const rg_alike *alike, const rg_layers *l, int32_t ways, int lists, FILE *out)
+{
+    const rg_pattern_info *i = &p->info;
+    verdict(p, l, out);
+    fputc('\n', out);
+    title(i, out);
+    sheets(p, out);
+    vertices(p, unfoldable_vertices(p), lists, out);
+    closed_vertices(p, lists, out);
+    flat_folding(l, out);
+    warnings(p, lists, out);
+    counts(i, ways, out);
+    traits(p, out);
+    if (!lists) return;
+    model(i, out);
+    symmetries(alike, out);
+    crease_list(p, out);
+}
+
+rg_status rg_info_text(const rg_pattern *p, int lists, const char *file, rg_diag *why)
+{
     rg_file f;
     rg_alike alike;
     rg_layers *l = NULL;
+    int32_t ways = -1;
     rg_status s = rg_alike_find(p, &alike);
     if (s == RG_OK) s = find_layers(p, &l, why);
+    if (s == RG_OK) s = mobility(p, &ways);
     if (s == RG_OK) s = rg_file_begin(&f, &p->mem, file, why);
-    if (s != RG_OK) {
-        rg_layers_destroy(l);
-        return s;
+    if (s == RG_OK) {
+        tell(p, &alike, l, ways, lists, f.stream);
+        s = rg_file_commit(&f, why);
     }
-    FILE *out = f.stream;
-    title(i, out);
-    counts(i, out);
-    if (i->is_disk) fprintf(out, "sheet       one, without holes\n");
-    else fprintf(out, "sheet       not one without holes: %s\n", i->not_disk);
-    symmetries(&alike, out);
-    vertices(p, bad, out);
-    closed_vertices(p, out);
-    flat_folding(l, out);
-    warnings(p, out);
-    fprintf(out, "\n%s\n", verdict(i, bad, l));
     rg_layers_destroy(l);
-    return rg_file_commit(&f, why);
+    return s;
 }

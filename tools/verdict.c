@@ -1,0 +1,111 @@
+#include "verdict.h"
+#include "interrupt.h"
+#include "say.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { TEXT = 700 };
+/* A place is the same though it was computed in another way: a part of the sheet's size. */
+static const double SAME_PLACE = 1e-9;
+
+static int is_same(const rg_pattern *p, const rg_unfoldable *u, const double at[2], double size)
+{
+    double own[2];
+    rg_pattern_own(p, (const double[]){u->x, u->y}, own);
+    return hypot(own[0] - at[0], own[1] - at[1]) <= SAME_PLACE * size;
+}
+
+/* Theorems are of folding flat; targets of what the file itself asks for. */
+static int speaks_against(const options *o, const rg_unfoldable *u)
+{
+    return (u->theorem == RG_TARGETS) ? o->settings.targets : fabs(o->settings.to) == 1;
+}
+
+/* A vertex that cannot be as it should: one that holds the fold, else any. NULL: there is none. */
+static const rg_unfoldable *culprit(const options *o, const rg_pattern *p, const rg_report *r)
+{
+    const rg_unfoldable *u, *any = NULL;
+    const int32_t n = rg_pattern_unfoldable(p, &u);
+    for (int32_t k = 0; k < r->blocking_vertex_count; k++)
+        for (int32_t i = 0; i < n; i++)
+            if (speaks_against(o, &u[i]) && is_same(p, &u[i], r->blocking_at[k], r->pattern.size)) return &u[i];
+    for (int32_t i = 0; i < n; i++)
+        if (speaks_against(o, &u[i]) && (!any || (u[i].theorem == RG_TARGETS && any->theorem != RG_TARGETS))) any = &u[i];
+    return any;
+}
+
+static int is_closed(const rg_pattern *p, const double at[2], double size)
+{
+    const rg_closed *c;
+    const int32_t n = rg_pattern_closed(p, &c);
+    for (int32_t i = 0; i < n; i++) {
+        double own[2];
+        rg_pattern_own(p, (const double[]){c[i].x, c[i].y}, own);
+        if (hypot(own[0] - at[0], own[1] - at[1]) <= SAME_PLACE * size) return 1;
+    }
+    return 0;
+}
+
+/* What has not been tried, or else the part of the way that there is. */
+static void next_thing(const options *o, const rg_report *r, char *text, size_t room)
+{
+    const double there = floor(fabs(r->folded_percent));
+    if (o->settings.triangulate == RG_TRIANGULATE_NONE) snprintf(text, room, "let creases be added: --triangulate auto");
+    else if (o->settings.adjust == 0) snprintf(text, room, "let creases be moved on the way: --adjust auto");
+    else if (o->settings.effort == RG_EFFORT_FAST) snprintf(text, room, "try more: --effort normal");
+    else if (o->settings.effort == RG_EFFORT_NORMAL) snprintf(text, room, "try more: --effort thorough%s", there >= 1 ? ", or fold as far as it goes" : "");
+    else if (there >= 1) snprintf(text, room, "fold as far as it goes: --to %.0f", there);
+    else snprintf(text, room, "see whether rigami info -v names a vertex to mend");
+}
+
+static void because(const options *o, const rg_pattern *p, const rg_report *r, char *why, char *next)
+{
+    const rg_unfoldable *u = culprit(o, p, r);
+    if (interrupt_came()) {
+        snprintf(why, TEXT, "interrupted");
+        next[0] = 0;
+    } else if (r->pattern.creases == 0 && r->pattern.lost_creases > 0) {
+        snprintf(why, TEXT, "%s", r->reason);
+        snprintf(next, TEXT, "draw them up to the lines that they should meet, or join them with --merge as the warnings say");
+    } else if (u) {
+        char text[240];
+        rg_unfoldable_text(p, u, text);
+        snprintf(why, TEXT, "%s", text);
+        if (u->theorem == RG_TARGETS) snprintf(next, TEXT, "change an angle there or leave one open, or fold with --no-targets");
+        else snprintf(next, TEXT, "mend the vertex, or fold part of the way: --to %.0f", fmax(1, floor(fabs(r->folded_percent))));
+    } else if (r->blocking_vertex_count > 0) {
+        const double *at = r->blocking_at[0];
+        const int closed = is_closed(p, at, r->pattern.size);
+        snprintf(why, TEXT, closed ? "the vertex at (%.6g, %.6g) holds the facets round it: a crease halves the angle of two that fold opposite ways"
+                                   : "the facets round the vertex at (%.6g, %.6g) hold each other, each as stiff as a plate", at[0], at[1]);
+        next_thing(o, r, next, TEXT);
+    } else if (strncmp(r->layers, "none", 4) == 0) {
+        snprintf(why, TEXT, "folded flat, the sheet would pass through itself: %s", r->layers_reason);
+        snprintf(next, TEXT, "fold part of the way: --to %.0f", fmax(1, floor(fabs(r->folded_percent))));
+    } else {
+        snprintf(why, TEXT, "%s", r->reason);
+        next_thing(o, r, next, TEXT);
+    }
+}
+
+void verdict_say(const options *o, const char *name, const rg_pattern *p, const rg_motion *m)
+{
+    const rg_report *r = rg_motion_report(m);
+    char why[TEXT] = "", next[TEXT] = "";
+    because(o, p, r, why, next);
+    if (r->pattern.creases == 0) say("%s: nothing is folded: %s%s%s", name, why, next[0] ? ". Next: " : "", next);
+    else say("%s: stopped at %.1f %% folded: %s%s%s", name, r->folded_percent, why, next[0] ? ". Next: " : "", next);
+}
+
+void verdict_files(const options *o, const char *lead, char *text, size_t room)
+{
+    size_t n = 0;
+    text[0] = 0;
+    for (int i = 0; i <= o->outputs && n < room; i++) {
+        const char *file = i < o->outputs ? o->output[i] : o->report;
+        if (!file || strcmp(file, "-") == 0) continue;
+        n += (size_t)snprintf(text + n, room - n, "%s%s", n ? ", " : lead, file);
+    }
+}

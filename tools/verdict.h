@@ -1,0 +1,13 @@
+/* verdict.h -- what came of a fold, as a folder would say it: what, where in the coordinates of the file, why, what to do next.
+ * Uses  say.h        Used by  cmd_fold.c */
+#ifndef VERDICT_H
+#define VERDICT_H
+
+#include "options.h"
+
+/* Of a motion that stopped short, one line on standard error; p: the pattern that it stopped at. */
+void verdict_say(const options *o, const char *name, const rg_pattern *p, const rg_motion *m);
+/* The files that were written, with `lead` before them; an empty text: there are none. */
+void verdict_files(const options *o, const char *lead, char *text, size_t room);
+
+#endif
