@@ -258,10 +258,10 @@ static void the_verdict_comes_first(void **state)
     const int few = lines_in(r->out);
     assert_true(lines_in(ends(0, run("info", "odd.cp", "-v"))->out) > few);
     /* All creases end short of the border: that is no success, whatever there was to fold. */
-    write_file("lost.cp", "1 0 0 8 0\n1 8 0 8 6\n1 8 6 0 6\n1 0 6 0 0\n2 4 0.01 4 5.99\n");
-    r = ends(1, run("fold", "lost.cp"));
+    write_file("short-of-it.cp", "1 0 0 8 0\n1 8 0 8 6\n1 8 6 0 6\n1 0 6 0 0\n2 4 0.01 4 5.99\n");
+    r = ends(1, run("fold", "short-of-it.cp"));
     assert_true(strstr(r->err, "the next line is 0.01 away; --merge 0.0013 joins them") && strstr(r->err, "nothing is folded"));
-    ends(0, run("fold", "lost.cp", "--merge", "0.0013"));
+    ends(0, run("fold", "short-of-it.cp", "--merge", "0.0013"));
     r = ends(0, run("fold", "good.opx", "-o", "good.csv"));
     assert_non_null(strstr(r->out, "written   good.csv"));
     unlink("odd.csv");
