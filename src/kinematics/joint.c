@@ -14,9 +14,7 @@ static int32_t other_end(const rg_mesh *m, int32_t crease, int32_t v)
 
 static int is_drawn(const rg_mesh *m, int32_t crease) { return crease < m->N - m->added; }
 
-/* +1 and -1 by turns for the sectors between drawn creases, summed as in eq. (18); sign[j]: of the direction of loop
- * entry j in it. Returns the number of drawn creases. */
-static int32_t alternate(const rg_joint *J, int32_t k, double *sum, double *sign)
+int32_t rg_joint_alternate(const rg_joint *J, int32_t k, double *sum, double *sign)
 {
     const rg_mesh *m = J->mesh;
     const int32_t first = m->loop_start[k], last = m->loop_start[k + 1];
@@ -50,7 +48,7 @@ static void number_rows(rg_joint *J, int kawasaki)
         double sum;
         J->kawasaki[k] = -1;
         if (!kawasaki || !J->U) continue;
-        const int32_t n = alternate(J, k, &sum, NULL);
+        const int32_t n = rg_joint_alternate(J, k, &sum, NULL);
         if (n >= 4 && n % 2 == 0 && fabs(sum) <= FLAT_FOLDABLE) J->kawasaki[k] = 3 * J->M + J->K++; /* eq. (16) */
     }
 }
@@ -151,32 +149,53 @@ void rg_joint_free(rg_joint *J)
     memset(J, 0, sizeof *J);
 }
 
-double rg_joint_assemble(rg_joint *J, const double *rho, const double *u, double *off)
+/* Returns the rotation angle of F at interior vertex k. */
+static double assemble_vertex(rg_joint *J, int32_t k, const double *rho)
 {
     const rg_mesh *m = J->mesh;
-    double worst = 0, most = 0;
-    if (J->U) {
-        rg_freedom_move(J->freedom, u, J->X);
-        rg_mesh_sectors(J->mesh, J->X, J->theta);
+    rg_mat3 A = rg_mat3_identity();
+    for (int32_t j = m->loop_start[k]; j < m->loop_start[k + 1]; j++) {
+        const double angle = rho[m->loop_crease[j]], theta = J->theta[j];
+        J->direction[j] = A.c[0];
+        A = rg_loop_advance(A, (rg_turn){cos(angle), sin(angle)}, (rg_turn){cos(theta), sin(theta)}); /* eq. (1) */
+        J->normal[j] = A.c[2]; /* turning by theta is about the facet's normal, which it leaves as it is */
     }
-    for (int32_t k = 0; k < J->M; k++) {
-        rg_mat3 A = rg_mat3_identity();
-        for (int32_t j = m->loop_start[k]; j < m->loop_start[k + 1]; j++) {
-            const double angle = rho[m->loop_crease[j]], theta = J->theta[j];
-            J->direction[j] = A.c[0];
-            A = rg_loop_advance(A, (rg_turn){cos(angle), sin(angle)}, (rg_turn){cos(theta), sin(theta)}); /* eq. (1) */
-            J->normal[j] = A.c[2]; /* turning by theta is about the facet's normal, which it leaves as it is */
-        }
-        const rg_vec3 r = rg_loop_residual(A);
-        J->r[3 * k] = r.x, J->r[3 * k + 1] = r.y, J->r[3 * k + 2] = r.z; /* eq. (12) */
-        const double angle = rg_loop_angle(A);
+    const rg_vec3 r = rg_loop_residual(A);
+    J->r[3 * k] = r.x, J->r[3 * k + 1] = r.y, J->r[3 * k + 2] = r.z; /* eq. (12) */
+    return rg_loop_angle(A);
+}
+
+double rg_joint_assemble_some(rg_joint *J, const int32_t *vertex, int32_t count, const double *rho, const double *u, double *off)
+{
+    double worst = 0, most = 0;
+    if (J->U) rg_freedom_move(J->freedom, u, J->X);
+    for (int32_t n = 0; n < count; n++) {
+        const int32_t k = vertex ? vertex[n] : n;
+        if (J->U) rg_mesh_sectors_at(J->mesh, k, J->X, J->theta);
+        const double angle = assemble_vertex(J, k, rho);
         if (!(angle <= worst)) worst = angle;
         if (J->kawasaki[k] < 0) continue;
-        alternate(J, k, &J->r[J->kawasaki[k]], NULL);
-        if (!(fabs(J->r[J->kawasaki[k]]) <= most)) most = fabs(J->r[J->kawasaki[k]]);
+        double *sum = &J->r[J->kawasaki[k]];
+        rg_joint_alternate(J, k, sum, NULL);
+        if (!(fabs(*sum) <= most)) most = fabs(*sum);
     }
     if (off) *off = most;
     return worst;
+}
+
+double rg_joint_assemble(rg_joint *J, const double *rho, const double *u, double *off)
+{
+    return rg_joint_assemble_some(J, NULL, J->M, rho, u, off);
+}
+
+void rg_joint_turn(const rg_joint *J, int32_t k, int32_t j, rg_vec2 *g, rg_vec3 *normal)
+{
+    const int32_t first = J->mesh->loop_start[k], last = J->mesh->loop_start[k + 1];
+    const rg_vec2 d = rg_vec2_sub(J->X[J->far[j]], J->X[J->mesh->inner_vertex[k]]);
+    const double squared = rg_vec2_dot(d, d);
+    *g = (rg_vec2){-d.y / squared, d.x / squared};
+    /* Turning this direction takes from the sector behind it what it gives to the one before. */
+    *normal = rg_vec3_sub(J->normal[j > first ? j - 1 : last - 1], J->normal[j]);
 }
 
 /* The direction of loop entry j turns by g . (dX of its far end - dX of the vertex): adds what that does to the rows. */
@@ -206,13 +225,11 @@ void rg_joint_renew(rg_joint *J, const double *scale)
         if (!J->U) continue;
         const int kept = J->kawasaki[k] >= 0;
         double sum;
-        if (kept) alternate(J, k, &sum, J->sign);
+        if (kept) rg_joint_alternate(J, k, &sum, J->sign);
         for (int32_t j = first; j < last; j++) {
-            const rg_vec2 d = rg_vec2_sub(J->X[J->far[j]], J->X[v]);
-            const double squared = rg_vec2_dot(d, d);
-            const rg_vec2 g = {-d.y / squared, d.x / squared};
-            /* Turning this direction takes from the sector behind it what it gives to the one before. */
-            const rg_vec3 normal = rg_vec3_sub(J->normal[j > first ? j - 1 : last - 1], J->normal[j]);
+            rg_vec2 g;
+            rg_vec3 normal;
+            rg_joint_turn(J, k, j, &g, &normal);
             const double part = kept ? J->sign[j - first] : 0;
             add_turn(J, J->at_far[j], J->freedom->way[J->far[j]], g, normal, part, scale);
             add_turn(J, J->at_own[k], J->freedom->way[v], (rg_vec2){-g.x, -g.y}, normal, part, scale);

@@ -38,6 +38,13 @@ void rg_joint_free(rg_joint *J);
 
 /* r at rho[N], u[U]. Returns the largest rotation angle of F; *off: out, the largest |r'| (may be NULL). */
 double rg_joint_assemble(rg_joint *J, const double *rho, const double *u, double *off);
+/* The same of some interior vertices only, vertex[count]; the others' part of what was assembled is left. */
+double rg_joint_assemble_some(rg_joint *J, const int32_t *vertex, int32_t count, const double *rho, const double *u, double *off);
+/* How interior vertex k responds to its far vertices: the gradient g of the direction of loop entry j, and the change of r by it. */
+void rg_joint_turn(const rg_joint *J, int32_t k, int32_t j, rg_vec2 *g, rg_vec3 *normal);
+/* +1 and -1 by turns for the sectors between drawn creases of vertex k, summed: *sum, eq. (18); sign[j]: of the direction of its loop
+ * entry j in it (NULL: not asked for). Returns the number of drawn creases. */
+int32_t rg_joint_alternate(const rg_joint *J, int32_t k, double *sum, double *sign);
 /* A with column i times scale[i], at what was assembled last; and what belongs to it. */
 void rg_joint_renew(rg_joint *J, const double *scale);
 

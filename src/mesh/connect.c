@@ -41,18 +41,21 @@ rg_status rg_mesh_copy(const rg_mesh *m, rg_mesh *out)
     return ok ? RG_OK : RG_ENOMEM;
 }
 
+void rg_mesh_sectors_at(const rg_mesh *m, int32_t k, const rg_vec2 *X, double *theta)
+{
+    const int32_t first = m->loop_start[k], last = m->loop_start[k + 1], v = m->inner_vertex[k];
+    for (int32_t j = first; j < last; j++) {
+        const int32_t *e = m->edge[m->crease_edge[m->loop_crease[j]]];
+        const int32_t *g = m->edge[m->crease_edge[m->loop_crease[j + 1 < last ? j + 1 : first]]];
+        const rg_vec2 a = rg_vec2_sub(X[e[e[0] == v]], X[v]), b = rg_vec2_sub(X[g[g[0] == v]], X[v]);
+        const double turn = atan2(rg_vec2_cross(a, b), rg_vec2_dot(a, b));
+        theta[j] = turn > 0 ? turn : turn + 2 * RG_PI;
+    }
+}
+
 void rg_mesh_sectors(const rg_mesh *m, const rg_vec2 *X, double *theta)
 {
-    for (int32_t k = 0; k < m->M; k++) {
-        const int32_t first = m->loop_start[k], last = m->loop_start[k + 1], v = m->inner_vertex[k];
-        for (int32_t j = first; j < last; j++) {
-            const int32_t *e = m->edge[m->crease_edge[m->loop_crease[j]]];
-            const int32_t *g = m->edge[m->crease_edge[m->loop_crease[j + 1 < last ? j + 1 : first]]];
-            const rg_vec2 a = rg_vec2_sub(X[e[e[0] == v]], X[v]), b = rg_vec2_sub(X[g[g[0] == v]], X[v]);
-            const double turn = atan2(rg_vec2_cross(a, b), rg_vec2_dot(a, b));
-            theta[j] = turn > 0 ? turn : turn + 2 * RG_PI;
-        }
-    }
+    for (int32_t k = 0; k < m->M; k++) rg_mesh_sectors_at(m, k, X, theta);
 }
 
 static rg_status join_facets(rg_mesh *m)

@@ -43,6 +43,8 @@ void rg_triangulate_trace(const rg_mesh *m, const rg_mesh *cut, int32_t *facet);
 /* theta[loop_start[M]]: out, the angles between creases round interior vertices on another pattern X[nv], as loop_theta is on
  * m->X. */
 void rg_mesh_sectors(const rg_mesh *m, const rg_vec2 *X, double *theta);
+/* Of interior vertex k only. */
+void rg_mesh_sectors_at(const rg_mesh *m, int32_t k, const rg_vec2 *X, double *theta);
 /* A copy, with an allocator of its own. RG_ENOMEM, *out is then zeroed. */
 rg_status rg_mesh_copy(const rg_mesh *m, rg_mesh *out);
 void rg_mesh_free(rg_mesh *m);

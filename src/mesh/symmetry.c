@@ -92,6 +92,19 @@ static void find_orbits(int32_t order, int32_t n, const int32_t *to, int32_t *or
     for (int32_t i = 0; i < n; i++) orbit[i] = rg_class_of(orbit, i);
 }
 
+static void measure_off(rg_symmetry *G, const rg_mesh *m)
+{
+    for (int32_t g = 0; g < G->order; g++) {
+        const int32_t *vertex = G->vertex + (size_t)g * (size_t)m->nv;
+        for (int32_t e = 0; e < m->ne; e++) {
+            const int32_t a = m->edge[e][0], b = m->edge[e][1];
+            const rg_vec2 d = rg_vec2_sub(m->X[b], m->X[a]), there = rg_vec2_sub(m->X[vertex[b]], m->X[vertex[a]]);
+            const rg_vec2 turned = {G->A[g][0][0] * d.x + G->A[g][0][1] * d.y, G->A[g][1][0] * d.x + G->A[g][1][1] * d.y};
+            G->off = fmax(G->off, fabs(atan2(rg_vec2_cross(turned, there), rg_vec2_dot(turned, there))));
+        }
+    }
+}
+
 /* Given A, vertex and turns, the rest. RG_EARG: m does not go to itself. */
 static rg_status move_all(rg_symmetry *G, const rg_mesh *m)
 {
@@ -103,6 +116,7 @@ static rg_status move_all(rg_symmetry *G, const rg_mesh *m)
     for (int32_t g = 0; fits && g < G->order; g++) fits = move_edges(G, m, sorted, g) && move_facets(G, m, g);
     rg_mem_free(&G->mem, sorted);
     if (!fits) return RG_EARG;
+    measure_off(G, m);
     find_orbits(G->order, m->nv, G->vertex, G->vertex_orbit);
     find_orbits(G->order, m->ne, G->edge, G->edge_orbit);
     find_orbits(G->order, m->N, G->crease, G->crease_orbit);
@@ -283,6 +297,7 @@ rg_status rg_symmetry_part(rg_symmetry *out, const rg_symmetry *G, int32_t every
     if (s != RG_OK) return s;
     out->turns = turns;
     out->middle = G->middle;
+    out->off = G->off;
     for (int32_t k = 0; k < turns; k++) copy_element(out, k, G, k * every);
     for (int32_t k = 0; k < mirrors; k++) copy_element(out, turns + k, G, G->turns + mirror + k * every);
     find_orbits(out->order, out->nv, out->vertex, out->vertex_orbit);

@@ -16,6 +16,7 @@ typedef struct rg_symmetry {
     int32_t turns;        /* the first so many are turns, by even steps from 0; the others are mirrors: none or as many */
     int32_t nv, ne, N, nf;
     rg_vec2 middle;       /* what they leave where it is */
+    double off;           /* radians: the most that the direction of an edge, turned, differs from that of its image */
     double (*A)[2][2];    /* [order] A_g, orthogonal, about the middle: a group to rounding, also where the drawing is not */
     int32_t *vertex;      /* [order][nv] vertex[g nv + v] = g(v) */
     int32_t *edge;        /* [order][ne] */
