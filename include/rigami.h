@@ -391,6 +391,7 @@ typedef struct rg_picture {
     double see_through;              /* part of the light that passes a facet, 0 ... 0.9; 0 */
     int shadow;                      /* non-zero: a soft one on the floor; 1 */
     int caption;                     /* non-zero: title and percent below; 0 */
+    const char *title;               /* of what has none of its own, for captions and pages; NULL: none */
     const char *image;               /* PNG file, printed on the paper's front, its upper side towards +y; NULL: none */
     rg_colouring colour;             /* what the colours of facets tell; paper */
     double fps;                      /* of animations: frames a second, 0.01 ... 1000; 30 */

@@ -124,6 +124,13 @@ static double peak_bytes(void)
     return 1024 * kilobytes;
 }
 
+/* A pattern without a title goes by its file's name. */
+static const char *name_of(const char *operand)
+{
+    const char *slash = strrchr(operand, '/');
+    return strcmp(operand, "-") == 0 ? NULL : slash ? slash + 1 : operand;
+}
+
 /* All outputs are tried, whatever becomes of one; the report comes last, as it tells how long they took. */
 static int write_all(const options *o, const rg_motion *m, progress *bar)
 {
@@ -131,10 +138,12 @@ static int write_all(const options *o, const rg_motion *m, progress *bar)
     rg_diag why = {0, ""};
     rg_status s;
     int status = ENDS_WELL;
+    rg_picture picture = o->picture;
+    picture.title = name_of(o->operand[o->operands - 1]);
     for (int i = 0; i < o->outputs; i++) {
         why = (rg_diag){0, ""};
         progress_say(bar, "writing", o->output[i]);
-        s = rg_motion_write(m, o->output[i], &o->picture, &why);
+        s = rg_motion_write(m, o->output[i], &picture, &why);
         progress_erase(bar);
         if (s != RG_OK) say_status(s, o->output[i], &why), status = ENDS_UNWRITTEN;
     }

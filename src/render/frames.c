@@ -204,7 +204,8 @@ static rg_status set_up(studio *s)
     char tells[80];
     s->tint = rg_tint_of(m, s->wish->picture.colour);
     rg_tint_words(&s->tint, tells, sizeof tells);
-    snprintf(s->title, sizeof s->title, "%s%s%s", m->title ? m->title : "", m->title && *m->title && *tells ? ": " : "", tells);
+    const char *title = m->title && *m->title ? m->title : s->wish->picture.title ? s->wish->picture.title : "";
+    snprintf(s->title, sizeof s->title, "%s%s%s", title, *title && *tells ? ": " : "", tells);
     rg_status status = rg_camera_check(&s->wish->picture, s->why);
     if (status != RG_OK) return status;
     s->camera = rg_mem_array(&s->mem, (size_t)m->report.frame_count, sizeof *s->camera);

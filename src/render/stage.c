@@ -169,7 +169,7 @@ static rg_status find_maps(const rg_mesh *m, const rg_memory *mem, rg_maps *maps
     if (!E) return RG_ENOMEM;
     for (int32_t e = 0; e < m->ne; e++)
         if (m->edge_crease[e] < m->N - m->added)
-            E[n++] = (rg_edge){{m->edge[e][0], m->edge[e][1]}, m->assignment[e], m->target[e], 0, e};
+            E[n++] = (rg_edge){.v = {m->edge[e][0], m->edge[e][1]}, .assignment = m->assignment[e], .target = m->target[e]};
     const rg_status s = rg_maps_find(maps, mem, m->nv, m->X, n, E, RG_SAME_PLACE * m->size);
     rg_mem_free(mem, E);
     return s;

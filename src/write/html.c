@@ -3,6 +3,9 @@
 #include "base/bytes.h"
 #include "base/json.h"
 #include "render/lift.h"
+#include "render/stage.h"
+#include "render/tint.h"
+#include "write/png.h"
 
 #include <string.h>
 
@@ -17,6 +20,8 @@ typedef struct book {
     const rg_mesh *mesh;
     rg_triangles t;
     rg_lift *layers;
+    rg_stage stage;
+    rg_tint_scale tint;
     int rigid;           /* facets keep their shape: the page finds their turns; else it moves the vertices alone */
     rg_vec3 *x, *lift;   /* [nv], [nf] */
     rg_vec3 middle;      /* of the sheet: single precision is about it */
@@ -38,37 +43,20 @@ static rg_status bytes(rg_json *j, const book *b, const char *key, const unsigne
     return RG_OK;
 }
 
-/* Corners about the centre of their facet. */
-static rg_status flat(rg_json *j, book *b)
+static rg_status points(rg_json *j, const book *b, const char *key, const rg_vec2 *X)
 {
-    const rg_mesh *m = b->mesh;
     unsigned char *to = b->bytes;
-    for (int32_t f = 0; f < m->nf; f++) {
-        const int32_t from = m->facet_start[f], end = m->facet_start[f + 1];
-        rg_vec2 sum = {0, 0};
-        for (int32_t i = from; i < end; i++) {
-            sum.x += m->X[m->facet_vertex[i]].x;
-            sum.y += m->X[m->facet_vertex[i]].y;
-        }
-        const rg_vec2 centre = {sum.x / (end - from), sum.y / (end - from)};
-        for (int32_t i = from; i < end; i++) {
-            const rg_vec2 x = rg_vec2_sub(m->X[m->facet_vertex[i]], centre);
-            to = rg_bytes_f32(rg_bytes_f32(to, x.x), x.y);
-        }
-    }
-    return bytes(j, b, "flat", to);
+    for (int32_t v = 0; v < b->mesh->nv; v++) to = rg_bytes_f32(rg_bytes_f32(to, X[v].x), X[v].y);
+    return bytes(j, b, key, to);
 }
 
-/* The sheet: how many corners each facet has, what edge begins at each, and triangles by places among the corners. */
+/* The sheet: how many corners each facet has, the vertex and the edge that begin at each, triangles by places among the corners; the
+ * edges' ends and assignments; the pattern given. */
 static rg_status sheet(rg_json *j, book *b)
 {
     const rg_mesh *m = b->mesh;
     rg_json_open_line(j, "corners", '[');
     for (int32_t f = 0; f < m->nf; f++) rg_json_integer(j, NULL, m->facet_start[f + 1] - m->facet_start[f]);
-    rg_json_close(j);
-    rg_json_open_line(j, "edges", '[');
-    for (int32_t i = 0; i < m->facet_start[m->nf]; i++)
-        rg_json_string(j, NULL, (const char[]){m->assignment[m->facet_edge[i]], 0});
     rg_json_close(j);
     rg_json_open_line(j, "triangles", '[');
     for (int32_t f = 0; f < m->nf; f++)
@@ -79,45 +67,109 @@ static rg_status sheet(rg_json *j, book *b)
         }
     rg_json_close(j);
     rg_json_integers(j, "vertex", m->facet_vertex, m->facet_start[m->nf]);
+    rg_json_integers(j, "edge", m->facet_edge, m->facet_start[m->nf]);
+    rg_json_integers(j, "ends", m->edge[0], 2 * m->ne);
+    char *kinds = rg_mem_array(&b->m->mem, (size_t)m->ne + 1, 1);
+    if (!kinds) return RG_ENOMEM;
+    memcpy(kinds, m->assignment, (size_t)m->ne);
+    rg_json_string(j, "assignment", kinds);
+    rg_mem_free(&b->m->mem, kinds);
     rg_json_bool(j, "rigid", b->rigid);
-    return b->rigid ? flat(j, b) : RG_OK;
+    return points(j, b, "pattern", m->X);
 }
 
 static rg_status one_frame(rg_json *j, book *b, int32_t k)
 {
     rg_status s = rg_lift_next(b->layers, b->x, b->lift);
     if (s != RG_OK) return s;
+    const int32_t nv = b->mesh->nv, nf = b->mesh->nf;
     unsigned char *to = b->bytes;
     int lifted = 0;
+    rg_stage_put(&b->stage, k, b->x, nv);
+    rg_stage_turn(&b->stage, k, b->lift, nf);
     rg_json_open_line(j, NULL, '{');
     rg_json_number(j, "percent", b->m->frame[k].percent);
-    for (int32_t v = 0; v < b->mesh->nv; v++) to = vector(to, rg_vec3_sub(b->x[v], b->middle));
+    for (int32_t v = 0; v < nv; v++) to = vector(to, b->x[v]);
     s = bytes(j, b, "points", to);
     to = b->bytes;
-    for (int32_t f = 0; f < b->mesh->nf; f++) {
+    for (int32_t f = 0; f < nf; f++) {
         to = vector(to, b->lift[f]);
         lifted |= b->lift[f].x != 0 || b->lift[f].y != 0 || b->lift[f].z != 0;
     }
     if (s == RG_OK && lifted) s = bytes(j, b, "lift", to);
+    if (s == RG_OK && !b->rigid) s = points(j, b, "flat", rg_motion_pattern(b->m, k));
+    if (s == RG_OK && b->tint.by != RG_COLOUR_PAPER) {
+        rg_tint_facets(&b->tint, b->m, k, b->lift, (unsigned char(*)[3])b->bytes);
+        s = bytes(j, b, "tint", b->bytes + 3 * (size_t)nf);
+    }
     rg_json_close(j);
     return s;
 }
 
-static void looks(rg_json *j, const rg_motion *m, const rg_picture *p)
+/* What happened, in a line: nothing where all went well. */
+static void told(rg_json *j, const rg_motion *m, const rg_tint_scale *t)
+{
+    const rg_report *r = &m->report;
+    char text[sizeof r->reason + 120], words[80];
+    size_t n = 0;
+    *text = 0;
+    if (r->outcome == RG_STOPPED) {
+        const int first = (int)strcspn(r->reason, ";"); /* what follows is for those who look into it */
+        n = (size_t)snprintf(text, sizeof text, "Stopped short at %.1f %%: %.*s. ", r->folded_percent, first, r->reason);
+    }
+    rg_tint_words(t, words, sizeof words);
+    if (*words && n < sizeof text) snprintf(text + n, sizeof text - n, "Colours: %s.", words);
+    rg_json_string(j, "told", text);
+}
+
+static void looks(rg_json *j, const book *b, const rg_picture *p)
 {
     const struct { const char *key; const unsigned char *c; } paper[] = {
         {"front", p->front}, {"back", p->back}, {"background", p->background}};
-    rg_json_string(j, "title", m->title ? m->title : "");
-    rg_json_string(j, "author", m->author ? m->author : "");
+    const char *title = b->m->title && *b->m->title ? b->m->title : p->title;
+    rg_json_string(j, "title", title ? title : "");
+    rg_json_string(j, "author", b->m->author ? b->m->author : "");
+    told(j, b->m, &b->tint);
     rg_json_open(j, "paper", '{');
     for (int i = 0; i < 3; i++)
         rg_json_integers(j, paper[i].key, (const int32_t[]){paper[i].c[0], paper[i].c[1], paper[i].c[2]}, 3);
     rg_json_close(j);
+    rg_json_integer(j, "lines", p->lines);
+    rg_json_number(j, "line_width", p->line_width);
+    rg_json_bool(j, "shadow", p->shadow);
+    rg_json_number(j, "hold", p->hold);
     rg_json_open_line(j, "camera", '{');
-    rg_json_number(j, "azimuth", p->azimuth);
-    rg_json_number(j, "elevation", p->elevation);
+    rg_json_number(j, "azimuth", b->stage.azimuth);
+    rg_json_number(j, "elevation", b->stage.elevation);
+    rg_json_number(j, "roll", b->stage.roll);
     rg_json_number(j, "zoom", p->zoom);
     rg_json_close(j);
+}
+
+/* The printed image as it is in its file, once it is known to be one. */
+static rg_status image(rg_json *j, const book *b, const rg_picture *p)
+{
+    unsigned char *rgba = NULL;
+    int32_t width, height;
+    if (!p->image) return RG_OK;
+    rg_status s = rg_png_read(&b->m->mem, p->image, &width, &height, &rgba, NULL);
+    rg_mem_free(&b->m->mem, rgba);
+    FILE *f = s == RG_OK ? fopen(p->image, "rb") : NULL;
+    unsigned char *all = NULL;
+    size_t room = 0, n = 0, got = 1;
+    if (s == RG_OK && !f) s = RG_EREAD;
+    while (s == RG_OK && got > 0) {
+        s = rg_mem_grow(&b->m->mem, (void **)&all, &room, n + 4096, 1);
+        if (s == RG_OK) n += got = fread(all + n, 1, room - n, f);
+    }
+    if (s == RG_OK && ferror(f)) s = RG_EREAD;
+    if (f) fclose(f);
+    char *text = s == RG_OK ? rg_base64_text(&b->m->mem, "", all, n) : NULL;
+    if (text) rg_json_string(j, "image", text);
+    else if (s == RG_OK) s = RG_ENOMEM;
+    rg_mem_free(&b->m->mem, text);
+    rg_mem_free(&b->m->mem, all);
+    return s;
 }
 
 static rg_status data(book *b, const rg_picture *p, FILE *out)
@@ -125,8 +177,9 @@ static rg_status data(book *b, const rg_picture *p, FILE *out)
     rg_json json, *j = &json;
     rg_json_begin(j, out);
     rg_json_open(j, NULL, '{');
-    looks(j, b->m, p);
-    rg_status s = sheet(j, b);
+    looks(j, b, p);
+    rg_status s = image(j, b, p);
+    if (s == RG_OK) s = sheet(j, b);
     rg_json_open(j, "frames", '[');
     for (int32_t k = 0; s == RG_OK && k < b->m->report.frame_count; k++) s = one_frame(j, b, k);
     rg_json_close(j);
@@ -134,19 +187,20 @@ static rg_status data(book *b, const rg_picture *p, FILE *out)
     return s;
 }
 
-static rg_status book_init(book *b, const rg_motion *m)
+static rg_status book_init(book *b, const rg_motion *m, const rg_picture *p)
 {
     const rg_memory *mem = &m->mem;
-    const size_t nf = (size_t)m->mesh.nf, nv = (size_t)m->mesh.nv, corners = (size_t)m->mesh.facet_start[nf];
+    const size_t nf = (size_t)m->mesh.nf, nv = (size_t)m->mesh.nv;
     *b = (book){.m = m, .mesh = &m->mesh, .rigid = 1, .middle = rg_motion_middle(m)};
     for (int32_t k = 0; k < m->report.frame_count; k++)
         b->rigid &= memcmp(rg_motion_pattern(m, k), m->mesh.X, nv * sizeof *m->mesh.X) == 0;
     rg_status s = rg_triangles_init(mem, &m->mesh, &b->t);
+    if (s == RG_OK) s = rg_stage_init(mem, m, p, &b->stage);
     if (s == RG_OK) s = rg_lift_create(mem, m, &b->t, &b->layers);
     if (s != RG_OK) return s;
     b->x = rg_mem_array(mem, nv, sizeof *b->x);
     b->lift = rg_mem_array(mem, nf, sizeof *b->lift);
-    b->bytes = rg_mem_array(mem, 12 * nf + 12 * nv + 8 * corners, 1);
+    b->bytes = rg_mem_array(mem, 12 * nf + 12 * nv, 1);
     return b->x && b->lift && b->bytes ? RG_OK : RG_ENOMEM;
 }
 
@@ -155,6 +209,7 @@ static void book_free(book *b)
     void *block[] = {b->x, b->lift, b->bytes};
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&b->m->mem, block[i]);
     rg_lift_destroy(b->layers);
+    rg_stage_free(&b->stage);
     rg_triangles_free(&b->t);
 }
 
@@ -164,7 +219,7 @@ rg_status rg_html_write(const rg_motion *m, int32_t frame, const rg_picture *p, 
     book b;
     size_t mark = 0;
     while (memcmp(PAGE + mark, MARK, sizeof MARK - 1) != 0) mark++; /* the page has one: the tests read it */
-    rg_status s = book_init(&b, m);
+    rg_status s = book_init(&b, m, p);
     if (s == RG_OK) {
         const size_t rest = mark + sizeof MARK - 1;
         fwrite(PAGE, 1, mark, out);
