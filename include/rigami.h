@@ -69,6 +69,11 @@ typedef enum rg_method {
 typedef enum rg_solver { RG_SOLVER_AUTO, RG_SOLVER_CG, RG_SOLVER_CHOLESKY, RG_SOLVER_SVD } rg_solver;
 typedef enum rg_triangulation { RG_TRIANGULATE_AUTO, RG_TRIANGULATE_NONE, RG_TRIANGULATE_ALL } rg_triangulation;
 
+typedef enum rg_contact_mode {
+    RG_CONTACT_AVOID,  /* look for a motion in which no facets pass through each other; as report, where none is found */
+    RG_CONTACT_REPORT, /* take the plain motion, and say */
+    RG_CONTACT_IGNORE  /* do not look */
+} rg_contact_mode;
 typedef enum rg_effort { RG_EFFORT_FAST, RG_EFFORT_NORMAL, RG_EFFORT_THOROUGH } rg_effort;
 typedef enum rg_symmetry_kept {
     RG_SYMMETRY_AUTO, /* the pattern's own, or as much of it as folds */
@@ -99,6 +104,7 @@ typedef struct rg_settings {
     int targets;                  /* non-zero: aim at the file's own fold angles where it has them; 1 */
     rg_triangulation triangulate; /* added creases; auto: none, and all where that stops short */
     double adjust;                /* gain of crease adjustment (3.3), 0: off, RG_ADJUST_AUTO: where nothing else folds */
+    rg_contact_mode contact;      /* facets that pass through each other; avoid */
     rg_effort effort;             /* how much is tried when the plain way stops short; normal */
     rg_symmetry_kept symmetry;    /* of the pattern with its mountains and valleys, in every state of the motion; auto */
     rg_method method;             /* auto: chosen, said in the report */
@@ -281,6 +287,8 @@ typedef struct rg_frame {
     double closure_residual; /* radians, recomputed from the fold angles */
 } rg_frame;
 
+typedef enum rg_contact_verdict { RG_CONTACT_UNCHECKED, RG_CONTACT_FREE, RG_CONTACT_CROSSES } rg_contact_verdict;
+
 typedef struct rg_report {
     rg_pattern_info pattern;
     int32_t added_creases, unknowns, constraints, components; /* the model */
@@ -303,6 +311,16 @@ typedef struct rg_report {
     double max_strain_from_original; /* over frames and edges: | 3D length / length in the pattern given - 1 | */
     int32_t symmetry;            /* order of the largest group of turns and mirrors that every frame has; 1: none */
     double max_asymmetry_deg;    /* over frames: largest difference of a crease to its image in that group */
+    rg_contact_verdict contact;  /* do facets pass through each other, in frames, or surely between them? */
+    int32_t first_contact_frame; /* the first that crosses, or that the way to does; -1: none */
+    double first_contact_percent; /* NAN: none */
+    int32_t contact_facets[2];   /* which; -1: none */
+    double contact_at[2][2];     /* their middles in the pattern, file coordinates */
+    int32_t contact_frames;      /* frames in which facets cross */
+    int32_t deepest_contact_frame; /* -1: none; */
+    int32_t contact_pairs;       /* and how many pairs of facets cross there, */
+    double contact_depth;        /* the deepest by this part of the sheet's size, the shortest way to part it; counts from 1e-4 on */
+    int32_t contact_unproved;    /* ways from frame to frame, before the first contact, that could not be proved free; 0: all are */
     int32_t wrong_side_creases;  /* driven creases that ended on the other side of flat than they should */
     int32_t blocking_vertex_count, blocking_crease_count;
     const int32_t *blocking_vertices, *blocking_creases; /* borrowed; vertex numbers and crease numbers of the mesh */

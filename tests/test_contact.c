@@ -71,11 +71,10 @@ static void random_triangle(unsigned *seed, triangle t)
 
 static double depth(triangle a, triangle b, rg_vec3 *axis)
 {
-    static const int32_t three[2][3] = {{0, 1, 2}, {3, 4, 5}};
     rg_vec3 x[6];
     memcpy(x, a, sizeof(triangle));
     memcpy(x + 3, b, sizeof(triangle));
-    const rg_plate A = {3, three[0], x, rg_depth_normal(x, three[0], 3)}, B = {3, three[1], x, rg_depth_normal(x, three[1], 3)};
+    const rg_plate A = {3, x, rg_depth_normal(x, 3)}, B = {3, x + 3, rg_depth_normal(x + 3, 3)};
     return rg_depth_of(&A, &B, 0, axis);
 }
 

@@ -82,10 +82,34 @@ static void summarize(const options *o, const char *name, const rg_motion *m)
     char files[4096], moved[120] = "";
     if (r->max_adjustment > SEEN)
         snprintf(moved, sizeof moved, ", with creases moved by up to %.2g %% of the sheet (--adjust off keeps them)", 100 * r->max_adjustment);
-    printf("%s: %s, %.1f %%%s; %d frames in %.2f s\n", name, r->outcome == RG_FOLDED ? "folded" : "stopped short", r->folded_percent, moved,
-           (int)r->frame_count, r->seconds_total);
+    const char *what = r->outcome != RG_FOLDED ? "stopped short" : r->contact == RG_CONTACT_CROSSES ? "folded, passing through itself" : "folded";
+    printf("%s: %s, %.1f %%%s; %d frames in %.2f s\n", name, what, r->folded_percent, moved, (int)r->frame_count, r->seconds_total);
     verdict_files(o, "  written   ", files, sizeof files);
     if (files[0]) puts(files);
+}
+
+/* A coordinate as people write it: rounding is no place. */
+static double tidy(double x, double size) { return fabs(x) > 1e-9 * size ? x : 0; }
+
+/* Of a motion that passes through itself: from where on, and which facets first. */
+static void say_contact(const char *name, const rg_report *r)
+{
+    const double size = r->pattern.size;
+    say("%s: %s only by passing through itself, from %.0f %%: facets %d at (%.6g, %.6g) and %d at (%.6g, %.6g)", name,
+        r->outcome == RG_FOLDED ? "reaches its end" : "comes that far", r->first_contact_percent, (int)r->contact_facets[0],
+        tidy(r->contact_at[0][0], size), tidy(r->contact_at[0][1], size), (int)r->contact_facets[1],
+        tidy(r->contact_at[1][0], size), tidy(r->contact_at[1][1], size));
+}
+
+static void summarize_contact(const rg_report *r)
+{
+    if (r->contact == RG_CONTACT_FREE && r->contact_unproved > 0)
+        printf("  contact   no facets cross in any frame; %d of the ways between frames could not be proved free\n", (int)r->contact_unproved);
+    else if (r->contact == RG_CONTACT_FREE)
+        printf("  contact   no facets cross, in frames or between them\n");
+    else if (r->contact == RG_CONTACT_CROSSES)
+        printf("  contact   facets cross from %.1f %%, in %d frames, up to %d pairs, %.2g of the sheet deep\n", r->first_contact_percent,
+               (int)r->contact_frames, (int)r->contact_pairs, r->contact_depth);
 }
 
 /* All the rest that the report has. */
@@ -98,6 +122,7 @@ static void tell_details(const rg_motion *m)
         printf("  states    %d of %d, %d of the ways through flat\n", (int)r->states_reached, (int)r->states, (int)r->by_flat_count);
     printf("  closure   %.1e rad at the worst vertex, edge strain %.1e, facet gap %.1e\n", r->max_closure_residual,
            r->max_edge_strain, r->max_facet_gap);
+    summarize_contact(r);
     printf("  model     %d creases (%d added: %s), %d constraints", (int)r->unknowns, (int)r->added_creases,
            r->why_triangulated, (int)r->constraints);
     if (rg_motion_mobility(m, r->frame_count / 2, &ways) == RG_OK) printf(", mobility %d", (int)ways);
@@ -192,7 +217,8 @@ int cmd_fold(const options *o)
             if (files[0] && !o->quiet) say("%s: %s", name, files);
         } else if (!o->quiet && !on_output) summarize(o, name, m);
         if (o->verbose && !on_output) tell_details(m);
-        if (status == ENDS_WELL && r->outcome != RG_FOLDED) status = ENDS_SHORT;
+        if (r->contact == RG_CONTACT_CROSSES) say_contact(name, r);
+        if (status == ENDS_WELL && (r->outcome != RG_FOLDED || r->contact == RG_CONTACT_CROSSES)) status = ENDS_SHORT;
     }
     rg_motion_destroy(m);
     states_free(&q);

@@ -43,6 +43,8 @@ static const char *const efforts[] = {[RG_EFFORT_FAST] = "fast", [RG_EFFORT_NORM
 static const char *const colourings[] = {[RG_COLOUR_PAPER] = "paper", [RG_COLOUR_STRAIN] = "strain", [RG_COLOUR_ROLL] = "roll",
                                          [RG_COLOUR_SPEED] = "speed", [RG_COLOUR_LAYER] = "layer", NULL};
 static const char *const loops[] = {[RG_LOOP_BACK] = "back", [RG_LOOP_FORWARD] = "forward", [RG_LOOP_ONCE] = "once", NULL};
+static const char *const contacts[] = {[RG_CONTACT_AVOID] = "avoid", [RG_CONTACT_REPORT] = "report",
+                                       [RG_CONTACT_IGNORE] = "ignore", NULL};
 
 #define AT(field) offsetof(options, field)
 #define READS (FOR_FOLD | FOR_INFO | FOR_CONVERT | FOR_CHART)
@@ -72,6 +74,8 @@ static const rule rules[] = {
      "fold a symmetric pattern by its symmetry, or by as much of it as folds (auto):"},
     {FOR_FOLD, "effort", 0, "HOW", CHOICE, AT(effort), 0, 0, 1, efforts,
      "how much is tried when the plain way stops short (normal):"},
+    {FOR_FOLD, "contact", 0, "WHAT", CHOICE, AT(contact), 0, 0, 1, contacts,
+     "facets that pass through each other: look for a motion without, take the plain one and say, or do not look (avoid):"},
     {FOR_FOLD, "fixed", 0, "FACET", WHOLE, AT(settings.fixed_facet), 0, INT32_MAX, 1, NULL,
      "the facet that stays where it is (the one nearest the middle)"},
     {READS, "from", 0, "FORMAT", CHOICE, AT(format), 0, 0, 1, formats,
@@ -402,6 +406,7 @@ static void settle(options *o)
     o->settings.effort = (rg_effort)o->effort;
     o->picture.colour = (rg_colouring)o->colour;
     o->picture.loop = (rg_loop)o->loop;
+    o->settings.contact = (rg_contact_mode)o->contact;
 }
 
 int options_parse(options *o, const command *c, int argc, char **argv)

@@ -8,7 +8,8 @@ rg_status rg_contact_work_init(const rg_plates *p, rg_contact_work *w)
     w->mem = p->mem;
     w->box = rg_mem_array(&p->mem, (size_t)p->nodes, sizeof *w->box);
     w->normal = rg_mem_array(&p->mem, (size_t)p->parts, sizeof *w->normal);
-    if (w->box && w->normal && rg_front_work_init(p, &w->front) == RG_OK) return RG_OK;
+    w->corner = rg_mem_array(&p->mem, (size_t)p->start[p->parts], sizeof *w->corner);
+    if (w->box && w->normal && w->corner && rg_front_work_init(p, &w->front) == RG_OK) return RG_OK;
     rg_contact_work_free(w);
     return RG_ENOMEM;
 }
@@ -18,6 +19,7 @@ void rg_contact_work_free(rg_contact_work *w)
     if (!w->mem.resize) return;
     rg_mem_free(&w->mem, w->box);
     rg_mem_free(&w->mem, w->normal);
+    rg_mem_free(&w->mem, w->corner);
     rg_front_work_free(&w->front);
     memset(w, 0, sizeof *w);
 }
@@ -27,7 +29,7 @@ typedef struct look {
     const rg_plates *p;
     const rg_vec3 *x;
     const rg_box *box;
-    const rg_vec3 *normal;
+    const rg_vec3 *corner, *normal;
     double least;          /* file units; what is not deeper is left out */
     int rising;            /* non-zero: `least` rises to the deepest so far */
     rg_contact_hit *hit;   /* [room] */
@@ -37,18 +39,22 @@ typedef struct look {
 
 static rg_plate plate(const look *l, int32_t a)
 {
-    return (rg_plate){l->p->start[a + 1] - l->p->start[a], l->p->vertex + l->p->start[a], l->x, l->normal[a]};
+    return (rg_plate){l->p->start[a + 1] - l->p->start[a], l->corner + l->p->start[a], l->normal[a]};
 }
 
-/* The depth of two parts of different facets, 0 where they do not cross. */
+/* The depth of parts of two facets, 0 where it is not more than `least` or where they only touch. */
+static double plates_cross(const rg_plates *p, const rg_plate *a, const rg_plate *b, int32_t f, int32_t g, double least, rg_vec3 *axis)
+{
+    int32_t corner;
+    const double depth = rg_depth_of(a, b, least, axis);
+    if (!(depth > 0)) return 0;
+    return rg_plates_shared(p->mesh, f, g, &corner) > 0 && !(rg_depth_stretch(a, b) > RG_CONTACT_STRETCH * p->size) ? 0 : depth;
+}
+
 static double parts_cross(const look *l, int32_t a, int32_t b, double least, rg_vec3 *axis)
 {
     const rg_plate A = plate(l, a), B = plate(l, b);
-    int32_t corner;
-    const double depth = rg_depth_of(&A, &B, least, axis);
-    if (!(depth > 0)) return 0;
-    const int touch = rg_plates_shared(l->p->mesh, l->p->facet[a], l->p->facet[b], &corner) > 0;
-    return touch && !(rg_depth_stretch(&A, &B) > RG_CONTACT_STRETCH * l->p->size) ? 0 : depth;
+    return plates_cross(l->p, &A, &B, l->p->facet[a], l->p->facet[b], least, axis);
 }
 
 /* Non-zero: parts before these two, of the same facets, cross as well, so that the pair was counted with them. */
@@ -100,17 +106,13 @@ static void meet(look *l, int32_t a, int32_t b)
 }
 
 /* How far one box must be moved along an axis to part what is in them: no pair in them is deeper. */
-static inline double over(double low, double high, double other_low, double other_high)
-{
-    const double a = high - other_low, b = other_high - low;
-    return a < b ? a : b;
-}
-
 static int may_cross(const look *l, int32_t i, int32_t k)
 {
     const rg_box *a = &l->box[i], *b = &l->box[k];
-    return over(a->low.x, a->high.x, b->low.x, b->high.x) > l->least && over(a->low.y, a->high.y, b->low.y, b->high.y) > l->least &&
-           over(a->low.z, a->high.z, b->low.z, b->high.z) > l->least;
+    /* All six are compared: which one decides cannot be foretold, and a branch foretold wrongly costs more. */
+    const double t = l->least;
+    return (a->high.x - b->low.x > t) & (b->high.x - a->low.x > t) & (a->high.y - b->low.y > t) & (b->high.y - a->low.y > t) &
+           (a->high.z - b->low.z > t) & (b->high.z - a->low.z > t);
 }
 
 static double extent(const rg_box *b)
@@ -145,10 +147,10 @@ static void visit(look *l, int32_t i)
 
 static look begin(const rg_plates *p, const rg_vec3 *x, double least, rg_contact_work *w)
 {
-    look l = {.p = p, .x = x, .box = w->box, .normal = w->normal, .least = least * p->size};
+    look l = {.p = p, .x = x, .box = w->box, .corner = w->corner, .normal = w->normal, .least = least * p->size};
     l.deepest.facet[0] = l.deepest.facet[1] = -1;
-    for (int32_t a = 0; a < p->parts; a++)
-        w->normal[a] = rg_depth_normal(x, p->vertex + p->start[a], p->start[a + 1] - p->start[a]);
+    for (int32_t j = 0; j < p->start[p->parts]; j++) w->corner[j] = x[p->vertex[j]];
+    for (int32_t a = 0; a < p->parts; a++) w->normal[a] = rg_depth_normal(w->corner + p->start[a], p->start[a + 1] - p->start[a]);
     return l;
 }
 
@@ -184,20 +186,21 @@ int rg_contact_deepest(const rg_plates *p, const rg_vec3 *x, double least, rg_co
     return 1;
 }
 
+static rg_plate one_plate(const rg_plates *p, const rg_vec3 *x, int32_t a, rg_vec3 corner[RG_PLATE_CORNERS])
+{
+    const int32_t n = p->start[a + 1] - p->start[a];
+    for (int32_t k = 0; k < n; k++) corner[k] = x[p->vertex[p->start[a] + k]];
+    return (rg_plate){n, corner, rg_depth_normal(corner, n)};
+}
+
 double rg_contact_depth(const rg_plates *p, const rg_vec3 *x, int32_t f, int32_t g, double least)
 {
-    look l = {.p = p, .x = x, .least = least * p->size};
+    rg_vec3 corner[2][RG_PLATE_CORNERS];
     double deepest = 0;
     for (int32_t a = p->first[f]; a < p->first[f + 1]; a++)
         for (int32_t b = p->first[g]; b < p->first[g + 1]; b++) {
-            const rg_vec3 normal[2] = {rg_depth_normal(x, p->vertex + p->start[a], p->start[a + 1] - p->start[a]),
-                                       rg_depth_normal(x, p->vertex + p->start[b], p->start[b + 1] - p->start[b])};
-            const rg_plate A = {p->start[a + 1] - p->start[a], p->vertex + p->start[a], x, normal[0]};
-            const rg_plate B = {p->start[b + 1] - p->start[b], p->vertex + p->start[b], x, normal[1]};
-            int32_t corner;
-            const double depth = rg_depth_of(&A, &B, fmax(l.least, deepest), NULL);
-            const int touch = rg_plates_shared(p->mesh, f, g, &corner) > 0;
-            if (depth > 0 && (!touch || rg_depth_stretch(&A, &B) > RG_CONTACT_STRETCH * p->size)) deepest = depth;
+            const rg_plate A = one_plate(p, x, a, corner[0]), B = one_plate(p, x, b, corner[1]);
+            deepest = fmax(deepest, plates_cross(p, &A, &B, f, g, fmax(least * p->size, deepest), NULL));
         }
     return deepest / p->size;
 }

@@ -22,6 +22,7 @@ typedef struct rg_contact_hit {
 typedef struct rg_contact_work {
     rg_memory mem;
     rg_box *box;         /* [nodes] */
+    rg_vec3 *corner;     /* [corners of parts] where they are */
     rg_vec3 *normal;     /* [parts] */
     rg_front_work front;
 } rg_contact_work;

@@ -4,11 +4,11 @@
  * told by the normals. */
 static const double PARALLEL = 1e-9;
 
-rg_vec3 rg_depth_normal(const rg_vec3 *x, const int32_t *v, int32_t n)
+rg_vec3 rg_depth_normal(const rg_vec3 *x, int32_t n)
 {
     rg_vec3 sum = {0, 0, 0};
     for (int32_t i = 1; i + 1 < n; i++)
-        sum = rg_vec3_add(sum, rg_vec3_cross(rg_vec3_sub(x[v[i]], x[v[0]]), rg_vec3_sub(x[v[i + 1]], x[v[0]])));
+        sum = rg_vec3_add(sum, rg_vec3_cross(rg_vec3_sub(x[i], x[0]), rg_vec3_sub(x[i + 1], x[0])));
     const double length = rg_vec3_length(sum);
     return length > 0 ? rg_vec3_scale(1 / length, sum) : (rg_vec3){0, 0, 0};
 }
@@ -18,7 +18,7 @@ static double through_plane(const rg_plate *a, const rg_plate *b)
 {
     double low = INFINITY, high = -INFINITY;
     for (int32_t k = 0; k < b->n; k++) {
-        const double d = rg_vec3_dot(a->normal, rg_vec3_sub(b->x[b->v[k]], a->x[a->v[0]]));
+        const double d = rg_vec3_dot(a->normal, rg_vec3_sub(b->x[k], a->x[0]));
         if (d < low) low = d;
         if (d > high) high = d;
     }
@@ -30,7 +30,7 @@ static void shadow(const rg_plate *a, rg_vec3 u, rg_vec3 origin, double *low, do
     *low = INFINITY;
     *high = -INFINITY;
     for (int32_t k = 0; k < a->n; k++) {
-        const double d = rg_vec3_dot(u, rg_vec3_sub(a->x[a->v[k]], origin));
+        const double d = rg_vec3_dot(u, rg_vec3_sub(a->x[k], origin));
         if (d < *low) *low = d;
         if (d > *high) *high = d;
     }
@@ -38,7 +38,7 @@ static void shadow(const rg_plate *a, rg_vec3 u, rg_vec3 origin, double *low, do
 
 static rg_vec3 side(const rg_plate *a, int32_t k)
 {
-    return rg_vec3_sub(a->x[a->v[k + 1 < a->n ? k + 1 : 0]], a->x[a->v[k]]);
+    return rg_vec3_sub(a->x[k + 1 < a->n ? k + 1 : 0], a->x[k]);
 }
 
 double rg_depth_of(const rg_plate *a, const rg_plate *b, double least, rg_vec3 *axis)
@@ -49,7 +49,7 @@ double rg_depth_of(const rg_plate *a, const rg_plate *b, double least, rg_vec3 *
     const double other = through_plane(b, a);
     if (!(other > least)) return 0;
     if (other < depth) depth = other, how = b->normal;
-    const rg_vec3 origin = a->x[a->v[0]];
+    const rg_vec3 origin = a->x[0];
     for (int32_t i = 0; i < a->n; i++) {
         const rg_vec3 e = side(a, i);
         for (int32_t k = 0; k < b->n; k++) {
@@ -76,8 +76,8 @@ static void cut_of(const rg_plate *a, const rg_plate *b, rg_vec3 d, rg_vec3 orig
     *low = INFINITY;
     *high = -INFINITY;
     for (int32_t k = 0; k < a->n; k++) {
-        const rg_vec3 p = a->x[a->v[k]], e = side(a, k);
-        const double s = rg_vec3_dot(b->normal, rg_vec3_sub(p, b->x[b->v[0]])), t = s + rg_vec3_dot(b->normal, e);
+        const rg_vec3 p = a->x[k], e = side(a, k);
+        const double s = rg_vec3_dot(b->normal, rg_vec3_sub(p, b->x[0])), t = s + rg_vec3_dot(b->normal, e);
         if (s * t > 0 || s == t) continue;
         const double at = rg_vec3_dot(d, rg_vec3_sub(rg_vec3_axpy(s / (s - t), e, p), origin));
         *low = fmin(*low, at);
@@ -91,7 +91,7 @@ double rg_depth_stretch(const rg_plate *a, const rg_plate *b)
     const double length = rg_vec3_length(d);
     double low, high, other_low, other_high;
     if (!(length > 0)) return 0;
-    cut_of(a, b, rg_vec3_scale(1 / length, d), a->x[a->v[0]], &low, &high);
-    cut_of(b, a, rg_vec3_scale(1 / length, d), a->x[a->v[0]], &other_low, &other_high);
+    cut_of(a, b, rg_vec3_scale(1 / length, d), a->x[0], &low, &high);
+    cut_of(b, a, rg_vec3_scale(1 / length, d), a->x[0], &other_low, &other_high);
     return fmax(0, fmin(high, other_high) - fmax(low, other_low));
 }

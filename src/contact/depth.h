@@ -13,13 +13,12 @@
 
 typedef struct rg_plate {
     int32_t n;
-    const int32_t *v; /* [n] into x */
-    const rg_vec3 *x;
+    const rg_vec3 *x; /* [n] corners */
     rg_vec3 normal;   /* unit length */
 } rg_plate;
 
-/* The unit normal of a plane polygon; zero where it has no area. */
-rg_vec3 rg_depth_normal(const rg_vec3 *x, const int32_t *v, int32_t n);
+/* The unit normal of a plane polygon x[n]; zero where it has no area. */
+rg_vec3 rg_depth_normal(const rg_vec3 *x, int32_t n);
 /* The depth where it is more than `least` >= 0, else 0. axis: out, may be NULL: unit, along which moving b, or back, parts them. */
 double rg_depth_of(const rg_plate *a, const rg_plate *b, double least, rg_vec3 *axis);
 /* The length over which two plates cross along the line of their planes. */

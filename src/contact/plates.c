@@ -275,20 +275,3 @@ void rg_plates_boxes(const rg_plates *p, const rg_vec3 *x, rg_box *box)
     }
     around_children(p, box);
 }
-
-void rg_plates_sweep_boxes(const rg_plates *p, const rg_vec3 *x, const rg_vec3 *y, double by, rg_box *box)
-{
-    for (int32_t i = 0; i < p->nodes; i++) {
-        const int32_t a = p->node[i].part;
-        if (a < 0) continue;
-        const int32_t *v = p->vertex + p->start[a], n = p->start[a + 1] - p->start[a];
-        box[i] = (rg_box){x[v[0]], x[v[0]]};
-        for (int32_t k = 0; k < n; k++) {
-            rg_box_take_in(&box[i], x[v[k]]);
-            rg_box_take_in(&box[i], y[v[k]]);
-        }
-        box[i].low = (rg_vec3){box[i].low.x - by, box[i].low.y - by, box[i].low.z - by};
-        box[i].high = (rg_vec3){box[i].high.x + by, box[i].high.y + by, box[i].high.z + by};
-    }
-    around_children(p, box);
-}

@@ -67,7 +67,5 @@ static inline void rg_box_take_in(rg_box *box, rg_vec3 x)
 
 /* box[nodes]: out, around the parts as placed by x[nv], and then around all below a node. */
 void rg_plates_boxes(const rg_plates *p, const rg_vec3 *x, rg_box *box);
-/* The same for parts that go from x to y, each box larger by `by` on every side. */
-void rg_plates_sweep_boxes(const rg_plates *p, const rg_vec3 *x, const rg_vec3 *y, double by, rg_box *box);
 
 #endif

@@ -16,10 +16,9 @@ rg_status rg_sweep_work_init(const rg_plates *p, rg_sweep_work *w)
 {
     memset(w, 0, sizeof *w);
     w->mem = p->mem;
-    w->box = rg_mem_array(&p->mem, (size_t)p->nodes, sizeof *w->box);
+    w->ball = rg_mem_array(&p->mem, (size_t)p->nodes, sizeof *w->ball);
     w->back = rg_mem_array(&p->mem, (size_t)p->mesh->nf, sizeof *w->back);
-    w->angle = rg_mem_array(&p->mem, (size_t)p->mesh->nf, sizeof *w->angle);
-    if (w->box && w->back && w->angle && rg_front_work_init(p, &w->front) == RG_OK) return RG_OK;
+    if (w->ball && w->back && rg_front_work_init(p, &w->front) == RG_OK) return RG_OK;
     rg_sweep_work_free(w);
     return RG_ENOMEM;
 }
@@ -27,9 +26,8 @@ rg_status rg_sweep_work_init(const rg_plates *p, rg_sweep_work *w)
 void rg_sweep_work_free(rg_sweep_work *w)
 {
     if (!w->mem.resize) return;
-    rg_mem_free(&w->mem, w->box);
+    rg_mem_free(&w->mem, w->ball);
     rg_mem_free(&w->mem, w->back);
-    rg_mem_free(&w->mem, w->angle);
     rg_front_work_free(&w->front);
     memset(w, 0, sizeof *w);
 }
@@ -259,9 +257,8 @@ typedef struct sweep {
     const rg_plates_state *from, *to;
     const rg_sweep_rule *rule;
     const rg_sweep_work *w;
-    double across; /* of the largest facet */
-    int rigid;     /* non-zero: no facet changes its shape */
     rg_sweep_found found;
+    int rigid; /* non-zero: no facet changes its shape */
     pair m;
 } sweep;
 
@@ -363,12 +360,12 @@ static int32_t hinge_of(const rg_plates *p, int32_t a, int32_t b)
 
 /* As the first facet sees it, so that it stays where it is: do the second's corners stay on one side of it? They go straight but
  * for the height of an arc. */
-static int stays_away(const sweep *s, int32_t a, int32_t b)
+static int stays_away(const sweep *s, int32_t a, int32_t b, double arm)
 {
     const rg_plates *p = s->p;
     const rg_place *back = &s->w->back[p->facet[a]];
     const rg_vec3 *x = s->from->x, *y = s->to->x;
-    const double angle = s->w->angle[p->facet[a]] + s->w->angle[p->facet[b]], by = s->across * angle * angle / 8;
+    const double angle = rg_front_angle(&back->R, &s->w->back[p->facet[b]].R), by = arm * angle * angle / 8;
     const int32_t *v = p->vertex + p->start[a], n = p->start[a + 1] - p->start[a];
     rg_box A = {x[v[0]], x[v[0]]}, B = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     for (int32_t k = 1; k < n; k++) rg_box_take_in(&A, x[v[k]]);
@@ -380,7 +377,7 @@ static int stays_away(const sweep *s, int32_t a, int32_t b)
            A.low.z - B.high.z > by || B.low.z - A.high.z > by;
 }
 
-static void meet(sweep *s, int32_t a, int32_t b)
+static void meet(sweep *s, int32_t a, int32_t b, double arm)
 {
     const rg_plates *p = s->p;
     int32_t corner;
@@ -393,21 +390,41 @@ static void meet(sweep *s, int32_t a, int32_t b)
     const int32_t shared = rg_plates_shared(p->mesh, p->facet[a], p->facet[b], &corner);
     const int32_t hinge = shared > 1 ? hinge_of(p, a, b) : -1;
     if (hinge >= 0) close_hinge(s, a, b, hinge);
-    else if (shared > 0 || !s->rigid || !stays_away(s, a, b)) advance(s, a, b, corner);
+    else if (shared > 0 || !s->rigid || !stays_away(s, a, b, arm)) advance(s, a, b, corner);
 }
 
-static int boxes_meet(const rg_box *a, const rg_box *b)
+/* How near the segment from q to r comes to the origin. */
+static double nearest_on(rg_vec3 q, rg_vec3 r)
 {
-    return a->low.x <= b->high.x && b->low.x <= a->high.x && a->low.y <= b->high.y && b->low.y <= a->high.y &&
-           a->low.z <= b->high.z && b->low.z <= a->high.z;
+    const rg_vec3 d = rg_vec3_sub(r, q);
+    const double length = rg_vec3_dot(d, d), t = length > 0 ? -rg_vec3_dot(q, d) / length : 0;
+    return rg_vec3_length(t <= 0 ? q : t >= 1 ? r : rg_vec3_axpy(t, d, q));
+}
+
+/* Seen from a facet below the one node, so that it stays where it is, the middle of a part below the other goes straight; both are
+ * within their arms of their middles. From another facet of that node it goes straight too, but to an end that is off by the
+ * distance times the angle between them. So if the one way comes nowhere near, none does. */
+static int passes(const sweep *s, const rg_sweep_ball *a, const rg_sweep_ball *b)
+{
+    const rg_vec3 q = rg_vec3_sub(b->middle[0], a->middle[0]), d = rg_vec3_sub(b->middle[1], a->middle[1]);
+    const double near_0 = a->radius[0] + b->radius[0], near_1 = a->radius[1] + b->radius[1];
+    const double off = fmax(near_0, near_1 + a->spread * (rg_vec3_length(d) + near_1));
+    return nearest_on(q, rg_mat3_mul_vec(s->w->back[a->facet].R, d)) > off + a->arm + b->arm;
+}
+
+/* Whichever of a pair is the first. */
+static int may_meet(const sweep *s, int32_t i, int32_t k)
+{
+    const rg_sweep_ball *a = &s->w->ball[i], *b = &s->w->ball[k];
+    return !passes(s, a, b) || !passes(s, b, a);
 }
 
 static void visit_two(sweep *s, int32_t i, int32_t k)
 {
-    if (!boxes_meet(&s->w->box[i], &s->w->box[k])) return;
+    if (!may_meet(s, i, k)) return;
     const rg_plates_node *a = &s->p->node[i], *b = &s->p->node[k];
     if (a->part >= 0 && b->part >= 0) {
-        meet(s, a->part, b->part);
+        meet(s, a->part, b->part, fmax(s->w->ball[i].arm, s->w->ball[k].arm));
     } else if (b->part >= 0 || (a->part < 0 && a->end - i >= b->end - k)) {
         visit_two(s, i + 1, k);
         visit_two(s, a->right, k);
@@ -428,47 +445,66 @@ static void visit(sweep *s, int32_t i)
 
 /* ------------------------------------------------------------------------------------------------------- step ---- */
 
-/* The most that any facet turns, that any corner goes, the diameter of the largest facet, the most that one changes its shape. */
-typedef struct extremes { double angle, way, across, stretch; } extremes;
-
-static extremes find_extremes(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double *angle)
+/* The corners of part a about their middle, in both states. */
+static void leaf_ball(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, int32_t a, rg_sweep_ball *ball)
 {
-    const rg_mesh *m = p->mesh;
-    extremes x = {0, 0, 0, 0};
-    double way = 0, across = 0, stretch = 0; /* squared */
-    for (int32_t v = 0; v < m->nv; v++) {
-        const rg_vec3 d = rg_vec3_sub(to->x[v], from->x[v]);
-        const rg_vec2 e = rg_vec2_sub(to->X[v], from->X[v]);
-        way = larger(way, rg_vec3_dot(d, d));
-        stretch = larger(stretch, rg_vec2_dot(e, e));
-    }
-    for (int32_t f = 0; f < m->nf; f++) {
-        rg_vec2 low = from->X[m->facet_vertex[m->facet_start[f]]], high = low;
-        for (int32_t j = m->facet_start[f] + 1; j < m->facet_start[f + 1]; j++) {
-            const rg_vec2 c = from->X[m->facet_vertex[j]];
-            low = (rg_vec2){c.x < low.x ? c.x : low.x, c.y < low.y ? c.y : low.y};
-            high = (rg_vec2){larger(high.x, c.x), larger(high.y, c.y)};
+    const int32_t *v = p->vertex + p->start[a], n = p->start[a + 1] - p->start[a];
+    *ball = (rg_sweep_ball){.facet = p->facet[a]};
+    double most = 0; /* squared */
+    for (int end = 0; end < 2; end++) {
+        const rg_vec3 *x = end ? to->x : from->x;
+        rg_vec3 middle = {0, 0, 0};
+        for (int32_t k = 0; k < n; k++) middle = rg_vec3_add(middle, x[v[k]]);
+        middle = rg_vec3_scale(1.0 / n, middle);
+        for (int32_t k = 0; k < n; k++) {
+            const rg_vec3 d = rg_vec3_sub(x[v[k]], middle);
+            most = larger(most, rg_vec3_dot(d, d));
         }
-        const rg_vec2 diagonal = rg_vec2_sub(high, low);
-        angle[f] = rg_front_angle(&from->place[f].R, &to->place[f].R);
-        across = larger(across, rg_vec2_dot(diagonal, diagonal));
-        x.angle = larger(x.angle, angle[f]);
+        ball->middle[end] = middle;
     }
-    x.way = sqrt(way), x.stretch = 2 * sqrt(stretch);
-    x.across = sqrt(across) + x.stretch;
-    return x;
+    ball->arm = sqrt(most);
 }
 
-/* How far a plate can be, at any time, from where its corners would be if they went straight; all turn about the first of a pair
- * as it turns about its middle, and the pair meets. With P(t) the first's place, P = (1 - t) P0 + t P1 + E, where |E y| is at
- * most |y| angle^2 / 8, the height of the arc; y(t) is as near to straight; and ((1 - t) P0 + t P1) ((1 - t) y0 + t y1) is off
- * by t (1 - t) (P1 - P0) (y1 - y0). A point of the second that meets the first is within a diameter of the first's middle, and so is any other within two. */
-static double bulge(extremes x)
+/* The ball around two. */
+static void join_balls(const rg_sweep_ball *a, const rg_sweep_ball *b, int end, rg_sweep_ball *both)
 {
-    if (!(x.angle < 0.5)) return INFINITY;
-    const double height = x.across * x.angle * x.angle / 2; /* of the second's arc: it turns by up to twice as much, seen from the first */
-    const double far = 2 * x.across + height, go = (2 * x.way + far * x.angle + x.stretch) / (1 - x.angle);
-    return height + far * x.angle * x.angle / 8 + x.angle * (go + x.stretch) / 4 + x.angle * x.stretch;
+    const rg_vec3 d = rg_vec3_sub(b->middle[end], a->middle[end]);
+    const double far = rg_vec3_length(d), r = a->radius[end], q = b->radius[end];
+    if (r >= far + q || q >= far + r) {
+        both->middle[end] = r >= q ? a->middle[end] : b->middle[end];
+        both->radius[end] = larger(r, q);
+        return;
+    }
+    both->radius[end] = (far + r + q) / 2;
+    both->middle[end] = rg_vec3_axpy((both->radius[end] - r) / far, d, a->middle[end]);
+}
+
+/* Facets turn otherwise than the first below their node by no more than the next nodes differ, and theirs from these. */
+static void find_balls(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, rg_sweep_work *w)
+{
+    for (int32_t f = 0; f < p->mesh->nf; f++) {
+        const rg_place *A = &from->place[f], *B = &to->place[f];
+        w->back[f].R = rg_mat3_mul(A->R, transpose(B->R));
+        w->back[f].t = rg_vec3_sub(A->t, rg_mat3_mul_vec(w->back[f].R, B->t));
+    }
+    for (int32_t i = p->nodes - 1; i >= 0; i--) {
+        rg_sweep_ball *ball = &w->ball[i];
+        if (p->node[i].part >= 0) {
+            leaf_ball(p, from, to, p->node[i].part, ball);
+            continue;
+        }
+        const rg_sweep_ball *left = &w->ball[i + 1], *right = &w->ball[p->node[i].right];
+        join_balls(left, right, 0, ball);
+        join_balls(left, right, 1, ball);
+        ball->arm = larger(left->arm, right->arm);
+        ball->facet = left->facet;
+        ball->spread = larger(left->spread, right->spread + rg_front_angle(&w->back[left->facet].R, &w->back[right->facet].R));
+    }
+}
+
+static int keeps_shape(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to)
+{
+    return from->X == to->X || memcmp(from->X, to->X, (size_t)p->mesh->nv * sizeof *from->X) == 0;
 }
 
 rg_sweep_found rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, const rg_sweep_rule *rule,
@@ -481,14 +517,8 @@ rg_sweep_found rg_sweep_step(const rg_plates *p, const rg_plates_state *from, co
         s.found.in_front = 1;
         return s.found;
     }
-    const extremes x = find_extremes(p, from, to, w->angle);
-    s.across = x.across;
-    s.rigid = x.stretch == 0;
-    for (int32_t f = 0; f < p->mesh->nf; f++) {
-        w->back[f].R = rg_mat3_mul(from->place[f].R, transpose(to->place[f].R));
-        w->back[f].t = rg_vec3_sub(from->place[f].t, rg_mat3_mul_vec(w->back[f].R, to->place[f].t));
-    }
-    rg_plates_sweep_boxes(p, from->x, to->x, bulge(x), w->box);
+    s.rigid = keeps_shape(p, from, to);
+    find_balls(p, from, to, w);
     visit(&s, 0);
     return s.found;
 }

@@ -39,11 +39,19 @@ typedef struct rg_sweep_found {
     int32_t pairs, advancements; /* looked at, made */
 } rg_sweep_found;
 
+/* What is below a node of the tree, in both states: parts whose middles are in two balls. */
+typedef struct rg_sweep_ball {
+    rg_vec3 middle[2];
+    double radius[2];
+    double arm;    /* the farthest corner of a part from its middle */
+    double spread; /* its facets turn by as much more, or otherwise, than the first of them */
+    int32_t facet; /* that first one */
+} rg_sweep_ball;
+
 typedef struct rg_sweep_work {
     rg_memory mem;
-    rg_box *box;         /* [nodes] */
+    rg_sweep_ball *ball; /* [nodes] */
     rg_place *back;      /* [nf] from the second state back to the first */
-    double *angle;       /* [nf] between them */
     rg_front_work front;
 } rg_sweep_work;
 

@@ -1,4 +1,5 @@
 #include "motion/measure.h"
+#include "contact/course.h"
 #include "kinematics/loop.h"
 #include "mesh/components.h"
 #include "mesh/symmetry.h"
@@ -130,12 +131,45 @@ static rg_status measure_symmetry(rg_motion *m)
     return s;
 }
 
+/* What is known of contact once all frames are in; a NULL course: nothing is. */
+static void measure_contact(rg_motion *m, rg_course *c)
+{
+    rg_report *r = &m->report;
+    r->first_contact_frame = r->deepest_contact_frame = r->contact_facets[0] = r->contact_facets[1] = -1;
+    r->first_contact_percent = NAN;
+    if (!c) return;
+    rg_course_end(c);
+    const rg_course_found *f = &c->found;
+    r->contact = f->first < 0 ? RG_CONTACT_FREE : RG_CONTACT_CROSSES;
+    r->contact_unproved = f->unproved;
+    r->contact_frames = f->crossing;
+    r->deepest_contact_frame = f->deepest_state;
+    r->contact_pairs = f->pairs;
+    r->contact_depth = f->deepest.depth;
+    if (f->first < 0) return;
+    r->first_contact_frame = f->first;
+    r->first_contact_percent = m->frame[f->first].percent;
+    if (f->between) r->first_contact_percent += (1 - f->time) * (m->frame[f->first - 1].percent - m->frame[f->first].percent);
+    for (int k = 0; k < 2; k++) {
+        const rg_vec2 at = rg_plates_middle(&m->mesh, f->facet[k]);
+        r->contact_facets[k] = f->facet[k];
+        r->contact_at[k][0] = at.x, r->contact_at[k][1] = at.y;
+    }
+}
+
 rg_status rg_measure_frames(rg_motion *m)
 {
+    const int looks = m->settings.contact != RG_CONTACT_IGNORE;
+    rg_course course = {0};
     gauge g = {0};
-    const int ok = make_room(&g, &m->mem, &m->mesh);
+    const int ok = make_room(&g, &m->mem, &m->mesh) && (!looks || rg_course_init(&m->mesh, &course) == RG_OK);
     if (ok) m->report.components = rg_components_find(&m->mesh, g.part);
-    for (int32_t k = 0; ok && k < m->report.frame_count; k++) measure_frame(m, k, &g);
+    for (int32_t k = 0; ok && k < m->report.frame_count; k++) {
+        measure_frame(m, k, &g);
+        if (looks) rg_course_add(&course, &(rg_plates_state){rg_motion_pattern(m, k), g.place, g.x});
+    }
+    if (ok) measure_contact(m, looks ? &course : NULL);
+    rg_course_free(&course);
     void *block[] = {g.rho, g.theta, g.sector, g.place, g.x, g.part};
     for (int i = 0; i < 6; i++) rg_mem_free(&m->mem, block[i]);
     return ok ? measure_symmetry(m) : RG_ENOMEM;

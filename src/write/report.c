@@ -83,6 +83,30 @@ static void blocking(rg_json *j, const rg_report *r)
     rg_json_integers(j, "blocking_creases", r->blocking_creases, r->blocking_crease_count);
 }
 
+/* null: there is none. */
+static void frame_number(rg_json *j, const char *key, int32_t frame)
+{
+    if (frame >= 0) rg_json_integer(j, key, frame);
+    else rg_json_number(j, key, NAN);
+}
+
+static void contact(rg_json *j, const rg_report *r)
+{
+    static const char *const verdict[] = {[RG_CONTACT_UNCHECKED] = "unchecked", [RG_CONTACT_FREE] = "free", [RG_CONTACT_CROSSES] = "crosses"};
+    rg_json_string(j, "contact", verdict[r->contact]);
+    frame_number(j, "first_contact_frame", r->first_contact_frame);
+    rg_json_number(j, "first_contact_percent", r->first_contact_percent);
+    rg_json_integers(j, "contact_facets", r->contact_facets, r->contact_facets[0] < 0 ? 0 : 2);
+    rg_json_open_line(j, "contact_at", '[');
+    for (int k = 0; k < 2 && r->contact_facets[0] >= 0; k++) rg_json_numbers(j, NULL, r->contact_at[k], 2);
+    rg_json_close(j);
+    rg_json_integer(j, "contact_frames", r->contact_frames);
+    frame_number(j, "deepest_contact_frame", r->deepest_contact_frame);
+    rg_json_integer(j, "contact_pairs", r->contact_pairs);
+    rg_json_number(j, "contact_depth", r->contact_depth);
+    rg_json_integer(j, "contact_unproved", r->contact_unproved);
+}
+
 static void result(rg_json *j, const rg_motion *m, int32_t ways)
 {
     const rg_report *r = &m->report;
@@ -105,7 +129,7 @@ static void result(rg_json *j, const rg_motion *m, int32_t ways)
     rg_json_string(j, "layers", r->layers);
     rg_json_string(j, "layer_orders", r->layer_orders && *r->layer_orders ? r->layer_orders : NULL);
     rg_json_string(j, "layers_reason", r->layers_reason);
-    rg_json_number(j, "first_contact_frame", NAN); /* null: contact of facets is not looked for */
+    contact(j, r);
     rg_json_close(j);
 }
 

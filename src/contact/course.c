@@ -1,0 +1,122 @@
+#include "contact/course.h"
+
+#include <string.h>
+
+rg_status rg_course_init(const rg_mesh *m, rg_course *c)
+{
+    memset(c, 0, sizeof *c);
+    c->mem = m->mem;
+    rg_status s = rg_plates_init(m, &c->plates);
+    if (s == RG_OK) s = rg_contact_work_init(&c->plates, &c->look);
+    if (s == RG_OK) s = rg_sweep_work_init(&c->plates, &c->sweep);
+    c->worst = rg_mem_array(&m->mem, (size_t)m->nv, sizeof *c->worst);
+    if (!c->worst) s = RG_ENOMEM;
+    for (int i = 0; i < 3; i++) {
+        c->X[i] = rg_mem_array(&m->mem, (size_t)m->nv, sizeof *c->X[i]);
+        c->place[i] = rg_mem_array(&m->mem, (size_t)m->nf, sizeof *c->place[i]);
+        c->x[i] = rg_mem_array(&m->mem, (size_t)m->nv, sizeof *c->x[i]);
+        if (!c->X[i] || !c->place[i] || !c->x[i]) s = RG_ENOMEM;
+        c->state[i] = (rg_plates_state){c->X[i], c->place[i], c->x[i]};
+    }
+    c->found = (rg_course_found){.first = -1, .time = 1, .facet = {-1, -1}, .deepest_state = -1, .deepest = {.facet = {-1, -1}},
+                                 .first_unproved = -1};
+    if (s != RG_OK) rg_course_free(c);
+    return s;
+}
+
+void rg_course_free(rg_course *c)
+{
+    if (!c->mem.resize) return;
+    rg_sweep_work_free(&c->sweep);
+    rg_contact_work_free(&c->look);
+    rg_plates_free(&c->plates);
+    for (int i = 0; i < 3; i++) {
+        rg_mem_free(&c->mem, c->X[i]);
+        rg_mem_free(&c->mem, c->place[i]);
+        rg_mem_free(&c->mem, c->x[i]);
+    }
+    rg_mem_free(&c->mem, c->worst);
+    memset(c, 0, sizeof *c);
+}
+
+/* The way from state k - 1 to state k, if nothing crossed before; bend: the larger second difference at its ends. */
+static void look_between(rg_course *c, int32_t k, double bend)
+{
+    rg_course_found *f = &c->found;
+    const rg_plates_state *from = &c->state[(k + 2) % 3], *to = &c->state[k % 3];
+    if (f->first >= 0) return;
+    rg_sweep_rule rule = {RG_CONTACT_TOLERANCE, 0, NULL, NULL};
+    rg_sweep_found way = rg_sweep_step(&c->plates, from, to, &rule, &c->sweep);
+    f->ways++;
+    if (way.verdict == RG_SWEEP_FREE) return;
+    const rg_sweep_found first = way;
+    rule.depth += 2 * bend / 8 / c->plates.size;
+    if (way.verdict == RG_SWEEP_CONTACT) way = rg_sweep_step(&c->plates, from, to, &rule, &c->sweep);
+    if (way.verdict == RG_SWEEP_CONTACT) {
+        f->first = k;
+        f->between = 1;
+        f->time = first.time;
+        memcpy(f->facet, first.facet, sizeof f->facet);
+        return;
+    }
+    if (f->unproved++ == 0) f->first_unproved = k;
+}
+
+/* State k by itself. */
+static void look_at(rg_course *c, int32_t k)
+{
+    rg_course_found *f = &c->found;
+    const rg_vec3 *x = c->state[k % 3].x;
+    rg_contact_hit hit = c->last;
+    /* What crossed before crosses still, as a rule; then only what is deeper than all so far is looked for. */
+    const int still = f->crossing > 0 && rg_contact_depth(&c->plates, x, hit.facet[0], hit.facet[1], RG_CONTACT_TOLERANCE) > 0;
+    const double least = still ? f->deepest.depth : RG_CONTACT_TOLERANCE;
+    const int found = rg_contact_deepest(&c->plates, x, least, &c->look, &hit);
+    if (!found && !still) return;
+    c->last = hit;
+    f->crossing++;
+    if (f->first < 0) {
+        f->first = k;
+        memcpy(f->facet, hit.facet, sizeof f->facet);
+    }
+    if (!found || !(hit.depth > f->deepest.depth)) return;
+    f->deepest = hit;
+    f->deepest_state = k;
+    memcpy(c->worst, x, (size_t)c->plates.mesh->nv * sizeof *c->worst);
+}
+
+/* The most that any corner's way bends at the state before the last. */
+static double bend_of(const rg_course *c, int32_t k)
+{
+    const rg_vec3 *x = c->x[(k + 1) % 3], *y = c->x[(k + 2) % 3], *z = c->x[k % 3];
+    double most = 0; /* squared */
+    for (int32_t v = 0; v < c->plates.mesh->nv; v++) {
+        const rg_vec3 d = rg_vec3_add(rg_vec3_axpy(-2, y[v], x[v]), z[v]);
+        most = fmax(most, rg_vec3_dot(d, d));
+    }
+    return sqrt(most);
+}
+
+/* What comes after a way is needed to know how it bends, so that ways are looked at one state late. */
+void rg_course_add(rg_course *c, const rg_plates_state *s)
+{
+    const rg_mesh *m = c->plates.mesh;
+    const int32_t k = c->found.states++;
+    memcpy(c->X[k % 3], s->X, (size_t)m->nv * sizeof *s->X);
+    memcpy(c->place[k % 3], s->place, (size_t)m->nf * sizeof *s->place);
+    memcpy(c->x[k % 3], s->x, (size_t)m->nv * sizeof *s->x);
+    if (k >= 2) {
+        const double bend = bend_of(c, k);
+        look_between(c, k - 1, fmax(bend, c->bend));
+        c->bend = bend;
+    }
+    look_at(c, k);
+}
+
+void rg_course_end(rg_course *c)
+{
+    rg_course_found *f = &c->found;
+    if (f->states >= 2 && f->first != f->states - 1) look_between(c, f->states - 1, c->bend);
+    if (f->deepest_state < 0) return;
+    f->pairs = rg_contact_pairs(&c->plates, c->worst, RG_CONTACT_TOLERANCE, &c->look, NULL, 0, NULL);
+}
