@@ -666,7 +666,7 @@ static void patterns_are_converted(void **state)
 
 /* ---------------------------------------------------------------------------------------------- reports ---- */
 
-static const struct { const char *part; const char *keys[20]; } promised[] = {
+static const struct { const char *part; const char *keys[24]; } promised[] = {
     {"pattern", {"vertices", "edges", "creases", "facets", "interior_vertices", "boundary_edges", "degrees_of_freedom",
                  "closed_vertices", "kawasaki_max_deg", "maekawa_violations"}},
     {"model", {"added_creases", "unknowns", "constraints", "components"}},
@@ -674,11 +674,35 @@ static const struct { const char *part; const char *keys[20]; } promised[] = {
              "seconds_solving", "seconds_writing", "peak_bytes"}},
     {"result", {"outcome", "reason", "folded_percent", "least_folded_percent", "max_closure_residual", "max_edge_strain",
                 "max_facet_gap", "max_overfold_deg", "max_adjustment", "max_strain_from_original", "blocking_vertices",
-                "blocking_creases", "first_contact_frame", "layers", "layer_orders"}}};
+                "blocking_creases", "contact", "first_contact_frame", "first_contact_percent", "contact_pairs", "contact_depth", "layers", "layer_orders"}}};
 
 static double value(const json_t *report, const char *part, const char *key)
 {
     return json_number_value(json_object_get(json_object_get(report, part), key));
+}
+
+/* The waterbomb tessellation reaches its end through itself: it is folded, and said not to be what paper can do. */
+static void passing_through_itself_is_told(void **state)
+{
+    (void)state;
+    ends(0, run("gen", "waterbomb", "6", "-o", "through.opx"));
+    const ran *r = ends(1, run("fold", "through.opx", "--report", "through.json", "-o", "through.csv"));
+    says(r, "rigami: through.opx: reaches its end only by passing through itself, from 32 %: facets ", "at (");
+    json_t *report = json_load_file("through.json", 0, NULL);
+    const json_t *result = json_object_get(report, "result");
+    assert_string_equal(json_string_value(json_object_get(result, "outcome")), "folded");
+    assert_string_equal(json_string_value(json_object_get(result, "contact")), "crosses");
+    near(value(report, "result", "first_contact_percent"), 32, 1);
+    near(value(report, "result", "contact_depth"), 0.04, 0.002);
+    assert_true(value(report, "result", "contact_pairs") > 10);
+    json_decref(report);
+    ends(1, run("fold", "through.opx", "--contact", "report"));
+    ends(0, run("fold", "through.opx", "--contact", "ignore", "--report", "through.json"));
+    report = json_load_file("through.json", 0, NULL);
+    assert_string_equal(json_string_value(json_object_get(json_object_get(report, "result"), "contact")), "unchecked");
+    assert_true(json_is_null(json_object_get(json_object_get(report, "result"), "first_contact_frame")));
+    json_decref(report);
+    says(ends(2, run("fold", "through.opx", "--contact", "perhaps")), "rigami: --contact: ", "avoid, report or ignore");
 }
 
 static void the_report_has_what_is_promised(void **state)
@@ -866,6 +890,7 @@ int main(void)
         cmocka_unit_test(help_names_every_option),
         cmocka_unit_test(examples_are_made),
         cmocka_unit_test(patterns_are_converted),
+        cmocka_unit_test(passing_through_itself_is_told),
         cmocka_unit_test(the_report_has_what_is_promised),
         cmocka_unit_test(info_as_json_has_what_is_promised),
         cmocka_unit_test(an_interrupted_fold_is_written_up_to_there),

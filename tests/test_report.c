@@ -67,6 +67,8 @@ static void report_has_all_keys(void **state)
     r->max_edge_strain = NAN, r->max_facet_gap = INFINITY, r->max_closure_residual = 1.0 / 3;
     r->blocking_vertices = vertex, r->blocking_vertex_count = 2, r->blocking_creases = crease, r->blocking_crease_count = 1;
     r->blocking_at = where;
+    r->contact = RG_CONTACT_CROSSES, r->first_contact_frame = 3, r->first_contact_percent = 61.5, r->deepest_contact_frame = -1;
+    r->contact_facets[1] = 4, r->contact_at[1][0] = 2.385, r->contact_pairs = 7, r->contact_depth = 0.0125;
     m->frame[3].closure_residual = 0.1;
     snprintf(r->reason, sizeof r->reason, "held at \"one\" vertex");
     assert_int_equal(rg_report_write(m, 0.125, 12345678, written_path("report.json", path), NULL), RG_OK);
@@ -78,9 +80,14 @@ static void report_has_all_keys(void **state)
     has(model, "####", "added_creases", "unknowns", "constraints", "components");
     has(run, "$$#########", "method", "solver", "steps", "solves", "cg_iterations", "factorizations", "assemblies", "seconds_total",
         "seconds_solving", "seconds_writing", "peak_bytes");
-    has(result, "$$###00###[[0", "outcome", "reason", "folded_percent", "least_folded_percent", "max_closure_residual",
+    has(result, "$$###00###[[$####[[0", "outcome", "reason", "folded_percent", "least_folded_percent", "max_closure_residual",
         "max_edge_strain", "max_facet_gap", "max_overfold_deg", "max_adjustment", "max_strain_from_original", "blocking_vertices",
-        "blocking_creases", "first_contact_frame");
+        "blocking_creases", "contact", "first_contact_frame", "first_contact_percent", "contact_pairs", "contact_depth", "contact_facets",
+        "contact_at", "deepest_contact_frame");
+    assert_string_equal(json_string_value(json_object_get(result, "contact")), "crosses");
+    near(number(result, "first_contact_percent"), 61.5, 0);
+    near(number(result, "contact_pairs"), 7, 0);
+    near(json_number_value(json_array_get(json_array_get(json_object_get(result, "contact_at"), 1), 0)), 2.385, 0);
     assert_string_equal(json_string_value(json_object_get(result, "outcome")), "stopped");
     assert_string_equal(json_string_value(json_object_get(result, "reason")), "held at \"one\" vertex");
     near(number(result, "max_closure_residual"), 1.0 / 3, 0);
@@ -109,8 +116,12 @@ static void report_has_all_keys(void **state)
     near(number(json_array_get(frames, 3), "closure_residual"), 0.1, 0);
     json_decref(j);
     r->outcome = RG_FOLDED;
+    r->contact = RG_CONTACT_FREE, r->first_contact_frame = r->contact_facets[0] = -1, r->first_contact_percent = NAN;
     assert_int_equal(rg_report_write(m, 0, 0, path, NULL), RG_OK);
     j = read_json("report.json");
+    has(json_object_get(j, "result"), "00", "first_contact_frame", "first_contact_percent");
+    assert_string_equal(json_string_value(json_object_get(json_object_get(j, "result"), "contact")), "free");
+    assert_int_equal(json_array_size(json_object_get(json_object_get(j, "result"), "contact_facets")), 0);
     assert_string_equal(json_string_value(json_object_get(json_object_get(j, "result"), "outcome")), "folded");
     json_decref(j);
     rg_motion_destroy(m);

@@ -13,8 +13,9 @@ NR == 1 { next }
 # What is asked of a fold, the same for each set; NaN fails.
 function count(set, way) {
     total[set, way]++
-    folds = $21 == 0 && $11 >= 99 && $12 <= 1e-8 && $13 <= 1e-8
+    folds = $19 == "folded" && $11 >= 99 && $12 <= 1e-8 && $13 <= 1e-8
     if (folds) folded[set, way]++
+    if (folds && $23 == "free") free[set, way]++
     if ($12 != "" && $12 <= 1e-8) closed[set, way]++
     if (set == "all" && way == "full" && folds && $16 >= 1e-9) { moved[++moves] = $16 + 0; stretched[moves] = $17 + 0 }
     if ($22 + 0 > slowest[set, way]) slowest[set, way] = $22 + 0
@@ -32,8 +33,8 @@ function summary(set, words,   w, way, i) {
     for (i = 1; i <= 3; i++) {
         way = w[i]
         if (!total[set, way]) continue
-        printf "| %s | %s | %s | %d %% | %.1f %% | %s | %.1f |\n", words, say[way], of(folded[set, way], total[set, way]),
-            100 * folded[set, way] / total[set, way], percent[set, way] / total[set, way], of(closed[set, way], total[set, way]),
+        printf "| %s | %s | %s | %d %% | %s | %.1f %% | %s | %.1f |\n", words, say[way], of(folded[set, way], total[set, way]),
+            100 * folded[set, way] / total[set, way], of(free[set, way], total[set, way]), percent[set, way] / total[set, way], of(closed[set, way], total[set, way]),
             slowest[set, way]
     }
 }
@@ -50,10 +51,11 @@ END {
     print "Written by `make corpus`, by " version "; all columns and reasons are in [corpus.csv](corpus.csv). The patterns are other"
     print "people's and not part of this project. Each is flat-foldable at every vertex (angles to 0.6 degrees) and has one sheet without"
     print "holes; that does not mean that rigid facets can fold it.\n"
-    print "**Folds** means: exit 0, every driven crease within 1 % of its target, and in every frame closure (radians) and edge strain"
-    print "within 1e-8. **Closes** means closure within 1e-8 in every frame that was written, also of runs that stopped short. Seconds"
+    print "**Folds** means: every driven crease within 1 % of its target, and in every frame closure (radians) and edge strain within"
+    print "1e-8. **Free** means: it folds so, and no facets pass through each other, deeper than 1e-4 of the sheet; then it ends with 0."
+    print "**Closes** means closure within 1e-8 in every frame that was written, also of runs that stopped short. Seconds"
     print "are the processor's; after " limit " by the clock, with as many runs at once as there are cores, a run is ended and told as timeout.\n"
-    print "| set | way | folds | | mean folded | closes | slowest, s |\n|---|---|--:|--:|--:|--:|--:|"
+    print "| set | way | folds | | free | mean folded | closes | slowest, s |\n|---|---|--:|--:|--:|--:|--:|--:|"
     summary("foldability", "`foldability/`")
     summary("others", "other folders")
     summary("all", "all")
@@ -69,13 +71,15 @@ END {
     print "## As usual\n"
     print "N: creases. Closed: closed vertices (3.1). Moved: the largest displacement of a vertex, over the sheet's size. Stretched: the"
     print "largest strain against the pattern given, over all frames. Over: degrees by which a crease was beyond half a turn, where they"
-    print "are more than 0.1. Tries: of which this one is the first that folds, or the best.\n"
-    print "| pattern | N | closed | outcome | folded, % | least, % | closure | strain | moved | stretched | over | tries | s | strategy |"
-    print "|---|--:|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|---|"
+    print "are more than 0.1. Crosses from: percent folded where facets first pass through each other; pairs: how many do where they are"
+    print "deepest; deep: how deep, over the sheet's size. Tries: of which this one is the first that folds, or the best.\n"
+    print "| pattern | N | closed | outcome | folded, % | least, % | crosses from, % | pairs | deep | closure | strain | moved | stretched | over | tries | s | strategy |"
+    print "|---|--:|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|---|"
     for (i = 1; i <= patterns; i++) {
         split(line["full", pattern[i]], f, ",")
-        printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %.1f | %s |\n", pattern[i], f[3], f[5], f[19],
-            cut(f[10]), cut(f[11]), short(f[12]), short(f[13]), part(f[16]), part(f[17]), over(f[15]), f[8], f[22], f[7]
+        crosses = f[23] == "crosses"
+        printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %.1f | %s |\n", pattern[i], f[3], f[5], f[19],
+            cut(f[10]), cut(f[11]), crosses ? cut(f[24]) : f[23], crosses ? f[26] : "", crosses ? short(f[27]) : "", short(f[12]), short(f[13]), part(f[16]), part(f[17]), over(f[15]), f[8], f[22], f[7]
     }
     print "\n## As drawn, and in triangles\n"
     print "| pattern | as drawn: outcome | folded, % | least, % | closure | s | triangles: outcome | folded, % | least, % | closure | s |"

@@ -11,7 +11,8 @@
 #include <unistd.h>
 
 #define STATUSES                                                                              \
-    "Exit status: 0 every driven crease is within 1 % of its target; 1 stopped short, all\n" \
+    "Exit status: 0 every driven crease is within 1 % of its target, and no facets passed\n"  \
+    "through each other; 1 stopped short, or only by passing through itself, all\n"          \
     "outputs are written, the report and standard error say where and why; 2 wrong usage,\n" \
     "or an input that cannot be read; 3 an output that cannot be written, or no memory.\n"
 
