@@ -153,7 +153,7 @@ static void measure_contact(rg_motion *m, rg_course *c)
     for (int k = 0; k < 2; k++) {
         const rg_vec2 at = rg_plates_middle(&m->mesh, f->facet[k]);
         r->contact_facets[k] = f->facet[k];
-        r->contact_at[k][0] = at.x, r->contact_at[k][1] = at.y;
+        r->contact_at[k][0] = at.x, r->contact_at[k][1] = m->source.y_down ? 0 - at.y : at.y;
     }
 }
 
