@@ -92,14 +92,13 @@ static void summarize(const options *o, const char *name, const rg_motion *m)
 /* A coordinate as people write it: rounding is no place. */
 static double tidy(double x, double size) { return fabs(x) > 1e-9 * size ? x : 0; }
 
-/* Of a motion that passes through itself: from where on, and which facets first. */
+/* Of a motion that reaches its end through itself: from where on, and which facets first. Of one that stopped short, -v says it. */
 static void say_contact(const char *name, const rg_report *r)
 {
     const double size = r->pattern.size;
-    say("%s: %s only by passing through itself, from %.0f %%: facets %d at (%.6g, %.6g) and %d at (%.6g, %.6g)", name,
-        r->outcome == RG_FOLDED ? "reaches its end" : "comes that far", r->first_contact_percent, (int)r->contact_facets[0],
-        tidy(r->contact_at[0][0], size), tidy(r->contact_at[0][1], size), (int)r->contact_facets[1],
-        tidy(r->contact_at[1][0], size), tidy(r->contact_at[1][1], size));
+    say("%s: reaches its end only by passing through itself, from %.0f %%: facets %d at (%.6g, %.6g) and %d at (%.6g, %.6g)", name,
+        r->first_contact_percent, (int)r->contact_facets[0], tidy(r->contact_at[0][0], size), tidy(r->contact_at[0][1], size),
+        (int)r->contact_facets[1], tidy(r->contact_at[1][0], size), tidy(r->contact_at[1][1], size));
 }
 
 static void summarize_contact(const rg_report *r)
@@ -218,7 +217,7 @@ int cmd_fold(const options *o)
             if (files[0] && !o->quiet) say("%s: %s", name, files);
         } else if (!o->quiet && !on_output) summarize(o, name, m);
         if (o->verbose && !on_output) tell_details(m);
-        if (r->contact == RG_CONTACT_CROSSES) say_contact(name, r);
+        if (!stopped && r->contact == RG_CONTACT_CROSSES) say_contact(name, r);
         if (status == ENDS_WELL && (r->outcome != RG_FOLDED || r->contact == RG_CONTACT_CROSSES)) status = ENDS_SHORT;
     }
     rg_motion_destroy(m);
