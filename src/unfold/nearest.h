@@ -1,0 +1,65 @@
+/* nearest.h -- the nearest step to a wished one that keeps the sheet closed, and rows that say what must not come nearer.
+ * Paper    eqs. (14), (15), (19), with inequalities        Uses  linkage.h interior.h        Used by  open.c stride.c
+ *
+ *     min  1/2 |W^-1/2 (dz - wish)|^2 + sum s_i^2 / (2 c_i)
+ *     s.t. A dz = -r,   row_i dz + s_i >= b_i
+ *
+ * with W^1/2 = diag(scale). y = W^-1/2 dz; what is free of A W^1/2 is projected onto, eq. (15), row by row, and the rest is
+ * interior.h's. Rows are made only when the step would break them: of thousands, most never are. */
+#ifndef RG_NEAREST_H
+#define RG_NEAREST_H
+
+#include "unfold/interior.h"
+#include "unfold/linkage.h"
+
+enum { RG_ROW_TERMS = 6 };
+
+/* n . sum weight[i] dp_v[i], or, with crease >= 0, weight[0] drho of it; and what it must be at least. */
+typedef struct rg_row {
+    int32_t terms, crease, v[RG_ROW_TERMS];
+    double weight[RG_ROW_TERMS];
+    rg_vec3 n;
+    double b, c;           /* bound, compliance */
+    double soft_b, soft_c; /* the same once more, more compliant; soft_c 0: no */
+    int glued;             /* non-zero: of layers that still lie on each other */
+    double floor;          /* what its gap may not be less than after the step, for the caller */
+    int32_t at;            /* among the rows that are made, -1: not */
+} rg_row;
+
+typedef struct rg_nearest {
+    rg_memory mem;
+    rg_linkage *P;       /* borrowed */
+    double *scale;      /* [n] */
+    rg_row *row;
+    size_t room;
+    int32_t count;
+    /* Rows made, projected and divided by norm[], are F Q: Q orthonormal, the directions that they span. */
+    double *Q, *F, *norm;
+    size_t stride, Q_room, F_room, norm_room;
+    int32_t made, ways;
+    int32_t *active;    /* 2 * row, and 1 more for its soft form */
+    size_t active_room;
+    int32_t actives;
+    double *y0, *y, *dz, *scratch; /* [n filled up to fours] */
+    double *right;      /* [rows of A] */
+    rg_vec3 *dp;        /* [nv] */
+    rg_interior q;
+    double work;
+} rg_nearest;
+
+rg_status rg_nearest_init(rg_nearest *q, const rg_memory *mem, rg_linkage *P);
+void rg_nearest_free(rg_nearest *q);
+
+/* No rows; P is put and A renewed with q->scale at the state. */
+void rg_nearest_clear(rg_nearest *q);
+/* A new row, zero but for c; NULL: no memory. */
+rg_row *rg_nearest_add(rg_nearest *q);
+/* What a row is along q->dz, after rg_nearest_solve. */
+double rg_nearest_value(const rg_nearest *q, const rg_row *row);
+/* q->dz: out. wish[n], NULL: none. r[rows of A]: what closure is off. with_soft: the soft forms too. Keeps the rows that are
+ * made from one call to the next, until rg_nearest_clear. RG_ENOMEM. */
+rg_status rg_nearest_solve(rg_nearest *q, const double *wish, const double *r, int with_soft);
+/* The same without rows. */
+void rg_nearest_project(rg_nearest *q, const double *wish, const double *r);
+
+#endif

@@ -1,0 +1,49 @@
+/* proximity.h -- which corners are near which triangles, which edges near which, and whether they meet while they move.
+ * Uses  mesh.h vec.h        Used by  sides.c stride.c
+ *
+ * Two triangles are as near as a corner of one to the other, or an edge of one to an edge of the other. Left out is what the
+ * hinges keep apart: what shares a vertex, and the two facets of a crease.
+ * Closest points: Ericson, Real-Time Collision Detection, 5.1.5 and 5.1.9. Conservative advancement: Mirtich, 1996. */
+#ifndef RG_PROXIMITY_H
+#define RG_PROXIMITY_H
+
+#include "base/vec.h"
+#include "mesh/mesh.h"
+
+/* A corner (kind 0: v[0], weight 1) against a triangle (v[1..3], weights -w), or an edge (kind 1: v[0], v[1]) against an edge
+ * (v[2], v[3]): the closest points are apart by the sum of weight[i] p[v[i]]. */
+typedef struct rg_close_pair {
+    int32_t kind, i, j; /* vertex and facet, or the two edges, i > j */
+    int32_t v[4];
+    double weight[4];
+    double d;           /* distance */
+} rg_close_pair;
+
+typedef struct rg_proximity {
+    rg_memory mem;
+    const rg_mesh *mesh; /* borrowed: triangles */
+    unsigned char *corner, *edge; /* [nv][nf], [ne][ne], i > j: flags of a pair, of which RG_PROXIMITY_APART is set here */
+    rg_vec3 *low, *high; /* [nf + ne] boxes */
+    rg_close_pair *pair;
+    size_t room;
+    int32_t count;
+} rg_proximity;
+
+enum {
+    RG_PROXIMITY_APART = 1, /* kept apart by a hinge */
+    RG_PROXIMITY_GLUED = 2, /* its layers lie on each other, and have since the flat end */
+};
+
+rg_status rg_proximity_init(rg_proximity *n, const rg_memory *mem, const rg_mesh *m);
+void rg_proximity_free(rg_proximity *n);
+/* n->pair[n->count]: all pairs nearer than `least` at p[nv]. RG_ENOMEM: more room was needed. */
+rg_status rg_proximity_find(rg_proximity *n, const rg_vec3 *p, double least);
+/* The distance of a pair at p, which need not be near. */
+double rg_proximity_distance(const rg_proximity *n, int32_t kind, int32_t i, int32_t j, const rg_vec3 *p, rg_close_pair *at);
+
+/* Vertices go from p to q along straight lines. Returns the part of it, 1: all, that can be gone before a pair, none of the
+ * glued ones, is nearer than `gap` of its distance at p. who: out, the pair that ends it (may be NULL); who->kind -1: none.
+ * It errs to the safe side: a pair that takes too many advances counts as one that meets. */
+double rg_proximity_meet(rg_proximity *n, const rg_vec3 *p, const rg_vec3 *q, double gap, rg_close_pair *who);
+
+#endif

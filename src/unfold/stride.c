@@ -1,0 +1,360 @@
+#include "unfold/stride.h"
+
+#include <string.h>
+
+/* Lengths are parts of the sheet, angles radians. */
+static const double STEP = 3 * RG_DEG;   /* of a crease: so small that the rows, linear, hold over it */
+static const double MOVE = 0.02;         /* of a vertex, for the same reason */
+static const double DAMPER = 0.7;        /* part of the distance to the floor that a step may use up */
+static const double DAMPER_CLOSING = 0.85; /* the same after closing, which bends the step */
+static const double REACH = 2.2;         /* pairs are looked at as far as two vertices can come in a step, and a little */
+static const double FLOOR = 6e-3;        /* keeps steps at 3 degrees; smaller ones shrink like the square root of it */
+static const double FLOOR_LAST = 1e-5, FLOOR_LESS = 0.6;
+static const int32_t PATIENCE = 12;      /* the floor is lowered when so many steps */
+static const double SLOW = 0.02;         /* bring less than this part of what is left */
+static const double SOFT = 0.3, SOFT_MOST = 1e-3, SOFT_COMPLIANCE = 1e-5; /* 1e-3 is too weak to open, 1e-7 stops the motion */
+static const double HARD_COMPLIANCE = 1e-10; /* of a row, so that rows that contradict each other give a little */
+static const double BELOW_FLOOR = 0.2;   /* what closing may take of a distance that is below the floor */
+static const double NEAR_HALF_TURN = 0.6; /* creases this near to half a turn get their bound as a row */
+static const double OVER_HALF_TURN = 1e-6; /* what rounding and closing may put a crease past it */
+static const double ADDED_BACK = 0.1, PATTERN_BACK = 0.5; /* what added creases and pattern are wished back by in a step */
+static const double ADDED_SCALE = 3;     /* an added crease bends more readily than a drawn one leaves its wish */
+static const double LEAST_AREA = 0.1;    /* of a facet, of what it was */
+static const double MOST_CORRECTION = 0.7, ALWAYS_CORRECTED = 1e-3; /* of the step: else it went to another branch */
+static const double GAP = 0.1;           /* of its distance, that a pair must keep over a step */
+static const double WRONG_BY = 2e-6;     /* a glued pair may not be farther than that on the wrong side of where it was */
+static const double CLOSED = 1e-11, HARDLY_OPEN = 1e-8;
+static const int WITH_ROWS = 5, NEWTON = 12; /* frozen rows that can't all hold keep kicking Newton off: rows for some iterations only */
+static const int HALVINGS = 12;
+static const double ARRIVED_FLAT = 0.985, ARRIVED_FOLDED = 0.993;
+static const double GLUE = 2e-5, RELEASE = 3e-5, SIDE_RELEASE = 1e-5; /* distances from which a pair is glued, released */
+static const double SIDE_COUNTS = 1e-3;  /* pairs nearer than that are held by their side in the order */
+
+void rg_stride_scale(const rg_linkage *P, double give, double *scale)
+{
+    for (int32_t i = 0; i < P->N; i++) scale[i] = i < P->N - P->mesh->added ? 1 : ADDED_SCALE;
+    for (int32_t i = 0; i < P->U; i++) scale[P->N + i] = give * P->freedom.reach[i];
+}
+
+int rg_stride_close(rg_linkage *P, rg_nearest *q, double *z, double tol, int32_t most)
+{
+    for (int32_t i = 0;; i++) {
+        const double angle = rg_joint_assemble(&P->J, z, z + P->N, NULL);
+        if (angle <= tol) return 1;
+        if (i == most || !(angle < 1)) return 0;
+        rg_joint_renew(&P->J, q->scale);
+        q->work += 20 * P->J.A.L.entries + P->J.A.L.flops;
+        rg_nearest_project(q, NULL, P->J.r);
+        for (int32_t k = 0; k < P->n; k++) z[k] += q->dz[k];
+    }
+}
+
+/* At s->z: everything that the linear rows are made of. */
+static void stand(rg_stride *s)
+{
+    rg_linkage *P = s->P;
+    rg_joint_assemble(&P->J, s->z, s->z + P->N, NULL);
+    rg_joint_renew(&P->J, s->q.scale);
+    s->q.work += P->J.A.L.flops;
+    rg_linkage_put(P, s->z);
+}
+
+static void measure(rg_stride *s)
+{
+    double sum = 0, least = 1;
+    int32_t driven = 0;
+    for (int32_t i = 0; i < s->P->N; i++) {
+        if (isnan(s->target[i])) continue;
+        const double part = s->target[i] == 0 ? 1 - fabs(s->z[i]) / RG_PI : s->z[i] / s->target[i];
+        sum += part;
+        least = fmin(least, part);
+        driven++;
+    }
+    s->mean = driven ? sum / driven : 1;
+    s->least = least;
+}
+
+/* Where two layers lie on each other at the start they are glued. */
+static rg_status glue(rg_stride *s)
+{
+    rg_proximity *near = &s->near;
+    const rg_status status = rg_proximity_find(near, s->P->p, SIDE_COUNTS);
+    for (int32_t k = 0; status == RG_OK && k < near->count; k++) {
+        const rg_close_pair *at = &near->pair[k];
+        rg_vec3 n;
+        double d;
+        const int wrong = s->sides && rg_sides_tell(s->sides, s->P, at, &n, &d) && d < SIDE_RELEASE;
+        if (!(at->d < GLUE) && !wrong) continue;
+        if (at->kind == 0) near->corner[(size_t)at->i * (size_t)s->P->mesh->nf + (size_t)at->j] |= RG_PROXIMITY_GLUED;
+        else near->edge[(size_t)at->i * (size_t)s->P->mesh->ne + (size_t)at->j] |= RG_PROXIMITY_GLUED;
+    }
+    return status;
+}
+
+static void release_pair(rg_stride *s, int kind, int32_t i, int32_t j, unsigned char *flag)
+{
+    rg_close_pair at;
+    rg_vec3 n;
+    double d;
+    if (!(*flag & RG_PROXIMITY_GLUED) || !(rg_proximity_distance(&s->near, kind, i, j, s->P->p, &at) > RELEASE)) return;
+    if (s->sides && rg_sides_tell(s->sides, s->P, &at, &n, &d) && d < SIDE_RELEASE) return;
+    *flag &= (unsigned char)~RG_PROXIMITY_GLUED;
+}
+
+/* Released is for ever. */
+static void release(rg_stride *s)
+{
+    const rg_mesh *m = s->P->mesh;
+    for (int32_t v = 0; v < m->nv; v++)
+        for (int32_t f = 0; f < m->nf; f++) release_pair(s, 0, v, f, &s->near.corner[(size_t)v * (size_t)m->nf + (size_t)f]);
+    for (int32_t e = 0; e < m->ne; e++)
+        for (int32_t f = 0; f < e; f++) release_pair(s, 1, e, f, &s->near.edge[(size_t)e * (size_t)m->ne + (size_t)f]);
+}
+
+static int is_glued(const rg_stride *s, const rg_close_pair *at)
+{
+    const rg_mesh *m = s->P->mesh;
+    return (at->kind == 0 ? s->near.corner[(size_t)at->i * (size_t)m->nf + (size_t)at->j]
+                          : s->near.edge[(size_t)at->i * (size_t)m->ne + (size_t)at->j]) & RG_PROXIMITY_GLUED;
+}
+
+rg_status rg_stride_init(rg_stride *s, const rg_memory *mem, rg_linkage *P, const rg_sides *sides, const rg_end *end,
+                         const double *z, const double *target)
+{
+    memset(s, 0, sizeof *s);
+    s->mem = *mem;
+    s->P = P;
+    s->sides = sides;
+    s->end = end;
+    s->target = target;
+    s->z = rg_mem_array(mem, (size_t)P->n, sizeof *s->z);
+    s->z1 = rg_mem_array(mem, (size_t)P->n, sizeof *s->z1);
+    s->wish = rg_mem_array(mem, (size_t)P->n, sizeof *s->wish);
+    s->p1 = rg_mem_array(mem, (size_t)P->mesh->nv, sizeof *s->p1);
+    s->merit = rg_mem_array(mem, RG_STRIDE_MOST + 1, sizeof *s->merit);
+    rg_status status = s->z && s->z1 && s->wish && s->p1 && s->merit ? RG_OK : RG_ENOMEM;
+    if (status == RG_OK) status = rg_proximity_init(&s->near, mem, P->mesh);
+    if (status == RG_OK) status = rg_nearest_init(&s->q, mem, P);
+    if (status != RG_OK) return status;
+    memcpy(s->z, z, (size_t)P->n * sizeof *z);
+    rg_stride_scale(P, 1, s->q.scale);
+    s->h = s->pace = 1;
+    s->dm = FLOOR;
+    s->budget = INFINITY;
+    stand(s);
+    measure(s);
+    return sides ? glue(s) : RG_OK;
+}
+
+void rg_stride_free(rg_stride *s)
+{
+    if (!s->mem.resize) return;
+    rg_proximity_free(&s->near);
+    rg_nearest_free(&s->q);
+    void *block[] = {s->z, s->z1, s->wish, s->p1, s->merit};
+    for (int i = 0; i < 5; i++) rg_mem_free(&s->mem, block[i]);
+    memset(s, 0, sizeof *s);
+}
+
+static int is_unfolding(const rg_stride *s)
+{
+    for (int32_t i = 0; i < s->P->N; i++)
+        if (!isnan(s->target[i]) && s->target[i] != 0) return 0;
+    return 1;
+}
+
+static double pattern_moved(const rg_stride *s, int most)
+{
+    double sum = 0, largest = 0;
+    for (int32_t i = 0; i < s->P->U; i++) {
+        const double x = s->z[s->P->N + i] / s->P->freedom.reach[i];
+        sum += x * x;
+        largest = fmax(largest, fabs(x));
+    }
+    return most ? largest : s->P->U ? sqrt(sum / s->P->U) : 0;
+}
+
+/* Whether the motion is there, or stalls; the floor is lowered where it does. */
+static void judge(rg_stride *s)
+{
+    const double merit = s->mean + 0.3 * s->least - 0.3 * pattern_moved(s, 0); /* 1.3 when it is done */
+    if (is_unfolding(s) ? s->least > ARRIVED_FLAT : s->least > ARRIVED_FOLDED && pattern_moved(s, 1) < 0.05) {
+        s->state = RG_STRIDE_ARRIVED;
+        return;
+    }
+    if (s->steps >= RG_STRIDE_MOST || !(s->work + s->q.work + s->q.q.work < s->budget)) {
+        s->state = RG_STRIDE_SPENT;
+        return;
+    }
+    s->merit[s->steps] = merit;
+    if (s->steps - s->since < PATIENCE || merit - s->merit[s->steps - PATIENCE] >= SLOW * fmax(0.02, 1 - merit / 1.3)) return;
+    if (s->dm < FLOOR_LAST) s->state = RG_STRIDE_STUCK;
+    s->dm *= FLOOR_LESS;
+    s->since = s->steps;
+}
+
+static void make_wish(rg_stride *s)
+{
+    const rg_linkage *P = s->P;
+    const double step = STEP * s->h;
+    for (int32_t i = 0; i < P->N; i++) {
+        const double left = s->target[i] - s->z[i];
+        s->wish[i] = s->pace * (isnan(left) ? -ADDED_BACK * s->h * s->z[i] : fmax(-step, fmin(step, left)));
+    }
+    for (int32_t i = P->N; i < P->n; i++) s->wish[i] = s->pace * -PATTERN_BACK * s->h * s->z[i];
+}
+
+static rg_status add_pair_rows(rg_stride *s)
+{
+    rg_proximity *near = &s->near;
+    rg_status status = rg_proximity_find(near, s->P->p, REACH * MOVE * s->h / DAMPER + 1e-9);
+    for (int32_t k = 0; status == RG_OK && k < near->count; k++) {
+        const rg_close_pair *at = &near->pair[k];
+        const int glued = is_glued(s, at);
+        rg_vec3 n = {0, 0, 0};
+        double d = at->d;
+        for (int i = 0; i < 4; i++) n = rg_vec3_axpy(at->weight[i] / fmax(at->d, 1e-300), s->P->p[at->v[i]], n);
+        if (s->sides && (glued || at->d < SIDE_COUNTS)) {
+            const int told = rg_sides_tell(s->sides, s->P, at, &n, &d);
+            if (glued && !told) continue;
+        }
+        rg_row *row = rg_nearest_add(&s->q);
+        if (!row) return RG_ENOMEM;
+        row->terms = 4;
+        for (int i = 0; i < 4; i++) row->v[i] = at->v[i], row->weight[i] = at->weight[i];
+        row->n = n;
+        row->c = HARD_COMPLIANCE;
+        row->b = -DAMPER * fmax(0, d - s->dm);
+        row->floor = d - DAMPER_CLOSING * fmax(0, d - s->dm) - BELOW_FLOOR * fmin(fmax(d, 0), s->dm);
+        row->glued = glued ? 1 : 0;
+        if (d < s->dm) row->soft_b = fmin(SOFT * (s->dm - d), SOFT_MOST), row->soft_c = SOFT_COMPLIANCE;
+    }
+    return status;
+}
+
+static rg_status add_bounds(rg_stride *s)
+{
+    for (int32_t i = 0; i < s->P->N; i++) {
+        const double rho = fabs(s->z[i]);
+        if (rho < RG_PI - NEAR_HALF_TURN) continue;
+        rg_row *row = rg_nearest_add(&s->q);
+        if (!row) return RG_ENOMEM;
+        row->crease = i;
+        row->weight[0] = s->z[i] > 0 ? -1 : 1;
+        row->b = -(RG_PI - rho);
+    }
+    return RG_OK;
+}
+
+/* How far the parts of a row are apart at p. */
+static double gap(const rg_row *row, const rg_vec3 *p)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < row->terms; i++) sum += row->weight[i] * rg_vec3_dot(row->n, p[row->v[i]]);
+    return sum;
+}
+
+/* What closing has to leave: rows as they are frozen for this step, at the positions that z1 has. */
+static void set_floors(rg_stride *s)
+{
+    rg_linkage_positions(s->P, s->z1, s->p1);
+    for (int32_t k = 0; k < s->q.count; k++) {
+        rg_row *row = &s->q.row[k];
+        row->b = row->crease >= 0 ? -(RG_PI + 1e-9 - fabs(s->z1[row->crease])) : row->floor - gap(row, s->p1);
+    }
+}
+
+/* Closes z1. Zero: it does not. */
+static rg_status close_trial(rg_stride *s, int *closed)
+{
+    rg_linkage *P = s->P;
+    *closed = 0;
+    for (int i = 0; i < WITH_ROWS; i++) {
+        const double angle = rg_joint_assemble(&P->J, s->z1, s->z1 + P->N, NULL);
+        if (!(angle < 1)) return RG_OK;
+        set_floors(s);
+        const rg_status status = rg_nearest_solve(&s->q, NULL, P->J.r, 0);
+        if (status != RG_OK) return status;
+        if (angle < HARDLY_OPEN && s->q.actives == 0) break;
+        for (int32_t k = 0; k < P->n; k++) s->z1[k] += s->q.dz[k];
+    }
+    *closed = rg_stride_close(P, &s->q, s->z1, CLOSED, NEWTON);
+    return RG_OK;
+}
+
+/* Non-zero: a glued pair has gone to the wrong side. */
+static int changes_side(const rg_stride *s)
+{
+    for (int32_t k = 0; k < s->q.count; k++) {
+        const rg_row *row = &s->q.row[k];
+        if (row->glued && !(gap(row, s->p1) >= fmin(gap(row, s->P->p), 0) - WRONG_BY)) return 1;
+    }
+    return 0;
+}
+
+/* -1: the trial step f dz, closed to z1, is one that paper can make; else why not. */
+static int refuse(rg_stride *s, const double *dz, double f)
+{
+    const rg_linkage *P = s->P;
+    double off = 0, step = 0;
+    for (int32_t i = 0; i < P->n; i++) {
+        const double want = f * dz[i] / s->q.scale[i], have = (s->z1[i] - s->z[i]) / s->q.scale[i];
+        off += (have - want) * (have - want);
+        step += want * want;
+    }
+    if (!(sqrt(off) <= MOST_CORRECTION * sqrt(step) + ALWAYS_CORRECTED)) return RG_REFUSED_FAR;
+    if (!(rg_linkage_least_area(s->P, s->z1 + P->N) >= LEAST_AREA)) return RG_REFUSED_AREA;
+    for (int32_t i = 0; i < P->N; i++)
+        if (!(fabs(s->z1[i]) <= RG_PI + OVER_HALF_TURN)) return RG_REFUSED_OVER;
+    rg_linkage_positions(s->P, s->z1, s->p1);
+    if (changes_side(s)) return RG_REFUSED_SIDE;
+    return rg_proximity_meet(&s->near, P->p, s->p1, GAP, &s->who) < 1 ? RG_REFUSED_MEETS : -1;
+}
+
+rg_status rg_stride_take(rg_stride *s)
+{
+    rg_linkage *P = s->P;
+    rg_nearest *q = &s->q;
+    judge(s);
+    if (s->state != RG_STRIDE_GOES) return RG_OK;
+    make_wish(s);
+    rg_nearest_clear(q);
+    rg_status status = add_pair_rows(s);
+    if (status == RG_OK) status = add_bounds(s);
+    if (status == RG_OK) status = rg_nearest_solve(q, s->wish, P->J.r, 1);
+    if (status != RG_OK) return status;
+    double turn = 0, move = 0, shift = 0;
+    for (int32_t i = 0; i < P->N; i++) turn = fmax(turn, fabs(q->dz[i]));
+    for (int32_t i = 0; i < P->U; i++) shift = fmax(shift, fabs(q->dz[P->N + i]) / P->freedom.reach[i]);
+    for (int32_t v = 0; v < P->mesh->nv; v++) move = fmax(move, rg_vec3_length(q->dp[v]));
+    double f = fmin(fmin(1, 1.5 * STEP * s->h / turn), fmin(MOVE * s->h / move, 0.2 / shift));
+    s->pace = fmin(1, fmax(0.05, 1.25 * s->pace * f));
+    if (!(turn * f >= 1e-7)) { /* held: the floor gives */
+        if (s->dm < FLOOR_LAST) s->state = RG_STRIDE_STUCK;
+        s->dm *= FLOOR_LESS;
+        s->since = s->steps;
+        return RG_OK;
+    }
+    memcpy(s->wish, q->dz, (size_t)P->n * sizeof *s->wish); /* from here on: the step */
+    int halvings = 0, why = 0;
+    for (; halvings < HALVINGS; halvings++, f /= 2) {
+        int closed;
+        for (int32_t i = 0; i < P->n; i++) s->z1[i] = s->z[i] + f * s->wish[i];
+        if ((status = close_trial(s, &closed)) != RG_OK) return status;
+        why = closed ? refuse(s, s->wish, f) : RG_REFUSED_OPEN;
+        if (why < 0) break;
+        s->refused[why]++;
+        stand(s);
+    }
+    if (why >= 0) {
+        s->state = RG_STRIDE_NO_STEP;
+        return RG_OK;
+    }
+    memcpy(s->z, s->z1, (size_t)P->n * sizeof *s->z);
+    stand(s);
+    if (s->sides) release(s);
+    s->h = fmax(1e-3, fmin(1, 1.3 * s->h * pow(0.5, halvings / 2.0)));
+    s->steps++;
+    measure(s);
+    return RG_OK;
+}

@@ -1,0 +1,57 @@
+/* stride.h -- one step of a motion in which no two facets pass through each other.
+ * Paper    eqs. (10), (14), (15), (19); what section 4 leaves as future work
+ * Uses  proximity.h nearest.h sides.h end.h        Used by  unfold.c landing.c
+ *
+ * Each step wishes every crease on towards its target, and takes the nearest step that keeps the sheet closed and every near
+ * pair apart: a velocity damper (Faverjon and Tournassoud, 1987) lets a pair close in by a part of its distance only. Below a
+ * floor dm nothing comes nearer at all, and what is below is pushed up softly. The floor is what makes it go: with none, steps
+ * shrink with the distances. It is lowered where the motion stalls, an interior point's homotopy in the thickness of paper.
+ * A step is taken if it closes, and if conservative advancement meets nothing on the way; else it is halved. */
+#ifndef RG_STRIDE_H
+#define RG_STRIDE_H
+
+#include "unfold/end.h"
+#include "unfold/proximity.h"
+#include "unfold/nearest.h"
+#include "unfold/sides.h"
+
+typedef enum rg_stride_state { RG_STRIDE_GOES, RG_STRIDE_ARRIVED, RG_STRIDE_STUCK, RG_STRIDE_NO_STEP, RG_STRIDE_SPENT } rg_stride_state;
+
+/* Why trial steps were refused. */
+enum { RG_REFUSED_OPEN, RG_REFUSED_FAR, RG_REFUSED_AREA, RG_REFUSED_OVER, RG_REFUSED_MEETS, RG_REFUSED_SIDE, RG_REFUSALS };
+
+typedef struct rg_stride {
+    rg_memory mem;
+    rg_linkage *P;           /* borrowed */
+    rg_proximity near;
+    rg_nearest q;
+    const rg_sides *sides;  /* borrowed; NULL: the motion does not come from a flat end */
+    const rg_end *end;      /* borrowed; NULL: no rows of it */
+    const double *target;   /* borrowed [N] radians, all 0: unfolding; NAN: none */
+    double *z, *z1, *wish;  /* [n] */
+    rg_vec3 *p1;            /* [nv] */
+    double h, dm, pace;     /* part of the largest step; floor; part of the wish that rows let through lately */
+    double *merit;          /* [RG_STRIDE_MOST] how far it was after each step */
+    int32_t steps, since;   /* taken; the step at which the floor was lowered last */
+    double mean, least;     /* progress: mean over driven creases, and of the last of them */
+    double work, budget;
+    int32_t refused[RG_REFUSALS];
+    rg_close_pair who;            /* what ended the last refused step */
+    rg_stride_state state;
+} rg_stride;
+
+enum { RG_STRIDE_MOST = 1500 };
+
+/* From z[n], closed. RG_ENOMEM. Owner: the caller, rg_stride_free, also after a failure. */
+rg_status rg_stride_init(rg_stride *s, const rg_memory *mem, rg_linkage *P, const rg_sides *sides, const rg_end *end,
+                         const double *z, const double *target);
+void rg_stride_free(rg_stride *s);
+/* One step taken: s->z; or s->state says why not. */
+rg_status rg_stride_take(rg_stride *s);
+
+/* W^1/2 of the unknowns: 1 for drawn creases, more for added ones, `give` times the reach of a way of the pattern. */
+void rg_stride_scale(const rg_linkage *P, double give, double *scale);
+/* Plain Newton: z is closed to `tol` or, returning zero, as near as it came. */
+int rg_stride_close(rg_linkage *P, rg_nearest *q, double *z, double tol, int32_t most);
+
+#endif
