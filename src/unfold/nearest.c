@@ -22,9 +22,9 @@ rg_status rg_nearest_init(rg_nearest *q, const rg_memory *mem, rg_linkage *P)
     q->mem = q->q.mem = *mem;
     q->P = P;
     q->stride = (size_t)in_fours(P->n);
-    double **vector[] = {&q->scale, &q->y0, &q->y, &q->dz, &q->scratch};
+    double **vector[] = {&q->scale, &q->y0, &q->y, &q->dz, &q->scratch, &q->wish};
     int ok = 1;
-    for (int i = 0; i < 5; i++) ok &= (*vector[i] = rg_mem_array(mem, q->stride, sizeof(double))) != NULL;
+    for (int i = 0; i < 6; i++) ok &= (*vector[i] = rg_mem_array(mem, q->stride, sizeof(double))) != NULL;
     q->right = rg_mem_array(mem, (size_t)P->J.A.rows, sizeof *q->right);
     q->dp = rg_mem_array(mem, (size_t)P->mesh->nv, sizeof *q->dp);
     if (ok && q->right && q->dp) return RG_OK;
@@ -36,8 +36,8 @@ void rg_nearest_free(rg_nearest *q)
 {
     if (!q->mem.resize) return;
     rg_interior_free(&q->q);
-    void *block[] = {q->scale, q->row, q->Q, q->F, q->norm, q->active, q->y0, q->y, q->dz, q->scratch, q->right, q->dp};
-    for (int i = 0; i < 12; i++) rg_mem_free(&q->mem, block[i]);
+    void *block[] = {q->scale, q->row, q->Q, q->F, q->norm, q->active, q->y0, q->y, q->dz, q->scratch, q->wish, q->right, q->dp};
+    for (int i = 0; i < 13; i++) rg_mem_free(&q->mem, block[i]);
     memset(q, 0, sizeof *q);
 }
 

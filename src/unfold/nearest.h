@@ -41,6 +41,7 @@ typedef struct rg_nearest {
     size_t active_room;
     int32_t actives;
     double *y0, *y, *dz, *scratch; /* [n filled up to fours] */
+    double *wish;       /* the same, for the caller */
     double *right;      /* [rows of A] */
     rg_vec3 *dp;        /* [nv] */
     rg_interior q;

@@ -1,0 +1,175 @@
+#include "unfold/open.h"
+#include "unfold/stride.h"
+
+#include <string.h>
+
+/* What rows are wished open by where creases open by OPEN of their angle: layers, nested creases, edges beside each other. The
+ * second matters: a corner 2e-5 inside a crease that opens to 30 degrees is outside the wedge. */
+static const double OPEN = 0.03, LAYER = 2e-3, INSIDE = 5e-4, BESIDE = 3e-5;
+static const double SOFT = 1e-5, SOFT_IN_PLANE = 0.03; /* compliance, and in the plane, as many times it */
+static const double BOUND = 1e-12;                     /* compliance of half a turn */
+static const int32_t ITERATIONS = 40, CLOSE = 20;
+static const double LARGEST = 0.1; /* change of an unknown in an iteration: rows are linear only so far */
+static const double STILL = 1e-6, CLOSED = 1e-12, CLOSED_ENOUGH = 1e-10;
+/* Repair: pairs are looked at this near; less than that part of what is wanted counts as touching. */
+static const double NEAR = 6e-3, TOUCHING = 0.5;
+static const double REPAIR_HARD = 1e-7, REPAIR_KEEP = 1e-9, REPAIR_SOFT = 1e-4; /* compliances: apart, not nearer, softly */
+static const double REPAIR_INSIDE = 2e-4, REPAIR_BESIDE = 2e-5, REPAIR_SCALE = 5e-5; /* of rows in the plane where want is the last */
+static const double NEAR_HALF_TURN = 0.3;
+
+static rg_status add_end_rows(const rg_linkage *P, const rg_end *e, rg_nearest *q, const rg_open_way *way)
+{
+    const double scale = way->scaled ? way->part / OPEN : 1;
+    for (int32_t k = 0; k < e->count; k++) {
+        const rg_end_row *from = &e->row[k];
+        const double gap = rg_end_gap(from, P->place, P->p);
+        const int layer = from->kind == RG_END_LAYER;
+        const double want = layer ? LAYER * scale : (from->kind == RG_END_INSIDE ? INSIDE : BESIDE) * scale * scale;
+        rg_row *row = rg_nearest_add(q);
+        if (!row) return RG_ENOMEM;
+        row->terms = from->terms;
+        memcpy(row->v, from->v, sizeof row->v);
+        memcpy(row->weight, from->weight, sizeof row->weight);
+        row->n = rg_end_normal(from, P->place);
+        row->b = -gap;
+        row->c = way->hard;
+        row->soft_b = want - gap;
+        row->soft_c = layer ? SOFT : SOFT_IN_PLANE * SOFT;
+    }
+    return RG_OK;
+}
+
+/* Creases that end folded stay within half a turn less the margin. */
+static rg_status add_bounds(const rg_linkage *P, const double *z, const double *end, double from, double margin, rg_nearest *q)
+{
+    for (int32_t i = 0; i < P->N; i++) {
+        if (fabs(z[i]) < from || (end && end[i] == 0)) continue;
+        rg_row *row = rg_nearest_add(q);
+        if (!row) return RG_ENOMEM;
+        row->crease = i;
+        row->weight[0] = (end ? end[i] : z[i]) > 0 ? -1 : 1;
+        row->b = -(RG_PI - margin - fabs(z[i]));
+        row->c = BOUND;
+    }
+    return RG_OK;
+}
+
+/* Goes along q->dz, no farther than rows are linear. Returns how far it wished to. */
+static double go(const rg_linkage *P, const rg_nearest *q, double *z)
+{
+    double most = 0;
+    for (int32_t i = 0; i < P->n; i++) most = fmax(most, fabs(q->dz[i]) / (i < P->N ? 1 : P->freedom.reach[i - P->N]));
+    const double f = fmin(1, LARGEST / fmax(most, 1e-12));
+    for (int32_t i = 0; i < P->n; i++) z[i] += f * q->dz[i];
+    return most;
+}
+
+static double stand(rg_linkage *P, rg_nearest *q, const double *z)
+{
+    const double angle = rg_joint_assemble(&P->J, z, z + P->N, NULL);
+    rg_joint_renew(&P->J, q->scale);
+    q->work += P->J.A.L.flops;
+    rg_linkage_put(P, z);
+    rg_nearest_clear(q);
+    return angle;
+}
+
+static double least_gap(const rg_linkage *P, const rg_end *e, int in_plane)
+{
+    double least = INFINITY;
+    for (int32_t k = 0; k < e->count; k++)
+        if (!in_plane || e->row[k].kind != RG_END_LAYER) least = fmin(least, rg_end_gap(&e->row[k], P->place, P->p));
+    return least;
+}
+
+rg_status rg_open(rg_linkage *P, const rg_end *e, const rg_open_way *way, rg_proximity *near, rg_nearest *q, double *z,
+                  rg_open_result *result)
+{
+    rg_stride_scale(P, way->give, q->scale);
+    memcpy(z, e->z, (size_t)P->n * sizeof *z);
+    double *wish = q->wish;
+    rg_status s = RG_OK;
+    for (int32_t n = 0; n < ITERATIONS && s == RG_OK; n++) {
+        const double angle = stand(P, q, z);
+        for (int32_t i = 0; i < P->n; i++) wish[i] = (i < P->N ? 1 - way->part : 1) * e->z[i] - z[i];
+        s = add_end_rows(P, e, q, way);
+        if (s == RG_OK) s = add_bounds(P, z, e->z, 0, way->margin, q);
+        if (s == RG_OK) s = rg_nearest_solve(q, wish, P->J.r, 1);
+        if (s != RG_OK || (go(P, q, z) < STILL && angle < CLOSED_ENOUGH)) break;
+    }
+    if (s != RG_OK) return s;
+    rg_stride_close(P, q, z, CLOSED, CLOSE);
+    result->angle = stand(P, q, z);
+    result->worst = 0;
+    result->least = least_gap(P, e, 0);
+    return way->repair > 0 && result->angle < 1e-6
+               ? rg_open_repair(P, e, REPAIR_SCALE, 1e-3, way->margin / 10, way->repair, near, q, z, result) : RG_OK;
+}
+
+static rg_status add_near_rows(const rg_linkage *P, const rg_end *e, double want, double soft, const rg_proximity *near,
+                               rg_nearest *q, double *worst)
+{
+    *worst = 1;
+    for (int32_t k = 0; k < near->count; k++) {
+        const rg_close_pair *at = &near->pair[k];
+        rg_vec3 n = {0, 0, 0};
+        double d = at->d;
+        for (int i = 0; i < 4; i++) n = rg_vec3_axpy(at->weight[i] / fmax(at->d, 1e-300), P->p[at->v[i]], n);
+        rg_sides_tell(&e->sides, P, at, &n, &d);
+        *worst = fmin(*worst, d);
+        for (int hard = 0; hard < 2; hard++) {
+            if (hard && !(d < 2 * want)) continue;
+            rg_row *row = rg_nearest_add(q);
+            if (!row) return RG_ENOMEM;
+            row->terms = 4;
+            for (int i = 0; i < 4; i++) row->v[i] = at->v[i], row->weight[i] = at->weight[i];
+            row->n = n;
+            row->b = hard ? want - d : -0.7 * fmax(d, 0) - 1e-12;
+            row->c = hard ? REPAIR_HARD : REPAIR_KEEP;
+            if (!hard && d < soft) row->soft_b = soft / 2 - d, row->soft_c = REPAIR_SOFT;
+        }
+    }
+    return RG_OK;
+}
+
+static rg_status add_plane_rows(const rg_linkage *P, const rg_end *e, double want, rg_nearest *q)
+{
+    for (int32_t k = 0; k < e->count; k++) {
+        const rg_end_row *from = &e->row[k];
+        if (from->kind == RG_END_LAYER) continue;
+        rg_row *row = rg_nearest_add(q);
+        if (!row) return RG_ENOMEM;
+        row->terms = from->terms;
+        memcpy(row->v, from->v, sizeof row->v);
+        memcpy(row->weight, from->weight, sizeof row->weight);
+        row->n = rg_end_normal(from, P->place);
+        row->b = (from->kind == RG_END_INSIDE ? REPAIR_INSIDE : REPAIR_BESIDE) * want / REPAIR_SCALE - rg_end_gap(from, P->place, P->p);
+        row->c = REPAIR_KEEP;
+    }
+    return RG_OK;
+}
+
+rg_status rg_open_repair(rg_linkage *P, const rg_end *e, double want, double soft, double margin, int32_t most, rg_proximity *near,
+                         rg_nearest *q, double *z, rg_open_result *result)
+{
+    rg_status s = RG_OK;
+    for (int32_t n = 0; n < most && s == RG_OK; n++) {
+        const double angle = stand(P, q, z);
+        s = rg_proximity_find(near, P->p, NEAR);
+        if (s == RG_OK) s = add_near_rows(P, e, want, soft, near, q, &result->worst);
+        if (s == RG_OK && result->worst > TOUCHING * want && !(least_gap(P, e, 1) <= -1e-6) && angle < 1e-9) break;
+        if (s == RG_OK) s = add_plane_rows(P, e, want, q);
+        if (s == RG_OK) s = add_bounds(P, z, NULL, RG_PI - NEAR_HALF_TURN, margin, q);
+        if (s == RG_OK) s = rg_nearest_solve(q, NULL, P->J.r, 1);
+        if (s != RG_OK) break;
+        go(P, q, z);
+        rg_stride_close(P, q, z, 1e-11, 3);
+    }
+    if (s != RG_OK) return s;
+    rg_stride_close(P, q, z, CLOSED, CLOSE);
+    result->angle = stand(P, q, z);
+    s = rg_proximity_find(near, P->p, NEAR);
+    if (s == RG_OK) s = add_near_rows(P, e, want, soft, near, q, &result->worst);
+    result->least = least_gap(P, e, 0);
+    return s;
+}
