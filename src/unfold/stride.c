@@ -23,6 +23,7 @@ static const double LEAST_AREA = 0.1;    /* of a facet, of what it was */
 static const double MOST_CORRECTION = 0.7, ALWAYS_CORRECTED = 1e-3; /* of the step: else it went to another branch */
 static const double GAP = 0.1;           /* of its distance, that a pair must keep over a step */
 static const double WRONG_BY = 2e-6;     /* a glued pair may not be farther than that on the wrong side of where it was */
+static const double STILL = 1e-7;        /* a step in which no crease turns by more is none */
 static const double CLOSED = 1e-11, HARDLY_OPEN = 1e-8;
 static const int WITH_ROWS = 5, NEWTON = 12; /* frozen rows that can't all hold keep kicking Newton off: rows for some iterations only */
 static const int HALVINGS = 12;
@@ -311,13 +312,11 @@ static int refuse(rg_stride *s, const double *dz, double f)
     return rg_proximity_meet(&s->near, P->p, s->p1, GAP, &s->who) < 1 ? RG_REFUSED_MEETS : -1;
 }
 
-rg_status rg_stride_take(rg_stride *s)
+/* The nearest step to s->wish that rows allow: q->dz. *f: out, the part of it that is short enough for them. */
+static rg_status find_step(rg_stride *s, double *f)
 {
     rg_linkage *P = s->P;
     rg_nearest *q = &s->q;
-    judge(s);
-    if (s->state != RG_STRIDE_GOES) return RG_OK;
-    make_wish(s);
     rg_nearest_clear(q);
     rg_status status = add_pair_rows(s);
     if (status == RG_OK) status = add_bounds(s);
@@ -327,33 +326,69 @@ rg_status rg_stride_take(rg_stride *s)
     for (int32_t i = 0; i < P->N; i++) turn = fmax(turn, fabs(q->dz[i]));
     for (int32_t i = 0; i < P->U; i++) shift = fmax(shift, fabs(q->dz[P->N + i]) / P->freedom.reach[i]);
     for (int32_t v = 0; v < P->mesh->nv; v++) move = fmax(move, rg_vec3_length(q->dp[v]));
-    double f = fmin(fmin(1, 1.5 * STEP * s->h / turn), fmin(MOVE * s->h / move, 0.2 / shift));
+    *f = fmin(fmin(1, 1.5 * STEP * s->h / turn), fmin(MOVE * s->h / move, 0.2 / shift));
+    s->turn = turn * *f;
+    return RG_OK;
+}
+
+/* Goes f of q->dz, or half as far, and so on, whatever first is a step that paper can make. *halvings: out; -1: none is. */
+static rg_status go(rg_stride *s, double f, int *halvings)
+{
+    const rg_linkage *P = s->P;
+    memcpy(s->wish, s->q.dz, (size_t)P->n * sizeof *s->wish); /* from here on: the step */
+    for (*halvings = 0; *halvings < HALVINGS; ++*halvings, f /= 2) {
+        int closed;
+        for (int32_t i = 0; i < P->n; i++) s->z1[i] = s->z[i] + f * s->wish[i];
+        const rg_status status = close_trial(s, &closed);
+        if (status != RG_OK) return status;
+        const int why = closed ? refuse(s, s->wish, f) : RG_REFUSED_OPEN;
+        if (why < 0) {
+            memcpy(s->z, s->z1, (size_t)P->n * sizeof *s->z);
+            stand(s);
+            if (s->sides) release(s);
+            s->h = fmax(1e-3, fmin(1, 1.3 * s->h * pow(0.5, *halvings / 2.0)));
+            return RG_OK;
+        }
+        s->refused[why]++;
+        stand(s);
+    }
+    *halvings = -1;
+    return RG_OK;
+}
+
+rg_status rg_stride_towards(rg_stride *s, double floor, int *gone)
+{
+    double f;
+    int halvings = -1;
+    s->dm = floor;
+    rg_status status = find_step(s, &f);
+    if (status == RG_OK) status = go(s, f, &halvings);
+    *gone = halvings >= 0;
+    return status;
+}
+
+rg_status rg_stride_take(rg_stride *s)
+{
+    double f;
+    int halvings;
+    judge(s);
+    if (s->state != RG_STRIDE_GOES) return RG_OK;
+    make_wish(s);
+    rg_status status = find_step(s, &f);
+    if (status != RG_OK) return status;
     s->pace = fmin(1, fmax(0.05, 1.25 * s->pace * f));
-    if (!(turn * f >= 1e-7)) { /* held: the floor gives */
+    if (!(s->turn >= STILL)) { /* held: the floor gives */
         if (s->dm < FLOOR_LAST) s->state = RG_STRIDE_STUCK;
         s->dm *= FLOOR_LESS;
         s->since = s->steps;
         return RG_OK;
     }
-    memcpy(s->wish, q->dz, (size_t)P->n * sizeof *s->wish); /* from here on: the step */
-    int halvings = 0, why = 0;
-    for (; halvings < HALVINGS; halvings++, f /= 2) {
-        int closed;
-        for (int32_t i = 0; i < P->n; i++) s->z1[i] = s->z[i] + f * s->wish[i];
-        if ((status = close_trial(s, &closed)) != RG_OK) return status;
-        why = closed ? refuse(s, s->wish, f) : RG_REFUSED_OPEN;
-        if (why < 0) break;
-        s->refused[why]++;
-        stand(s);
-    }
-    if (why >= 0) {
+    status = go(s, f, &halvings);
+    if (status != RG_OK) return status;
+    if (halvings < 0) {
         s->state = RG_STRIDE_NO_STEP;
         return RG_OK;
     }
-    memcpy(s->z, s->z1, (size_t)P->n * sizeof *s->z);
-    stand(s);
-    if (s->sides) release(s);
-    s->h = fmax(1e-3, fmin(1, 1.3 * s->h * pow(0.5, halvings / 2.0)));
     s->steps++;
     measure(s);
     return RG_OK;

@@ -33,6 +33,7 @@ typedef struct rg_stride {
     double h, dm, pace;     /* part of the largest step; floor; part of the wish that rows let through lately */
     double *merit;          /* [RG_STRIDE_MOST] how far it was after each step */
     int32_t steps, since;   /* taken; the step at which the floor was lowered last */
+    double turn;            /* the most that a crease turns in the step found last */
     double mean, least;     /* progress: mean over driven creases, and of the last of them */
     double work, budget;
     int32_t refused[RG_REFUSALS];
@@ -48,6 +49,9 @@ rg_status rg_stride_init(rg_stride *s, const rg_memory *mem, rg_linkage *P, cons
 void rg_stride_free(rg_stride *s);
 /* One step taken: s->z; or s->state says why not. */
 rg_status rg_stride_take(rg_stride *s);
+
+/* One step that is wished to be s->wish, none nearer than the floor; *gone: out, zero: no part of it can be gone. */
+rg_status rg_stride_towards(rg_stride *s, double floor, int *gone);
 
 /* W^1/2 of the unknowns: 1 for drawn creases, more for added ones, `give` times the reach of a way of the pattern. */
 void rg_stride_scale(const rg_linkage *P, double give, double *scale);
