@@ -1,0 +1,299 @@
+#include "unfold/unfold.h"
+#include "unfold/landing.h"
+#include "unfold/open.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* A try: how the end is opened, and which rows it has. They fail on different patterns; the first frees most. */
+typedef struct try_ {
+    rg_open_way open;
+    rg_end_rules rules;
+} try_;
+
+static const try_ TRIES[] = {
+    /* part  give hard  margin scaled repair    round corners apart */
+    {{0.03, 0.2, 1e-9, 1e-4, 0, 6}, {0, 0, 0}},
+    {{0.03, 0.2, 1e-6, 1e-4, 0, 6}, {0, 0, 0}},
+    {{0.03, 0.2, 1e-8, 0, 0, 0}, {1, 1, 1}},
+    {{0.01, 0.2, 1e-8, 0, 1, 0}, {1, 1, 1}},
+    {{0.01, 0.2, 1e-8, 0, 1, 0}, {1, 1, 0}},
+};
+enum { TRY_COUNT = sizeof TRIES / sizeof *TRIES };
+/* Orders that are tried: the first one, and those that differ from it in one part. */
+static const int32_t ORDERS = 4;
+/* An opened state whose layers are farther on the wrong side is not one (lengths of the sheet): half of what counts as a crossing. */
+static const double WRONG = 5e-5;
+static const double CLOSED = 1e-9, LEAST_AREA = 0.1;
+/* Closing a state that is read off. */
+static const double READ_CLOSED = 1e-13, NEAR_DUE = 1e-6;
+static const int READ_NEWTON = 12, SECANTS = 8;
+/* No try may cost more than this part of what is left. */
+static const double PART_OF_BUDGET = 0.5;
+
+void rg_unfold_free(rg_unfold *u)
+{
+    if (!u->mem.resize) return;
+    rg_linkage_free(&u->P);
+    rg_nearest_free(&u->q);
+    rg_mesh_free(&u->mesh);
+    rg_layers_destroy(u->layers);
+    void *block[] = {u->z, u->progress, u->end, u->scratch, u->which};
+    for (int i = 0; i < 5; i++) rg_mem_free(&u->mem, block[i]);
+    memset(u, 0, sizeof *u);
+}
+
+/* ---- the flat end */
+
+static int lies_over(void *ctx, int32_t f, int32_t g)
+{
+    const rg_unfold *u = ctx;
+    const rg_flat *flat = &u->layers->flat;
+    /* Positions are seen with the front of the linkage's first facet up, layers with that of flat.root. */
+    const int turned = flat->up[flat->facet_of[u->P.tree.order[0]]];
+    return -turned * rg_layers_above(u->layers, flat->facet_of[f], flat->facet_of[g]);
+}
+
+/* Fold angles at the end: what is aimed at, and what a crease without target folds to there. */
+static void find_angles(rg_unfold *u)
+{
+    const rg_flat *flat = &u->layers->flat;
+    for (int32_t i = 0; i < u->P.N; i++) {
+        const int32_t e = u->mesh.crease_edge[i];
+        int turn = flat->turn[e];
+        if (turn == 2) turn = -flat->up[flat->beside[e][1]] * rg_layers_above(u->layers, flat->beside[e][0], flat->beside[e][1]);
+        u->end[i] = turn * RG_PI;
+    }
+}
+
+static rg_status find_layers(rg_unfold *u, double sign)
+{
+    rg_diag why;
+    for (int32_t i = 0; i < u->P.N; i++) {
+        const double target = u->mesh.target[u->mesh.crease_edge[i]];
+        u->end[i] = i < u->P.N - u->mesh.added ? sign * target : 0;
+    }
+    const rg_status s = rg_layers_of_mesh(&u->mesh, u->end, &u->mem, &u->layers, &why);
+    if (s == RG_EFORMAT || s == RG_ESHEET) return RG_OK;
+    if (s != RG_OK) return s;
+    u->which = rg_mem_array(&u->mem, (size_t)u->layers->parts.count + 1, sizeof *u->which);
+    return u->which ? RG_OK : RG_ENOMEM;
+}
+
+/* The n-th order to be tried. Zero: there are no more. */
+static int number_order(rg_unfold *u, const rg_unfold_wish *wish, int32_t n)
+{
+    const rg_parts *q = &u->layers->parts;
+    if (wish->order >= 0) return n == 0 && rg_layers_which(u->layers, (uint64_t)wish->order, u->which) == RG_OK;
+    memset(u->which, 0, (size_t)q->count * sizeof *u->which);
+    if (n == 0) return 1;
+    for (int32_t i = 0; i < q->count; i++)
+        if (q->orders[i] > 1 && --n == 0) {
+            u->which[i] = 1;
+            return 1;
+        }
+    return 0;
+}
+
+/* ---- the path */
+
+static double progress_of(const rg_unfold *u, const double *z)
+{
+    double sum = 0;
+    int32_t n = 0;
+    for (int32_t i = 0; i < u->P.N - u->mesh.added; i++) {
+        const double target = u->mesh.target[u->mesh.crease_edge[i]];
+        if (isnan(target) || target == 0) continue;
+        sum += z[i] / u->end[i];
+        n++;
+    }
+    return n ? sum / n : 1;
+}
+
+static rg_status keep(void *ctx, const double *z)
+{
+    rg_unfold *u = ctx;
+    const size_t n = (size_t)u->P.n, at = (size_t)u->count;
+    rg_status s = rg_mem_grow(&u->mem, (void **)&u->z, &u->z_room, (at + 1) * n, sizeof *z);
+    if (s == RG_OK) s = rg_mem_grow(&u->mem, (void **)&u->progress, &u->progress_room, at + 1, sizeof *z);
+    if (s != RG_OK) return s;
+    memcpy(u->z + at * n, z, n * sizeof *z);
+    u->progress[at] = progress_of(u, z);
+    u->count++;
+    return RG_OK;
+}
+
+/* States from `first` on, the other way round. */
+static void turn_round(rg_unfold *u, int32_t first)
+{
+    const size_t n = (size_t)u->P.n;
+    for (int32_t i = first, j = u->count - 1; i < j; i++, j--) {
+        const double was = u->progress[i];
+        u->progress[i] = u->progress[j];
+        u->progress[j] = was;
+        memcpy(u->scratch, u->z + (size_t)i * n, n * sizeof *u->z);
+        memcpy(u->z + (size_t)i * n, u->z + (size_t)j * n, n * sizeof *u->z);
+        memcpy(u->z + (size_t)j * n, u->scratch, n * sizeof *u->z);
+    }
+}
+
+/* ---- one try */
+
+static int is_stopped(const rg_unfold_wish *wish, double done) { return wish->stop && wish->stop(wish->ctx, done); }
+
+/* From near flat on nothing can be met: half of it, and flat. */
+static rg_status finish(rg_unfold *u, const double *z)
+{
+    rg_stride_scale(&u->P, 1, u->q.scale);
+    for (int32_t i = 0; i < u->P.n; i++) u->scratch[i] = z[i] / 2;
+    rg_status s = rg_stride_close(&u->P, &u->q, u->scratch, READ_CLOSED, READ_NEWTON) ? keep(u, u->scratch) : RG_OK;
+    memset(u->scratch, 0, (size_t)u->P.n * sizeof *u->scratch);
+    return s == RG_OK ? keep(u, u->scratch) : s;
+}
+
+/* Lands from z, then unfolds it: the path from the end to flat. */
+static rg_status walk(rg_unfold *u, const rg_end *end, const double *z, const double *target, double budget,
+                      const rg_unfold_wish *wish, int *through)
+{
+    rg_stride s;
+    double left = 1;
+    *through = 0;
+    u->count = 0;
+    rg_status status = rg_stride_init(&s, &u->mem, &u->P, &end->sides, end, z, target);
+    s.budget = budget;
+    if (status == RG_OK) status = rg_landing_run(&s, end->z, keep, u, &left);
+    const double landing = s.work + s.q.work + s.q.q.work;
+    rg_stride_free(&s);
+    if (status == RG_OK) {
+        u->landed = u->count ? u->progress[u->count - 1] : progress_of(u, z);
+        status = keep(u, end->z);
+        turn_round(u, 0);
+    }
+    if (status == RG_OK) status = keep(u, z);
+    u->opened = progress_of(u, z);
+    if (status == RG_OK) status = rg_stride_init(&s, &u->mem, &u->P, &end->sides, end, z, target);
+    s.budget = budget - landing;
+    while (status == RG_OK && s.state == RG_STRIDE_GOES && !is_stopped(wish, s.mean)) {
+        const int32_t steps = s.steps;
+        status = rg_stride_take(&s);
+        if (status == RG_OK && s.steps > steps) status = keep(u, s.z);
+    }
+    u->steps += s.steps;
+    for (int i = 0; i < RG_REFUSALS; i++) u->refused += s.refused[i];
+    *through = status == RG_OK && s.state == RG_STRIDE_ARRIVED;
+    if (*through) status = finish(u, s.z);
+    u->work += landing + s.work + s.q.work + s.q.q.work;
+    rg_stride_free(&s);
+    if (*through && status == RG_OK) turn_round(u, 0);
+    return status;
+}
+
+static rg_status attempt(rg_unfold *u, const try_ *t, double budget, const rg_unfold_wish *wish, int *through)
+{
+    rg_end end = {0};
+    rg_proximity near = {0};
+    rg_open_result opened = {0};
+    const size_t n = (size_t)u->P.n;
+    double *z = rg_mem_array(&u->mem, n, sizeof *z), *target = rg_mem_array(&u->mem, n, sizeof *target);
+    *through = 0;
+    u->tries++;
+    find_angles(u);
+    rg_status s = z && target ? rg_end_init(&end, &u->mem, &u->P, u->end, &t->rules, lies_over, u) : RG_ENOMEM;
+    if (s == RG_OK) s = rg_proximity_init(&near, &u->mem, &u->mesh);
+    if (s == RG_OK) {
+        for (int32_t i = 0; i < u->P.N; i++) target[i] = u->end[i] == 0 ? NAN : 0;
+        const double before = u->q.work + u->q.q.work;
+        s = rg_open(&u->P, &end, &t->open, &near, &u->q, z, &opened);
+        const double spent = u->q.work + u->q.q.work - before;
+        u->work += spent;
+        budget -= spent;
+    }
+    rg_proximity_free(&near);
+    if (s == RG_OK && opened.angle <= CLOSED && opened.worst >= -WRONG && rg_linkage_least_area(&u->P, z + u->P.N) >= LEAST_AREA)
+        s = walk(u, &end, z, target, budget, wish, through);
+    rg_end_free(&end);
+    rg_mem_free(&u->mem, z);
+    rg_mem_free(&u->mem, target);
+    return s;
+}
+
+static rg_status search(rg_unfold *u, const rg_unfold_wish *wish)
+{
+    rg_status s = RG_OK;
+    u->outcome = RG_UNFOLD_FAILED;
+    for (int t = 0; t < TRY_COUNT; t++)
+        for (int32_t n = 0; n < ORDERS && number_order(u, wish, n); n++) {
+            int through;
+            const double left = wish->budget - u->work;
+            if (!(left > 0) || is_stopped(wish, 0)) return RG_OK;
+            if ((s = rg_layers_choose(u->layers, u->which)) != RG_OK) return s;
+            s = attempt(u, &TRIES[t], PART_OF_BUDGET * left, wish, &through);
+            if (s != RG_OK) return s;
+            if (!through) continue;
+            u->outcome = RG_UNFOLD_FREE;
+            snprintf(u->how, sizeof u->how, "unfolded from the flat end: order of layers %d of those tried, way of opening %d", (int)n + 1,
+                     t + 1);
+            return RG_OK;
+        }
+    return RG_OK;
+}
+
+rg_status rg_unfold_run(rg_unfold *u, const rg_memory *mem, const rg_mesh *none, const rg_unfold_wish *wish)
+{
+    memset(u, 0, sizeof *u);
+    u->mem = *mem;
+    u->size = none->size;
+    u->outcome = RG_UNFOLD_NO_END;
+    rg_status s = wish->shorter ? rg_triangulate_short(none, &u->mesh) : rg_triangulate_all(none, &u->mesh);
+    if (s != RG_OK) return s;
+    for (int32_t v = 0; v < u->mesh.nv; v++) u->mesh.X[v] = (rg_vec2){u->mesh.X[v].x / u->size, u->mesh.X[v].y / u->size};
+    u->mesh.size = 1;
+    s = rg_linkage_init(&u->P, mem, &u->mesh);
+    if (s == RG_OK) s = rg_nearest_init(&u->q, mem, &u->P);
+    if (s != RG_OK) return s;
+    u->end = rg_mem_array(mem, (size_t)u->P.N, sizeof *u->end);
+    u->scratch = rg_mem_array(mem, (size_t)u->P.n, sizeof *u->scratch);
+    s = u->end && u->scratch ? find_layers(u, wish->sign) : RG_ENOMEM;
+    if (s != RG_OK || !u->layers || u->layers->info.state != RG_LAYERS_VALID || u->P.N == 0) return s;
+    return search(u, wish);
+}
+
+/* ---- reading off */
+
+/* The state a part t from node k to the next, closed: u->scratch. */
+static void between(rg_unfold *u, int32_t k, double t)
+{
+    const size_t n = (size_t)u->P.n;
+    const double *a = u->z + (size_t)k * n, *b = a + n;
+    const int last = k + 2 == u->count; /* into the end: angles by e, pattern by e^2 */
+    for (int32_t i = 0; i < u->P.n; i++) {
+        const double part = last && i >= u->P.N ? 1 - (1 - t) * (1 - t) : t;
+        u->scratch[i] = a[i] + part * (b[i] - a[i]);
+    }
+    rg_stride_close(&u->P, &u->q, u->scratch, READ_CLOSED, READ_NEWTON);
+}
+
+void rg_unfold_read(rg_unfold *u, double due, double *rho, rg_vec2 *X)
+{
+    const size_t n = (size_t)u->P.n;
+    int32_t k = 0;
+    while (k + 2 < u->count && u->progress[k + 1] < due) k++;
+    rg_stride_scale(&u->P, 1, u->q.scale);
+    const double from = u->progress[k], to = u->progress[k + 1];
+    if (due <= from || due >= to) {
+        memcpy(u->scratch, u->z + (size_t)(due >= to ? k + 1 : k) * n, n * sizeof *u->scratch);
+    } else {
+        double low = 0, high = 1, at_low = from, at_high = to;
+        for (int i = 0; i < SECANTS; i++) {
+            const double t = low + (high - low) * (due - at_low) / (at_high - at_low);
+            between(u, k, t);
+            const double at = progress_of(u, u->scratch);
+            if (fabs(at - due) <= NEAR_DUE || !(t > low && t < high)) break;
+            if (at < due) low = t, at_low = at;
+            else high = t, at_high = at;
+        }
+    }
+    memcpy(rho, u->scratch, (size_t)u->P.N * sizeof *rho);
+    rg_freedom_move(&u->P.freedom, u->scratch + u->P.N, X);
+    for (int32_t v = 0; v < u->mesh.nv; v++) X[v] = (rg_vec2){X[v].x * u->size, X[v].y * u->size};
+}
