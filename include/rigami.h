@@ -106,6 +106,7 @@ typedef struct rg_settings {
     double adjust;                /* gain of crease adjustment (3.3), 0: off, RG_ADJUST_AUTO: where nothing else folds */
     rg_contact_mode contact;      /* facets that pass through each other; avoid */
     rg_effort effort;             /* how much is tried when the plain way stops short; normal */
+    int32_t layer_order;          /* which order of the flat end's layers a motion without contact has; -1: one that folds */
     rg_symmetry_kept symmetry;    /* of the pattern with its mountains and valleys, in every state of the motion; auto */
     rg_method method;             /* auto: chosen, said in the report */
     rg_solver solver;             /* auto: by size and build */

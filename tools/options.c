@@ -76,6 +76,8 @@ static const rule rules[] = {
      "how much is tried when the plain way stops short (normal):"},
     {FOR_FOLD, "contact", 0, "WHAT", CHOICE, AT(contact), 0, 0, 1, contacts,
      "facets that pass through each other: look for a motion without, take the plain one and say, or do not look (avoid):"},
+    {FOR_FOLD, "layers", 0, "N", WHOLE, AT(settings.layer_order), 0, INT32_MAX, 1, NULL,
+     "which of the flat end's layer orders a motion without contact has, 0 the first (one that folds)"},
     {FOR_FOLD, "fixed", 0, "FACET", WHOLE, AT(settings.fixed_facet), 0, INT32_MAX, 1, NULL,
      "the facet that stays where it is (the one nearest the middle)"},
     {READS, "from", 0, "FORMAT", CHOICE, AT(format), 0, 0, 1, formats,

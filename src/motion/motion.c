@@ -7,6 +7,7 @@
 #include "motion/measure.h"
 #include "motion/strategy.h"
 #include "pattern/source.h"
+#include "motion/unfolding.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -220,7 +221,9 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_
     if (s == RG_OK) s = rg_source_copy(&p->source, &mem, &m->source);
     if (s == RG_OK) s = rg_mesh_from_pattern(p, &mem, &none, why);
     if (s == RG_OK) s = rg_strategy_run(&choice, &none, settings, &watch, why);
+    if (s == RG_OK) s = rg_unfolding_try(&choice, &none, settings, &watch, why);
     if (s == RG_OK) s = adopt(m, &choice);
+    else rg_take_free(&choice.take);
     if (s == RG_OK) s = rg_tree_init(&m->mesh, settings->fixed_facet, &m->tree);
     if (s == RG_EARG && m->mesh.nf > 0)
         rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)settings->fixed_facet, (int)m->mesh.nf - 1);

@@ -257,6 +257,31 @@ rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *settings, cons
     return RG_OK;
 }
 
+rg_status rg_take_read(rg_take *t, rg_mesh *m, const rg_settings *settings, const double *target,
+                       void (*read)(void *ctx, double progress, double *rho, rg_vec2 *X), void *ctx, rg_diag *why)
+{
+    memset(t, 0, sizeof *t);
+    t->mem = rg_mem_default(settings->memory);
+    t->to = settings->to;
+    t->mesh = *m;
+    memset(m, 0, sizeof *m);
+    const rg_status s = make_room(t, &t->mesh, settings->frames, 1);
+    if (s != RG_OK) {
+        rg_take_free(t);
+        return rg_fail(s, why, 0, "%s", rg_status_text(s));
+    }
+    memcpy(t->target, target, (size_t)t->mesh.N * sizeof *target);
+    for (; t->count < settings->frames; t->count++)
+        read(ctx, fabs(settings->to) * t->count / (settings->frames - 1), t->rho + (size_t)t->count * (size_t)t->mesh.N,
+             t->flat + (size_t)t->count * (size_t)t->mesh.nv);
+    t->outcome = RG_FOLDED;
+    t->score = score(t);
+    t->overfold = overfold(t);
+    t->moved = moved(t);
+    judge(t);
+    return RG_OK;
+}
+
 static void swap(void *a, void *b, size_t bytes)
 {
     unsigned char *x = a, *y = b;

@@ -45,6 +45,10 @@ rg_status rg_take_straight(rg_take *t, rg_mesh *m, const rg_settings *s, rg_watc
  * work. */
 rg_status rg_take_flow(rg_take *t, rg_mesh *m, const rg_settings *s, const rg_flow_law *law, const double *from,
                        const double *target, const rg_symmetry *G, double budget, rg_watch *watch, rg_diag *why);
+/* The frames of a motion that was found some other way and goes from flat to `target`: read(ctx, progress, rho[N], X[nv]) gives the
+ * state at a progress 0 ... 1 of it. *m is taken over, also on failure. */
+rg_status rg_take_read(rg_take *t, rg_mesh *m, const rg_settings *s, const double *target,
+                       void (*read)(void *ctx, double progress, double *rho, rg_vec2 *X), void *ctx, rg_diag *why);
 /* A flow from `target` to flat that came there, as the motion from flat to `target` that it is backwards: its frames the other
  * way round. One that did not come there is no such motion: its score is then nothing. */
 void rg_take_turn_round(rg_take *t, const double *target);

@@ -1,0 +1,110 @@
+#include "motion/unfolding.h"
+#include "base/clock.h"
+#include "base/status.h"
+#include "contact/contact.h"
+#include "unfold/unfold.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Work, multiplications, by effort: some 20 s of a slow machine, and 5 minutes. */
+static const double MOST_WORK[] = {0, 5e10, 8e11};
+
+/* The first frame in which facets cross; -1: none. */
+static rg_status first_crossing(const rg_take *t, int32_t *frame)
+{
+    const rg_mesh *m = &t->mesh;
+    rg_plates plates = {0};
+    rg_contact_work w = {0};
+    rg_tree tree = {0};
+    rg_place *place = rg_mem_array(&t->mem, (size_t)m->nf, sizeof *place);
+    rg_vec3 *x = rg_mem_array(&t->mem, (size_t)m->nv, sizeof *x);
+    rg_status s = place && x ? rg_tree_init(m, -1, &tree) : RG_ENOMEM;
+    if (s == RG_OK) s = rg_plates_init(m, &plates);
+    if (s == RG_OK) s = rg_contact_work_init(&plates, &w);
+    *frame = -1;
+    for (int32_t k = 0; s == RG_OK && k < t->count && *frame < 0; k++) {
+        const rg_vec2 *X = t->flat ? t->flat + (size_t)k * (size_t)m->nv : m->X;
+        rg_contact_hit deepest;
+        rg_pose_facets(m, X, &tree, t->rho + (size_t)k * (size_t)m->N, place);
+        rg_pose_vertices(m, X, &tree, place, x);
+        if (rg_contact_deepest(&plates, x, RG_CONTACT_TOLERANCE, &w, &deepest)) *frame = k;
+    }
+    rg_contact_work_free(&w);
+    rg_plates_free(&plates);
+    rg_tree_free(&tree);
+    rg_mem_free(&t->mem, place);
+    rg_mem_free(&t->mem, x);
+    return s;
+}
+
+static int stop(void *ctx, double done)
+{
+    rg_watch *w = ctx;
+    if (w->progress && !w->cancelled) w->cancelled = w->progress(w->ctx, done < 0 ? 0 : done > 1 ? 1 : done) != 0;
+    return w->cancelled;
+}
+
+static void read(void *ctx, double progress, double *rho, rg_vec2 *X) { rg_unfold_read(ctx, progress, rho, X); }
+
+/* What unfolding found, as a take. */
+static rg_status take_over(rg_take *t, rg_unfold *u, const rg_mesh *none, const rg_settings *s, int shorter, rg_diag *why)
+{
+    rg_mesh m;
+    const double sign = s->to < 0 ? -1 : 1;
+    rg_status status = shorter ? rg_triangulate_short(none, &m) : rg_triangulate_all(none, &m);
+    if (status != RG_OK) return status;
+    double *target = rg_mem_array(&u->mem, (size_t)m.N, sizeof *target);
+    if (!target) {
+        rg_mesh_free(&m);
+        return RG_ENOMEM;
+    }
+    for (int32_t i = 0; i < m.N; i++) target[i] = i < m.N - m.added ? sign * m.target[m.crease_edge[i]] : NAN;
+    status = rg_take_read(t, &m, s, target, read, u, why);
+    rg_mem_free(&u->mem, target);
+    if (status != RG_OK) return status;
+    t->method = "unfold";
+    t->solver = rg_supernodal_built() ? "cholesky" : "cg";
+    t->cost.steps = u->steps;
+    return RG_OK;
+}
+
+static void adopt(rg_choice *c, rg_take *t, const rg_unfold *u)
+{
+    rg_take_free(&c->take);
+    c->take = *t;
+    memset(t, 0, sizeof *t);
+    c->triangulation = "all";
+    c->why_triangulated = "a motion in which facets do not pass through each other bends them";
+    snprintf(c->strategy, sizeof c->strategy, "%s", u->how);
+}
+
+static rg_status unfold(rg_choice *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(s->memory);
+    const double begun = rg_seconds();
+    const rg_unfold_wish wish = {s->to < 0 ? -1 : 1, s->layer_order, 0, MOST_WORK[s->effort], stop, watch};
+    rg_unfold u;
+    rg_take t = {0};
+    int32_t crossing = 0;
+    rg_status status = rg_unfold_run(&u, &mem, none, &wish);
+    c->tries += u.tries;
+    if (status == RG_OK && u.outcome == RG_UNFOLD_FREE) {
+        status = take_over(&t, &u, none, s, wish.shorter, why);
+        if (status == RG_OK) status = first_crossing(&t, &crossing);
+        if (status == RG_OK && crossing < 0) adopt(c, &t, &u);
+    }
+    c->cost.seconds += rg_seconds() - begun;
+    rg_take_free(&t);
+    rg_unfold_free(&u);
+    return status;
+}
+
+rg_status rg_unfolding_try(rg_choice *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why)
+{
+    int32_t crossing = -1;
+    if (s->effort == RG_EFFORT_FAST || s->to == 0 || watch->cancelled || none->M == 0) return RG_OK;
+    rg_status status = c->take.outcome == RG_FOLDED ? first_crossing(&c->take, &crossing) : RG_OK;
+    if (status == RG_OK && (c->take.outcome != RG_FOLDED || crossing >= 0)) status = unfold(c, none, s, watch, why);
+    return status == RG_ENOMEM ? rg_fail(status, why, 0, "%s", rg_status_text(status)) : status;
+}
