@@ -10,6 +10,9 @@
 /* Work, multiplications, by effort: some 20 s of a slow machine, and 5 minutes. */
 static const double MOST_WORK[] = {0, 5e10, 8e11};
 
+/* What moving a vertex of the pattern by the shortest line at it counts, in radians of a crease, as in flow.h. */
+static const double GIVE = 1;
+
 /* The first frame in which facets cross; -1: none. */
 static rg_status first_crossing(const rg_take *t, int32_t *frame)
 {
@@ -63,6 +66,8 @@ static rg_status take_over(rg_take *t, rg_unfold *u, const rg_mesh *none, const 
     status = rg_take_read(t, &m, s, target, read, u, why);
     rg_mem_free(&u->mem, target);
     if (status != RG_OK) return status;
+    snprintf(t->reason, sizeof t->reason, "unfolded from its flat end without contact, and read backwards");
+    t->law.give = GIVE;
     t->method = "unfold";
     t->solver = rg_supernodal_built() ? "cholesky" : "cg";
     t->cost.steps = u->steps;
@@ -74,7 +79,7 @@ static void adopt(rg_choice *c, rg_take *t, const rg_unfold *u)
     rg_take_free(&c->take);
     c->take = *t;
     memset(t, 0, sizeof *t);
-    c->triangulation = "all";
+    c->triangulation = c->take.mesh.added ? "all" : "none";
     c->why_triangulated = "a motion in which facets do not pass through each other bends them";
     snprintf(c->strategy, sizeof c->strategy, "%s", u->how);
 }
@@ -92,7 +97,8 @@ static rg_status unfold(rg_choice *c, const rg_mesh *none, const rg_settings *s,
     if (status == RG_OK && u.outcome == RG_UNFOLD_FREE) {
         status = take_over(&t, &u, none, s, wish.shorter, why);
         if (status == RG_OK) status = first_crossing(&t, &crossing);
-        if (status == RG_OK && crossing < 0) adopt(c, &t, &u);
+        /* A part of the way is to be one of creases that have all left flat. */
+        if (status == RG_OK && crossing < 0 && (t.strays == 0 || c->take.outcome != RG_FOLDED)) adopt(c, &t, &u);
     }
     c->cost.seconds += rg_seconds() - begun;
     rg_take_free(&t);
@@ -103,7 +109,8 @@ static rg_status unfold(rg_choice *c, const rg_mesh *none, const rg_settings *s,
 rg_status rg_unfolding_try(rg_choice *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why)
 {
     int32_t crossing = -1;
-    if (s->effort == RG_EFFORT_FAST || s->to == 0 || watch->cancelled || none->M == 0) return RG_OK;
+    if (s->contact != RG_CONTACT_AVOID || s->effort == RG_EFFORT_FAST || s->to == 0 || watch->cancelled || none->M == 0) return RG_OK;
+    if (s->adjust == 0 || s->triangulate == RG_TRIANGULATE_NONE) return RG_OK; /* it bends facets and moves the pattern */
     rg_status status = c->take.outcome == RG_FOLDED ? first_crossing(&c->take, &crossing) : RG_OK;
     if (status == RG_OK && (c->take.outcome != RG_FOLDED || crossing >= 0)) status = unfold(c, none, s, watch, why);
     return status == RG_ENOMEM ? rg_fail(status, why, 0, "%s", rg_status_text(status)) : status;

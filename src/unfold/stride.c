@@ -29,6 +29,7 @@ static const int WITH_ROWS = 5, NEWTON = 12; /* frozen rows that can't all hold 
 static const int HALVINGS = 12;
 static const double ARRIVED_FLAT = 0.985, ARRIVED_FOLDED = 0.993;
 static const double GLUE = 2e-5, RELEASE = 3e-5, SIDE_RELEASE = 1e-5; /* distances from which a pair is glued, released */
+static const double HARDLY_OPEN_END = 0.04, GROWTH = 0.3, LAGGING = 0.7; /* near the end: steps as a part of how far it is open */
 static const double SIDE_COUNTS = 1e-3;  /* pairs nearer than that are held by their side in the order */
 
 void rg_stride_scale(const rg_linkage *P, double give, double *scale)
@@ -75,21 +76,27 @@ static void measure(rg_stride *s)
     s->least = least;
 }
 
-/* Where two layers lie on each other at the start they are glued. */
-static rg_status glue(rg_stride *s)
+static unsigned char *flag_of(rg_stride *s, int kind, int32_t i, int32_t j)
 {
-    rg_proximity *near = &s->near;
-    const rg_status status = rg_proximity_find(near, s->P->p, SIDE_COUNTS);
-    for (int32_t k = 0; status == RG_OK && k < near->count; k++) {
-        const rg_close_pair *at = &near->pair[k];
-        rg_vec3 n;
-        double d;
-        const int wrong = s->sides && rg_sides_tell(s->sides, s->P, at, &n, &d) && d < SIDE_RELEASE;
-        if (!(at->d < GLUE) && !wrong) continue;
-        if (at->kind == 0) near->corner[(size_t)at->i * (size_t)s->P->mesh->nf + (size_t)at->j] |= RG_PROXIMITY_GLUED;
-        else near->edge[(size_t)at->i * (size_t)s->P->mesh->ne + (size_t)at->j] |= RG_PROXIMITY_GLUED;
-    }
-    return status;
+    const size_t wide = (size_t)(kind ? s->P->mesh->ne : s->P->mesh->nf);
+    return (kind ? s->near.edge : s->near.corner) + (size_t)i * wide + (size_t)j;
+}
+
+/* Where two layers lie on each other at the start they are glued. */
+static void glue(rg_stride *s)
+{
+    const rg_mesh *m = s->P->mesh;
+    for (int kind = 0; kind < 2; kind++)
+        for (int32_t i = 0; i < (kind ? m->ne : m->nv); i++)
+            for (int32_t j = 0; j < (kind ? i : m->nf); j++) {
+                unsigned char *flag = flag_of(s, kind, i, j);
+                rg_close_pair at;
+                rg_vec3 n;
+                double d;
+                if (*flag || !(rg_proximity_distance(&s->near, kind, i, j, s->P->p, &at) < SIDE_COUNTS)) continue;
+                const int wrong = s->sides && rg_sides_tell(s->sides, s->P, &at, &n, &d) && d < SIDE_RELEASE;
+                if (at.d < GLUE || wrong) *flag |= RG_PROXIMITY_GLUED;
+            }
 }
 
 static void release_pair(rg_stride *s, int kind, int32_t i, int32_t j, unsigned char *flag)
@@ -112,11 +119,9 @@ static void release(rg_stride *s)
         for (int32_t f = 0; f < e; f++) release_pair(s, 1, e, f, &s->near.edge[(size_t)e * (size_t)m->ne + (size_t)f]);
 }
 
-static int is_glued(const rg_stride *s, const rg_close_pair *at)
+static int is_glued(rg_stride *s, const rg_close_pair *at)
 {
-    const rg_mesh *m = s->P->mesh;
-    return (at->kind == 0 ? s->near.corner[(size_t)at->i * (size_t)m->nf + (size_t)at->j]
-                          : s->near.edge[(size_t)at->i * (size_t)m->ne + (size_t)at->j]) & RG_PROXIMITY_GLUED;
+    return *flag_of(s, at->kind, at->i, at->j) & RG_PROXIMITY_GLUED;
 }
 
 rg_status rg_stride_init(rg_stride *s, const rg_memory *mem, rg_linkage *P, const rg_sides *sides, const rg_end *end,
@@ -144,7 +149,8 @@ rg_status rg_stride_init(rg_stride *s, const rg_memory *mem, rg_linkage *P, cons
     s->budget = INFINITY;
     stand(s);
     measure(s);
-    return sides ? glue(s) : RG_OK;
+    if (sides) glue(s);
+    return RG_OK;
 }
 
 void rg_stride_free(rg_stride *s)
@@ -198,6 +204,15 @@ static void make_wish(rg_stride *s)
 {
     const rg_linkage *P = s->P;
     const double step = STEP * s->h;
+    if (s->end && s->mean < HARDLY_OPEN_END) { /* the way off the end goes as e, and the pattern as e^2 */
+        const double part = GROWTH * s->h;
+        for (int32_t i = 0; i < P->n; i++) {
+            const double off = s->z[i] - s->end->z[i], least = i < P->N && !isnan(s->target[i]) ? LAGGING * s->mean * s->end->z[i] : 0;
+            s->wish[i] = i < P->N ? part * (fabs(off) < fabs(least) ? -least : off) : 2 * part * off;
+        }
+        s->pace = 1;
+        return;
+    }
     for (int32_t i = 0; i < P->N; i++) {
         const double left = s->target[i] - s->z[i];
         s->wish[i] = s->pace * (isnan(left) ? -ADDED_BACK * s->h * s->z[i] : fmax(-step, fmin(step, left)));
