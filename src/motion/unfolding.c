@@ -69,7 +69,7 @@ static rg_status take_over(rg_take *t, rg_unfold *u, const rg_mesh *none, const 
     snprintf(t->reason, sizeof t->reason, "unfolded from its flat end without contact, and read backwards");
     t->law.give = GIVE;
     t->method = "unfold";
-    t->solver = rg_supernodal_built() ? "cholesky" : "cg";
+    t->solver = "cholesky";
     t->cost.steps = u->steps;
     return RG_OK;
 }

@@ -63,7 +63,7 @@ static void project(rg_nearest *q, double *y, const double *r)
         rg_step_solve(A, q->right, q->scratch); /* eq. (15) */
         for (int32_t i = 0; i < q->P->n; i++) y[i] -= q->scratch[i];
     }
-    q->work += 8 * (double)A->start[A->columns] + 4 * A->L.entries;
+    q->work += 8 * (double)A->start[A->columns] + 4 * A->L.S.entries;
 }
 
 static void move(rg_nearest *q, const double *y)

@@ -68,7 +68,7 @@ static double stand(rg_linkage *P, rg_nearest *q, const double *z)
 {
     const double angle = rg_joint_assemble(&P->J, z, z + P->N, NULL);
     rg_joint_renew(&P->J, q->scale);
-    q->work += P->J.A.L.flops;
+    q->work += P->J.A.L.S.flops;
     rg_linkage_put(P, z);
     rg_nearest_clear(q);
     return angle;

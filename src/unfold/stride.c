@@ -45,7 +45,7 @@ int rg_stride_close(rg_linkage *P, rg_nearest *q, double *z, double tol, int32_t
         if (angle <= tol) return 1;
         if (i == most || !(angle < 1)) return 0;
         rg_joint_renew(&P->J, q->scale);
-        q->work += 20 * P->J.A.L.entries + P->J.A.L.flops;
+        q->work += 20 * P->J.A.L.S.entries + P->J.A.L.S.flops;
         rg_nearest_project(q, NULL, P->J.r);
         for (int32_t k = 0; k < P->n; k++) z[k] += q->dz[k];
     }
@@ -57,7 +57,7 @@ static void stand(rg_stride *s)
     rg_linkage *P = s->P;
     rg_joint_assemble(&P->J, s->z, s->z + P->N, NULL);
     rg_joint_renew(&P->J, s->q.scale);
-    s->q.work += P->J.A.L.flops;
+    s->q.work += P->J.A.L.S.flops;
     rg_linkage_put(P, s->z);
 }
 
