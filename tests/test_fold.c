@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -265,6 +266,44 @@ static void the_same_bits_twice(void **state)
     }
 }
 
+/* With ever more frames: at the same percent the same bits, and from one to the next no more than so many parts of a whole turn as
+ * there are frames, times three. Patterns that leave flat in several ways, that one way, that come in parts. */
+static void frames_are_read_off_a_path_that_knows_nothing_of_them(void **state)
+{
+    (void)state;
+    static const struct { const char *kind; int32_t n; rg_triangulation triangulate; } of[] = {
+        {"preliminary", 0, RG_TRIANGULATE_NONE}, {"bird", 0, RG_TRIANGULATE_NONE}, {"miura", 4, RG_TRIANGULATE_NONE},
+        {"miura", 4, RG_TRIANGULATE_ALL}, {"waterbomb", 2, RG_TRIANGULATE_NONE}};
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
+        double *kept = NULL;
+        for (int32_t many = 1; many <= 100; many *= 10) { /* of them each tenth is a frame of the one before */
+            rg_settings s = rg_settings_default();
+            s.triangulate = of[k].triangulate;
+            s.frames = 24 * many + 1;
+            rg_pattern *p = generated(of[k].kind, of[k].n, 0);
+            rg_fold *f = fold_of(p, &s);
+            const int32_t N = f->mesh.N;
+            const size_t row = (size_t)N * sizeof(double);
+            double *now = calloc((size_t)s.frames, row), most = 0;
+            for (rg_step_info i; next_frame(f, &i);) {
+                near(f->s, (double)i.frame / (s.frames - 1), 1e-9);
+                memcpy(now + i.frame * N, f->rho, row);
+                for (int32_t c = 0; c < N && i.frame > 0; c++)
+                    most = fmax(most, fabs(now[i.frame * N + c] - now[(i.frame - 1) * N + c]));
+            }
+            assert_int_equal(f->outcome, RG_FOLDED);
+            below(most, 3 * RG_PI / (s.frames - 1));
+            for (int32_t i = 0; kept && i < s.frames; i += 10)
+                assert_memory_equal(now + i * N, kept + i / 10 * N, row);
+            free(kept);
+            kept = now;
+            rg_fold_destroy(f);
+            rg_pattern_destroy(p);
+        }
+        free(kept);
+    }
+}
+
 static void steps_allocate_nothing(void **state)
 {
     (void)state;
@@ -353,6 +392,7 @@ int main(void)
         cmocka_unit_test(methods_are_of_their_order),
         cmocka_unit_test(adaptive_follows_the_same_motion),
         cmocka_unit_test(the_same_bits_twice),
+        cmocka_unit_test(frames_are_read_off_a_path_that_knows_nothing_of_them),
         cmocka_unit_test(steps_allocate_nothing),
         cmocka_unit_test(memory_may_be_short),
         cmocka_unit_test(what_stops_is_closed),

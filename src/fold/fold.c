@@ -173,16 +173,18 @@ void rg_fold_stop(rg_fold *f, const char *why)
 
 static void leave_flat(rg_fold *f)
 {
-    double s1 = fmin(FIRST_ANGLE / RG_PI, rg_fold_frame_progress(f, f->frame));
+    double s1 = fmin(FIRST_ANGLE / RG_PI, f->smooth ? f->s_end / 2 : rg_fold_frame_progress(f, f->frame));
     if (f->smooth) rg_path_insert(&f->path, 0, f->rho, NULL);
     if (!rg_start_leave_flat(f, s1)) {
         rg_fold_stop(f, "no way off the flat state was found");
         return;
     }
     if (f->smooth && !(rg_integrate_tangent(f, f->rho, f->s, 0, f->t) > 0)) f->smooth = 0;
-    if (f->smooth) rg_path_insert(&f->path, f->s, f->rho, f->t);
     f->h = f->s;
     f->order = 1;
+    if (!f->smooth) return;
+    rg_path_insert(&f->path, f->s, f->rho, f->t);
+    rg_fold_accept(f, f->path.node[0].rho, 0); /* frames may lie before that node */
 }
 
 /* The next frame off the nodes, or another node where they do not reach it yet. */

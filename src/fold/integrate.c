@@ -31,6 +31,9 @@ static const double SAME_DIRECTION = 1e-7;
 static const double GOOD_SET_RIGHT = 10, MOST_SET_RIGHT = 5e-4;
 /* More than so many times that is no correction: the step was too long. */
 static const double FARTHEST_SET_RIGHT = 10;
+/* Where the sheet can go several ways nodes are put on a grid of so many parts of the way as soon as steps come down to it, which
+ * makes them even; and the 60 frames that a motion has unless others are asked for lie on nodes. */
+static const int32_t GRID = 59;
 /* t's in Adams's formula at the most, the new one among them. */
 static const int32_t ADAMS_NODES = 8;
 /* How far from the folded state, radians, the prediction of it may be. */
@@ -55,6 +58,7 @@ double rg_integrate_tangent(rg_fold *f, const double *rho, double s, int near, d
     }
     rg_drive_wish(&f->drive, rho, s, f->wish);
     const int free = f->smooth && !f->one_way && N > 3 * f->mesh.M;
+    memset(f->P.y, 0, 3 * (size_t)f->mesh.M * sizeof *f->P.y); /* the last answer may be of a frame, of which a node knows nothing */
     if (rg_project_tangent(&f->P, &f->K, f->wish, t, free ? FREE_SOLVE_PART * good_set_right(f) : SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (9) */
     double along = rg_drive_progress(&f->drive, t);
     if (!(along > LEAST_EFFICIENCY)) return 0;
@@ -200,7 +204,7 @@ static double next_step(rg_fold *f, double h, double rate, double far)
 {
     const rg_path *p = &f->path;
     const double last = p->node[p->count - 1].s, goal = STEP_MARGIN * close_enough(f);
-    double longest = LARGEST_GROWTH * h, spacing = rg_fold_frame_progress(f, 1);
+    double longest = LARGEST_GROWTH * h, spacing = f->s_end / GRID;
     if (f->one_way && p->count > RG_PATH_WINDOW) {
         /* Of twelve conditions at even distance, half way between the middle two: (1/2 3/2 5/2)^4 = 12.36. */
         longest = fmin(longest, pow(goal / (12.36 * fmax(rate, 1e-300)), 1.0 / 12));
@@ -210,7 +214,7 @@ static double next_step(rg_fold *f, double h, double rate, double far)
         double between = p->node[p->count - 3].s - p->node[p->count - 4].s;
         rg_path_evaluate(p, p->count - RG_PATH_WINDOW, RG_PATH_WINDOW, p->node[p->count - 4].s + between / 2, f->k[0], NULL);
         between *= scale(rg_constraint_closure(&f->K, f->k[0], NULL), goal, 12);
-        longest = fmin(longest, between < 1.5 * spacing ? spacing : between); /* a node at each frame needs no more */
+        longest = fmin(longest, between < 1.5 * spacing ? spacing : between);
     }
     if (!f->one_way) longest = fmin(longest, h * scale(far, good_set_right(f), f->order + 1));
     double x = longest;
@@ -260,12 +264,11 @@ static int make_node(rg_fold *f, double s, double error, double *far)
     return !(rg_limit_pull(&f->limit, f->trial, f->pull) > 0);
 }
 
-/* Where the next node is put for a step of h: the end if that is near, the last frame that is within reach, for which it then
- * costs nothing more. */
+/* Where the next node is put for a step of h: the end if that is near, the last place of the grid that is within reach. */
 static double snap(const rg_fold *f, double from, double h)
 {
     if (from + 1.2 * h >= f->s_end) return f->s_end;
-    double s = rg_fold_frame_progress(f, (int32_t)((from + 1.3 * h) / rg_fold_frame_progress(f, 1)));
+    double s = f->s_end * (int32_t)((from + 1.3 * h) / f->s_end * GRID) / GRID;
     return !f->one_way && s - from >= 0.4 * h ? s : from + h;
 }
 
@@ -294,15 +297,17 @@ int rg_integrate_advance(rg_fold *f)
 
 int rg_integrate_read_off(rg_fold *f, double s)
 {
-    rg_path *p = &f->path;
+    const rg_path *p = &f->path;
     int32_t first, n;
     rg_path_window(p, s, &first, &n);
     rg_path_evaluate(p, first, n, s, f->trial, f->t);
+    if (p->count > 1 && p->node[0].s == 0 && s < p->node[1].s) /* so near flat what closes is homogeneous: a ray */
+        for (int32_t i = 0; i < p->N; i++) {
+            f->t[i] = p->node[1].rho[i] / p->node[1].s;
+            f->trial[i] = s * f->t[i];
+        }
     f->closure = rg_constraint_closure(&f->K, f->trial, NULL);
     if (f->closure <= close_enough(f)) return 1;
-    if (!rg_newton_close(f, s, CORRECTIONS, 0, NULL)) return 0;
-    if (rg_integrate_tangent(f, f->trial, s, 1, f->t) > 0) rg_path_insert(p, s, f->trial, f->t);
-    f->nodes++;
-    f->h *= 0.8;
-    return 1;
+    const int free = !f->one_way && f->mesh.N > 3 * f->mesh.M && p->node[first].has_t;
+    return rg_newton_close(f, s, CORRECTIONS, 0, free ? f->t : NULL);
 }
