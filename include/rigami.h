@@ -231,7 +231,7 @@ typedef struct rg_layers_info {
     const char *count;         /* how many orders, as decimal digits; "at least ..." where counting was given up; borrowed */
     const char *rule;          /* NONE: what cannot be held: "taco-taco", "taco-tortilla", "tortilla-tortilla", "transitivity",
                                 * "mountain and valley", "all together", or "closing"; else "" */
-    int32_t where_count;       /* NONE: facets between which it fails */
+    int32_t where_count;       /* NONE: a few facets, 16 at most, that have no order, whatever the others do */
     const int32_t *where;      /* their numbers */
     const double (*where_at)[2]; /* their centroids in the pattern, file coordinates */
     char reason[240];          /* in words, for every state but VALID */

@@ -17,6 +17,7 @@ typedef struct stacked {
     const double *angle;     /* [N] 0 or +-pi */
     rg_vec2 **x;             /* [nf] corners as they lie */
     int *flipped;            /* [nf] its back is up */
+    const char *only;        /* [nf] non-zero: the facets that are there; NULL: all */
     int points;              /* piles looked at, over points and beside creases */
     int32_t wrong[4];        /* facets of the first thing that is wrong */
     const char *what;
@@ -89,6 +90,8 @@ static inline double stacked_inside(const stacked *s, int32_t f, rg_vec2 p)
     return fabs(turn) > RG_PI ? near_by : -near_by;
 }
 
+static inline int stacked_has(const stacked *s, int32_t f) { return f >= 0 && (!s->only || s->only[f]); }
+
 /* Facets over p, and the least distance of any border from it. */
 static inline int stacked_pile(const stacked *s, rg_vec2 p, int32_t *pile, double *clear)
 {
@@ -96,7 +99,7 @@ static inline int stacked_pile(const stacked *s, rg_vec2 p, int32_t *pile, doubl
     for (int32_t f = 0; f < s->m->nf; f++) {
         const double in = stacked_inside(s, f, p);
         *clear = fmin(*clear, fabs(in));
-        if (in > 0) {
+        if (in > 0 && stacked_has(s, f)) {
             assert_true(n < MOST_PILE);
             pile[n++] = f;
         }
@@ -163,9 +166,10 @@ static inline int stacked_at_crease(stacked *s, stacked_order order, const void 
             const rg_vec2 a = rg_vec2_sub(s->x[f][i], p), b = rg_vec2_sub(s->x[f][(i + 1) % size], p);
             const double length = rg_vec2_length(rg_vec2_sub(b, a));
             if (!(fabs(rg_vec2_cross(a, b)) < 0.1 * off * length && rg_vec2_dot(a, b) < 0)) continue;
+            if (!stacked_has(s, f)) continue;
             has_edge[f] = 1;
             const int32_t e = m->facet_edge[j], g = m->edge_facet[e][m->edge_facet[e][0] == f];
-            if (g < f) continue; /* the border, or seen from the other facet */
+            if (g < f || !stacked_has(s, g)) continue; /* the border, or seen from the other facet */
             if (s->angle[m->edge_crease[e]] != 0) {
                 const int side = stacked_rank(pile[1], n[1], rank[1], f) >= 0;
                 const int ra = stacked_rank(pile[side], n[side], rank[side], f), rb = stacked_rank(pile[side], n[side], rank[side], g);
@@ -221,7 +225,7 @@ static inline int stacked_is_valid(stacked *s, stacked_order order, const void *
     }
     for (int32_t e = 0; e < m->ne; e++) {
         const int32_t f = m->edge_facet[e][0], g = m->edge_facet[e][1], c = m->edge_crease[e];
-        if (f < 0 || g < 0) continue;
+        if (!stacked_has(s, f) || !stacked_has(s, g)) continue;
         /* A valley puts the next facet on the front. */
         if (s->angle[c] != 0 && order(ctx, f, g) != ((s->angle[c] > 0) == !s->flipped[f] ? 1 : -1))
             return stacked_wrong(s, "mountain for valley", f, g, -1, -1);

@@ -6,6 +6,8 @@
 
 /* Words and cases that finding an order may look at, and counting orders: a few seconds. */
 static const int64_t MOST_WORK = 400000000;
+/* Facets that a reason names in words: what fits in a line. */
+enum { IN_WORDS = 4 };
 
 void rg_layers_destroy(rg_layers *l)
 {
@@ -44,36 +46,38 @@ static void say_unsolved(rg_layers *l, const char *words)
     snprintf(l->info.reason, sizeof l->info.reason, "%s", words);
 }
 
+/* What rounding leaves of 0 is 0 for people. */
+static double tidy(const rg_layers *l, double x) { return fabs(x) < 1e-12 * l->mesh.size ? 0 : x; }
+
+/* "RULE of the facets at (x, y), ...": as many as are named, and how many more. */
 static void name_facets(rg_layers *l, const int32_t *facet, int32_t n)
 {
     rg_layers_info *i = &l->info;
+    const int32_t named = n < RG_LAYERS_NAMED ? n : RG_LAYERS_NAMED;
     size_t used = (size_t)snprintf(i->reason, sizeof i->reason, "%s of the facets at", i->rule);
-    for (int32_t k = 0; k < n; k++) {
+    for (int32_t k = 0; k < named; k++) {
         const rg_vec2 x = l->flat.middle[facet[k]];
         l->where[k] = facet[k];
         l->where_at[k][0] = x.x, l->where_at[k][1] = x.y;
-        if (used < sizeof i->reason)
-            used += (size_t)snprintf(i->reason + used, sizeof i->reason - used, "%s (%.6g, %.6g)", k ? "," : "", x.x, x.y);
+        if (k < IN_WORDS) used += (size_t)snprintf(i->reason + used, sizeof i->reason - used, "%s (%.6g, %.6g)", k ? "," : "", tidy(l, x.x), tidy(l, x.y));
     }
-    i->where_count = n;
+    if (n > IN_WORDS) snprintf(i->reason + used, sizeof i->reason - used, " and %d more", (int)(n - IN_WORDS));
+    i->where_count = named;
     i->where = l->where;
     i->where_at = (const double(*)[2])l->where_at;
 }
 
-static void say_conflict(rg_layers *l)
+/* There is none, as showed first at these facets: a few that have none by themselves, or if they are not found, these. */
+static rg_status say_none(rg_layers *l, const char *rule, const int32_t *facet, int32_t n)
 {
-    const rg_conflict *c = &l->orders.conflict;
+    rg_blame b = {.facet = rg_mem_array(&l->mem, (size_t)l->flat.nf, sizeof *b.facet)};
+    if (!b.facet) return RG_ENOMEM;
+    const rg_status s = rg_blame_find(&b, &l->mem, &l->mesh, &l->flat, &l->cells, facet, n);
     l->info.state = RG_LAYERS_NONE;
-    l->info.rule = rule_name(c->rule);
-    name_facets(l, c->facet, c->n);
-}
-
-/* No order of a part: the facets of its first pair stand for it. */
-static void say_part(rg_layers *l, int32_t part)
-{
-    l->info.state = RG_LAYERS_NONE;
-    l->info.rule = "all together";
-    name_facets(l, l->pairs.facet[l->parts.pair[l->parts.start[part]]], 2);
+    l->info.rule = b.count == 0 ? rule : b.by_trying ? "all together" : rule_name(b.rule);
+    name_facets(l, b.count ? b.facet : facet, b.count ? b.count : n);
+    rg_mem_free(&l->mem, b.facet);
+    return s;
 }
 
 /* The sheet does not lie flat as its creases say: facets about a vertex stand for it. */
@@ -92,7 +96,7 @@ static void say_open(rg_layers *l)
     l->info.state = RG_LAYERS_NONE;
     l->info.rule = "closing";
     name_facets(l, facet, n);
-    snprintf(l->info.reason, sizeof l->info.reason, "folded flat, the facets round (%.6g, %.6g) do not meet", x.x, x.y);
+    snprintf(l->info.reason, sizeof l->info.reason, "folded flat, the facets round (%.6g, %.6g) do not meet", tidy(l, x.x), tidy(l, x.y));
 }
 
 static void say_not_flat(rg_layers *l)
@@ -153,15 +157,15 @@ static rg_status solve(rg_layers *l)
     int32_t part = 0;
     if (s != RG_OK) return s;
     if (!rg_orders_set_hinges(&l->orders) || !rg_orders_propagate(&l->orders)) {
-        say_conflict(l);
-        return RG_OK;
+        const rg_conflict *c = &l->orders.conflict;
+        return say_none(l, rule_name(c->rule), c->facet, c->n);
     }
     l->settled = l->info.settled = l->orders.known;
     s = rg_parts_init(&l->parts, &l->mem, &l->orders, MOST_WORK, &result, &part);
     if (s != RG_OK) return s;
     l->info.parts = l->parts.count;
-    if (result == RG_COUNT_NONE) say_part(l, part);
-    else if (result == RG_COUNT_UNSOLVED) say_unsolved(l, "the orders are too many to look through");
+    if (result == RG_COUNT_NONE) return say_none(l, "all together", l->pairs.facet[l->parts.pair[l->parts.start[part]]], 2);
+    if (result == RG_COUNT_UNSOLVED) say_unsolved(l, "the orders are too many to look through");
     else return write_count(l);
     return RG_OK;
 }

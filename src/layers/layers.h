@@ -1,12 +1,12 @@
 /* layers.h -- which facets lie on which where the sheet is folded flat: how many ways there are, any one of them, or why none.
  * Source   as constraint.h; orders of pairs and their solution by parts: J. Ku's Flat-Folder
- * Uses  count.h        Used by  motion, render, write */
+ * Uses  blame.h        Used by  motion, render, write */
 #ifndef RG_LAYERS_H
 #define RG_LAYERS_H
 
-#include "layers/count.h"
+#include "layers/blame.h"
 
-enum { RG_LAYERS_NAMED = 8 }; /* facets that a reason names */
+enum { RG_LAYERS_NAMED = 16 }; /* facets that a reason names */
 
 struct rg_layers {
     rg_memory mem;
