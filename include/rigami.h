@@ -245,7 +245,7 @@ typedef struct rg_layers_pair { int32_t f, g, side; } rg_layers_pair;
 RG_API rg_status rg_layers_create(const rg_pattern *p, const rg_settings *s, rg_layers **layers, rg_diag *why);
 RG_API void rg_layers_destroy(rg_layers *l);
 RG_API void rg_layers_get_info(const rg_layers *l, rg_layers_info *info);
-/* How many orders part i has (at least, where the count says so), 0 <= i < info.parts. The number of all is their product. */
+/* How many orders part i has, 0 <= i < info.parts; of orders too many to count, how many can be asked for. */
 RG_API uint64_t rg_layers_part(const rg_layers *l, int32_t i);
 /* pair[info.pairs]: out, the order that has the number which[i] within part i, each less than rg_layers_part; NULL: all 0, the first
  * order. RG_EARG: there is no such order; RG_ENOMEM. */

@@ -181,6 +181,25 @@ static void map_folding(void **state)
     }
 }
 
+/* A strip of so many stamps folds in more ways than can be looked through: that is said, and what is found is right. */
+static void more_than_can_be_counted(void **state)
+{
+    (void)state;
+    enum { STAMPS = 60 };
+    rg_layers_info info;
+    rg_lines lines = drawing();
+    draw_box(&lines, 0, 0, STAMPS, 1);
+    for (int i = 1; i < STAMPS; i++) draw(&lines, i * 7 % 5 < 3 ? RG_VALLEY : RG_MOUNTAIN, i, 0, i, 1);
+    rg_pattern *p = pattern_of(&lines);
+    rg_layers *l = layers_of(p, &info);
+    assert_int_equal(info.state, RG_LAYERS_VALID);
+    assert_int_equal(strncmp(info.count, "at least ", 9), 0);
+    assert_true(atof(info.count + 9) >= 1);
+    assert_int_equal(check_orders(l, "a long strip", 3, 20, 2), 0);
+    rg_layers_destroy(l);
+    rg_pattern_destroy(p);
+}
+
 /* ------------------------------------------------------------------------------------- all orders one by one ---- */
 
 typedef struct guess { const rg_layers *l; const signed char *value; } guess;
@@ -698,7 +717,7 @@ static void real_patterns(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(own_patterns),   cmocka_unit_test(map_folding),       cmocka_unit_test(brute_force),
+        cmocka_unit_test(own_patterns),   cmocka_unit_test(map_folding), cmocka_unit_test(more_than_can_be_counted),       cmocka_unit_test(brute_force),
         cmocka_unit_test(reasons), cmocka_unit_test(every_index_is_another_order), cmocka_unit_test(one_crease), cmocka_unit_test(no_crease),
         cmocka_unit_test(flat_creases_are_paper), cmocka_unit_test(undriven_creases), cmocka_unit_test(ends_that_are_not_flat),
         cmocka_unit_test(moved_and_triangulated), cmocka_unit_test(levels), cmocka_unit_test(overlaps),

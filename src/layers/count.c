@@ -3,11 +3,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Of the work that looking for one order may take, the part that the first attempt gets. */
+enum { FIRST_SHARE = 4000 };
+/* Of orders too many to count so many are numbered, if they are found with so much work. */
+enum { NUMBERED = 100, WORK_OF_SOME = 1000000 };
+/* For an order near to a wished one; then another will do. */
+static const int64_t WORK_OF_NEAR = 50000000;
+
 typedef struct counter {
     rg_orders *o;
     int32_t *list;        /* parts, each after its length, as far as `used` */
     size_t used, room;
     uint64_t *open;       /* [nf][words] as rows of pairs: those of the list that is being divided that are in no part yet */
+    int32_t *weight;      /* [pairs] lent */
+    int learns;           /* non-zero: weights are gathered, and orders found are kept in `found` */
+    signed char *found;   /* [pairs] */
+    int32_t settled;      /* of o->trail, what was known before */
     int64_t limit;        /* of o->work */
     int out_of_work;
     rg_status status;
@@ -71,6 +82,28 @@ static void reach_from(counter *c, int32_t pair)
     }
 }
 
+/* The pair that weighs most becomes the first of the part, which is tried. */
+static void put_heaviest_first(counter *c, size_t first, int32_t n)
+{
+    size_t best = first;
+    for (size_t j = first + 1; j < first + (size_t)n; j++)
+        if (c->weight[c->list[j]] > c->weight[c->list[best]]) best = j;
+    const int32_t pair = c->list[best];
+    c->list[best] = c->list[first];
+    c->list[first] = pair;
+}
+
+/* Facets that could not be ordered: each two of them. */
+static void learn(counter *c)
+{
+    const rg_conflict *x = &c->o->conflict;
+    for (int32_t i = 0; i < x->n; i++)
+        for (int32_t j = i + 1; j < x->n; j++) {
+            const int32_t pair = x->facet[i] == x->facet[j] ? -1 : rg_pairs_find(c->o->pairs, x->facet[i], x->facet[j]);
+            if (pair >= 0) c->weight[pair]++;
+        }
+}
+
 /* Puts the parts of what is unknown among n pairs at the end of the list. from: where they begin in it; NULL: all pairs. */
 static void divide(counter *c, const size_t *from, int32_t n)
 {
@@ -85,7 +118,9 @@ static void divide(counter *c, const size_t *from, int32_t n)
         push(c, 0);
         reach(c, pair);
         for (size_t j = head + 1; c->status == RG_OK && j < c->used; j++) reach_from(c, c->list[j]);
-        if (c->status == RG_OK) c->list[head] = (int32_t)(c->used - head - 1);
+        if (c->status != RG_OK) break;
+        c->list[head] = (int32_t)(c->used - head - 1);
+        put_heaviest_first(c, head + 1, c->list[head]);
     }
 }
 
@@ -100,6 +135,8 @@ static uint64_t count_rest(counter *c, size_t first, int32_t n, uint64_t cap)
     uint64_t total = 1;
     divide(c, &first, n);
     const size_t end = c->used;
+    /* All is known down here: the last time that is said of a part's pairs, it is of an order that stands. */
+    for (int32_t j = c->settled; c->learns && begin == end && j < c->o->known; j++) c->found[c->o->trail[j]] = c->o->value[c->o->trail[j]];
     for (size_t at = begin; total && at < end; at += 1 + (size_t)c->list[at])
         total = product(total, count_part(c, at + 1, c->list[at], total < cap ? (cap - 1) / total + 1 : 1));
     c->used = begin;
@@ -111,6 +148,7 @@ static uint64_t try_order(counter *c, size_t first, int32_t n, int value, uint64
     const int32_t known = c->o->known;
     uint64_t orders = 0;
     if (rg_orders_set(c->o, c->list[first], value) && rg_orders_propagate(c->o)) orders = count_rest(c, first, n, cap);
+    else if (c->learns) learn(c);
     rg_orders_undo(c->o, known);
     return orders;
 }
@@ -126,10 +164,11 @@ static uint64_t count_part(counter *c, size_t first, int32_t n, uint64_t cap)
     return total;
 }
 
-static rg_status begin(counter *c, rg_orders *o, int64_t work)
+static rg_status begin(counter *c, rg_orders *o, int32_t *weight, int64_t work)
 {
     memset(c, 0, sizeof *c);
     c->o = o;
+    c->weight = weight;
     c->limit = work > INT64_MAX - o->work ? INT64_MAX : o->work + work;
     c->open = rg_mem_array(&o->mem, (size_t)o->pairs->nf * (size_t)o->pairs->words, sizeof *c->open);
     return c->open ? RG_OK : RG_ENOMEM;
@@ -147,7 +186,7 @@ void rg_parts_free(rg_parts *q)
 {
     if (!q->mem.resize) return;
     const rg_memory mem = q->mem;
-    void *block[] = {q->start, q->pair, q->orders, q->more};
+    void *block[] = {q->start, q->pair, q->orders, q->counted, q->more, q->found, q->weight};
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&mem, block[i]);
     memset(q, 0, sizeof *q);
 }
@@ -158,14 +197,28 @@ static rg_status keep_parts(rg_parts *q, const counter *c)
     q->start = rg_mem_array(&q->mem, (size_t)q->count + 1, sizeof *q->start);
     q->pair = rg_mem_array(&q->mem, c->used, sizeof *q->pair);
     q->orders = rg_mem_array(&q->mem, (size_t)q->count, sizeof *q->orders);
+    q->counted = rg_mem_array(&q->mem, (size_t)q->count, sizeof *q->counted);
     q->more = rg_mem_array(&q->mem, (size_t)q->count, 1);
-    if (!q->start || !q->pair || !q->orders || !q->more) return RG_ENOMEM;
+    if (!q->start || !q->pair || !q->orders || !q->counted || !q->more) return RG_ENOMEM;
     int32_t i = 0;
     for (size_t at = 0; at < c->used; at += 1 + (size_t)c->list[at], i++) {
         memcpy(q->pair + q->start[i], c->list + at + 1, (size_t)c->list[at] * sizeof *q->pair);
         q->start[i + 1] = q->start[i] + c->list[at];
     }
     return RG_OK;
+}
+
+/* Of a part whose orders are too many to count: how many can be numbered, each being found anew among those before it. */
+static uint64_t count_some(counter *c, size_t first, int32_t n)
+{
+    const int64_t limit = c->limit;
+    c->limit = c->o->work + WORK_OF_SOME;
+    c->out_of_work = 0;
+    const uint64_t some = count_part(c, first, n, NUMBERED);
+    const int all = !c->out_of_work;
+    c->limit = limit;
+    c->out_of_work = c->o->work > limit;
+    return all ? some : 1;
 }
 
 typedef struct sized { int32_t pairs, part; size_t first; } sized;
@@ -187,12 +240,31 @@ static rg_status count_by_size(rg_parts *q, counter *c, int64_t work)
     c->out_of_work = 0;
     for (int32_t k = 0; c->status == RG_OK && k < q->count; k++) {
         const int32_t i = part[k].part;
+        put_heaviest_first(c, part[k].first, part[k].pairs);
         const uint64_t n = count_part(c, part[k].first, part[k].pairs, UINT64_MAX);
         q->more[i] = (unsigned char)(c->out_of_work || n == UINT64_MAX);
-        if (n > q->orders[i]) q->orders[i] = n;
+        q->counted[i] = n > 1 ? n : 1;
+        q->orders[i] = q->more[i] ? count_some(c, part[k].first, part[k].pairs) : q->counted[i];
     }
     rg_mem_free(&q->mem, part);
     return c->status;
+}
+
+/* Whether a part has an order: 1, 0, or -1: the work ran out. */
+static int has_order(counter *c, size_t first, int32_t n, int64_t work)
+{
+    const int64_t end = c->o->work + work;
+    int64_t share = work / FIRST_SHARE;
+    for (;;) {
+        c->limit = end - c->o->work < share ? end : c->o->work + share;
+        c->out_of_work = 0;
+        put_heaviest_first(c, first, n);
+        const uint64_t orders = count_part(c, first, n, 1);
+        if (orders) return 1;
+        if (!c->out_of_work) return 0;
+        if (c->o->work >= end || c->status != RG_OK) return -1;
+        share += share / 2;
+    }
 }
 
 rg_status rg_parts_init(rg_parts *q, const rg_memory *mem, rg_orders *o, int64_t work, rg_count_result *result, int32_t *at)
@@ -200,20 +272,27 @@ rg_status rg_parts_init(rg_parts *q, const rg_memory *mem, rg_orders *o, int64_t
     counter c;
     memset(q, 0, sizeof *q);
     q->mem = *mem;
-    rg_status s = begin(&c, o, work);
+    q->weight = rg_mem_array(mem, (size_t)o->pairs->count, sizeof *q->weight);
+    q->found = rg_mem_array(mem, (size_t)o->pairs->count, 1);
+    if (!q->weight || !q->found) return RG_ENOMEM;
+    rg_status s = begin(&c, o, q->weight, work);
     if (s == RG_OK) divide(&c, NULL, o->pairs->count);
     if (s == RG_OK) s = c.status;
     if (s == RG_OK) s = keep_parts(q, &c);
     *result = RG_COUNT_DONE;
     /* One of each first: whether there is any must not wait for the number of another. */
     size_t head = 0;
+    c.learns = 1;
+    c.found = q->found;
+    c.settled = o->known;
     for (int32_t i = 0; s == RG_OK && i < q->count && *result == RG_COUNT_DONE; i++, head += 1 + (size_t)c.list[head]) {
+        const int has = has_order(&c, head + 1, c.list[head], work);
         *at = i;
-        q->orders[i] = count_part(&c, head + 1, c.list[head], 1);
+        q->orders[i] = has > 0;
         s = c.status;
-        if (!q->orders[i]) *result = c.out_of_work ? RG_COUNT_UNSOLVED : RG_COUNT_NONE;
-        else c.out_of_work = 0;
+        if (has <= 0) *result = has ? RG_COUNT_UNSOLVED : RG_COUNT_NONE;
     }
+    c.learns = 0;
     /* Then the smaller ones before the larger ones, which take what work is left. */
     if (s == RG_OK && *result == RG_COUNT_DONE) s = count_by_size(q, &c, work);
     end(&c);
@@ -259,37 +338,51 @@ static void choose_part_near(counter *c, size_t first, int32_t n, const double *
     const int wanted = wish[c->list[first]] < 0 ? -1 : 1;
     const int value = try_order(c, first, n, wanted, 1) ? wanted : -wanted;
     const size_t begin = c->used;
-    if (c->status != RG_OK || !rg_orders_set(c->o, c->list[first], value) || !rg_orders_propagate(c->o)) return;
+    if (!goes_on(c) || !rg_orders_set(c->o, c->list[first], value) || !rg_orders_propagate(c->o)) return;
     divide(c, &first, n);
     const size_t end = c->used;
-    for (size_t at = begin; c->status == RG_OK && at < end; at += 1 + (size_t)c->list[at]) choose_part_near(c, at + 1, c->list[at], wish);
+    for (size_t at = begin; goes_on(c) && at < end; at += 1 + (size_t)c->list[at]) choose_part_near(c, at + 1, c->list[at], wish);
     c->used = begin;
 }
 
 /* The part's pairs as a list. */
 static rg_status begin_part(counter *c, const rg_parts *q, rg_orders *o, int32_t i)
 {
-    rg_status s = begin(c, o, INT64_MAX);
+    rg_status s = begin(c, o, q->weight, INT64_MAX);
     for (int32_t j = q->start[i]; s == RG_OK && j < q->start[i + 1]; j++) {
         push(c, q->pair[j]);
         s = c->status;
     }
+    if (s == RG_OK) put_heaviest_first(c, 0, q->start[i + 1] - q->start[i]);
     return s;
+}
+
+static rg_status take_found(const rg_parts *q, rg_orders *o, int32_t i)
+{
+    for (int32_t j = q->start[i]; j < q->start[i + 1]; j++) rg_orders_set(o, q->pair[j], q->found[q->pair[j]]);
+    rg_orders_propagate(o);
+    return RG_OK;
 }
 
 rg_status rg_parts_choose_near(const rg_parts *q, rg_orders *o, int32_t i, const double *wish)
 {
     counter c;
+    const int32_t known = o->known;
     rg_status s = begin_part(&c, q, o, i);
+    c.limit = o->work + WORK_OF_NEAR;
     if (s == RG_OK) choose_part_near(&c, 0, q->start[i + 1] - q->start[i], wish);
     if (s == RG_OK) s = c.status;
+    const int out_of_work = c.out_of_work;
     end(&c);
-    return s;
+    if (s != RG_OK || !out_of_work) return s;
+    rg_orders_undo(o, known);
+    return take_found(q, o, i);
 }
 
 rg_status rg_parts_choose(const rg_parts *q, rg_orders *o, int32_t i, uint64_t which)
 {
     counter c;
+    if (q->more[i] && q->orders[i] == 1) return take_found(q, o, i);
     rg_status s = begin_part(&c, q, o, i);
     if (s == RG_OK) choose_part(&c, 0, q->start[i + 1] - q->start[i], which);
     if (s == RG_OK) s = c.status;

@@ -4,8 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Words and cases that finding an order may look at, and counting orders: a few seconds. */
-static const int64_t MOST_WORK = 400000000;
+/* Words and cases that finding an order may look at, and counting orders: a few seconds. The most that a real pattern took, of 541
+ * facets with 7,662,993,408 orders, is 130 million. */
+static const int64_t MOST_WORK = 200000000;
 /* Facets that a reason names in words: what fits in a line. */
 enum { IN_WORDS = 4 };
 
@@ -127,7 +128,7 @@ static rg_status write_count(rg_layers *l)
     for (int32_t i = 0; i < q->count; i++) {
         memset(next, 0, room);
         size_t shift = 0;
-        for (uint64_t factor = q->orders[i]; factor; factor /= 10, shift++) {
+        for (uint64_t factor = q->counted[i]; factor; factor /= 10, shift++) {
             int carry = 0;
             for (size_t j = 0; j < n || carry; j++) {
                 carry += next[j + shift] + (j < n ? digit[j] * (int)(factor % 10) : 0);
