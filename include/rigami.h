@@ -349,6 +349,10 @@ RG_API rg_status rg_motion_create(const rg_pattern *p, const rg_settings *s, rg_
  * RG_ESHEET: not states of one sheet, why->text says what differs. RG_OK also when it stopped short. */
 RG_API rg_status rg_motion_create_states(const rg_pattern *const *states, int32_t count, const rg_settings *s,
                                          rg_progress progress, void *ctx, rg_motion **motion, rg_diag *why);
+/* A motion that was written before, by this program or another one: a FOLD file with a flat crease pattern and frames that have
+ * vertices_coords; nothing is folded. Facets may bend or stretch there: then angles are those between facets as they lie. The report
+ * has the pattern, frames, strain and layers. RG_EREAD, RG_EFORMAT: why->text says what is missing. */
+RG_API rg_status rg_motion_read(const char *path, const rg_settings *s, rg_motion **motion, rg_diag *why);
 /* Are both of them one sheet each, and the same one? RG_ESHEET: why->text says what is wrong with `other`. */
 RG_API rg_status rg_pattern_same_sheet(const rg_pattern *first, const rg_pattern *other, const rg_settings *s, rg_diag *why);
 RG_API void rg_motion_destroy(rg_motion *m);

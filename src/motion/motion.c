@@ -8,6 +8,7 @@
 #include "motion/strategy.h"
 #include "pattern/source.h"
 #include "motion/unfolding.h"
+#include "pose/lie.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -19,8 +20,8 @@ void rg_motion_destroy(rg_motion *m)
     rg_mesh_free(&m->mesh);
     rg_tree_free(&m->tree);
     void *block[] = {m->target, m->from, m->rho, m->flat, m->frame, m->blocking_vertex, m->blocking_crease, m->blocking_at,
-                     m->state_frame, m->by_flat};
-    for (int i = 0; i < 10; i++) rg_mem_free(&m->mem, block[i]);
+                     m->state_frame, m->by_flat, m->space};
+    for (int i = 0; i < 11; i++) rg_mem_free(&m->mem, block[i]);
     rg_layers_destroy(m->layers);
     rg_source_free(&m->source);
     rg_mem_free(&mem, m->title);
@@ -51,8 +52,18 @@ const double (*rg_motion_flat(const rg_motion *m, int32_t frame))[2]
     return rg_motion_angles(m, frame) ? (const double(*)[2])rg_motion_pattern(m, frame) : NULL;
 }
 
+void rg_motion_facets(const rg_motion *m, int32_t frame, rg_place *place)
+{
+    const rg_vec2 *X = rg_motion_pattern(m, frame);
+    if (m->space) rg_lie_facets(&m->mesh, X, m->space + (size_t)frame * (size_t)m->mesh.nv, place);
+    else rg_pose_facets(&m->mesh, X, &m->tree, rg_motion_angles(m, frame), place);
+}
+
 rg_status rg_motion_place(const rg_motion *m, int32_t frame, rg_vec3 *x)
 {
+    const size_t nv = (size_t)m->mesh.nv;
+    if (m->space && nv > 0) memcpy(x, m->space + (size_t)frame * nv, nv * sizeof *x);
+    if (m->space) return RG_OK;
     rg_place *place = rg_mem_array(&m->mem, (size_t)m->mesh.nf, sizeof *place);
     if (!place) return RG_ENOMEM;
     const rg_vec2 *X = rg_motion_pattern(m, frame);

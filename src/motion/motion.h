@@ -17,6 +17,7 @@ struct rg_motion {
     double *from;          /* [mesh.N] fold angles of the state that the motion starts from */
     double *rho;           /* [report.frame_count][mesh.N] radians */
     rg_vec2 *flat;         /* [report.frame_count][mesh.nv] the pattern of each frame; NULL: mesh.X in all of them */
+    rg_vec3 *space;        /* [report.frame_count][mesh.nv] positions that were given and that plates do not reach; NULL: they do */
     rg_frame *frame;       /* [report.frame_count] */
     int32_t *blocking_vertex, *blocking_crease;
     double (*blocking_at)[2];
@@ -31,6 +32,8 @@ const rg_vec2 *rg_motion_pattern(const rg_motion *m, int32_t f);
 /* x[mesh.nv]: out, positions in frame f, 0 <= f < report.frame_count. RG_ENOMEM. */
 rg_status rg_motion_place(const rg_motion *m, int32_t f, rg_vec3 *x);
 
+/* place[mesh.nf]: out, where each facet of frame f goes. */
+void rg_motion_facets(const rg_motion *m, int32_t f, rg_place *place);
 /* The same about the middle of the flat sheet: what is written with single precision would be lost far from the origin. */
 rg_status rg_motion_place_centred(const rg_motion *m, int32_t f, rg_vec3 *x);
 /* That middle: of the box around the pattern given. */

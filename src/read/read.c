@@ -202,16 +202,22 @@ static rg_status slurp(FILE *f, const rg_memory *mem, char **bytes, size_t *size
     return ferror(f) ? rg_fail(RG_EREAD, why, 0, "%s", strerror(errno)) : RG_OK;
 }
 
-rg_status rg_read_file(const char *path, const rg_settings *s, int keep, rg_lines *out, rg_diag *why)
+rg_status rg_read_whole(const char *path, const rg_memory *mem, char **bytes, size_t *size, rg_diag *why)
 {
-    const rg_memory mem = rg_mem_default(s->memory);
     const int is_standard = strcmp(path, "-") == 0;
     FILE *f = is_standard ? stdin : fopen(path, "rb");
     if (!f) return rg_fail(RG_EREAD, why, 0, "%s", strerror(errno));
+    const rg_status status = slurp(f, mem, bytes, size, why);
+    if (!is_standard) fclose(f);
+    return status;
+}
+
+rg_status rg_read_file(const char *path, const rg_settings *s, int keep, rg_lines *out, rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(s->memory);
     char *bytes = NULL;
     size_t size = 0;
-    rg_status status = slurp(f, &mem, &bytes, &size, why);
-    if (!is_standard) fclose(f);
+    rg_status status = rg_read_whole(path, &mem, &bytes, &size, why);
     if (status == RG_OK) status = rg_read_bytes(bytes, size, path, s, keep, out, why);
     rg_mem_free(&mem, bytes);
     return status;

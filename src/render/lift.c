@@ -64,7 +64,8 @@ static void look_back(rg_lift *l, const rg_vec2 *X)
     for (int32_t i = 0; i < m->N; i++) most = fmax(most, fabs(now[i] - (before ? before[i] : 0)));
     const double part = most > LOOK_BACK ? LOOK_BACK / most : 1;
     for (int32_t i = 0; i < m->N; i++) l->rho[i] = now[i] + part * ((before ? before[i] : 0) - now[i]);
-    rg_pose_facets(m, X, &l->motion->tree, l->rho, l->was);
+    if (l->motion->space) rg_motion_facets(l->motion, l->frame > 0 ? l->frame - 1 : 0, l->was); /* no angles make such a sheet */
+    else rg_pose_facets(m, X, &l->motion->tree, l->rho, l->was);
     for (int32_t f = 0; f < m->nf; f++) {
         const rg_mat3 R = l->place[f].R, B = l->was[f].R;
         const rg_mat3 inverse = {{{R.c[0].x, R.c[1].x, R.c[2].x},
@@ -112,11 +113,13 @@ rg_status rg_lift_next(rg_lift *l, rg_vec3 *x, rg_vec3 *lift)
     const rg_mesh *m = &l->motion->mesh;
     if (l->frame >= l->motion->report.frame_count) return RG_EARG;
     const rg_vec2 *X = rg_motion_pattern(l->motion, l->frame);
-    rg_pose_facets(m, X, &l->motion->tree, rg_motion_angles(l->motion, l->frame), l->place);
-    rg_pose_vertices(m, X, &l->motion->tree, l->place, x);
+    rg_motion_facets(l->motion, l->frame, l->place);
+    rg_status s = RG_OK;
+    if (l->motion->space) s = rg_motion_place(l->motion, l->frame, x);
+    else rg_pose_vertices(m, X, &l->motion->tree, l->place, x);
     const rg_layers *known = rg_ending_layers(l->motion, l->frame);
     for (int32_t f = 0; f < m->nf; f++) lift[f] = (rg_vec3){0, 0, 0};
-    rg_status s = known ? lift_end(l, known, lift) : RG_OK;
+    if (s == RG_OK && known) s = lift_end(l, known, lift);
     if (!known) {
         look_back(l, X);
         rg_coplanar_find(&l->coplanar, l->place, x);

@@ -169,6 +169,7 @@ static rg_status model_init(model *g, const rg_motion *m, const rg_picture *p)
     const rg_memory *mem = &m->mem;
     const size_t nf = (size_t)m->mesh.nf, nv = (size_t)m->mesh.nv;
     *g = (model){.m = m, .mesh = &m->mesh, .p = p, .frames = m->report.frame_count};
+    g->morphs = m->space != NULL;
     for (int32_t k = 1; k < g->frames; k++)
         g->morphs |= memcmp(rg_motion_pattern(m, k), m->mesh.X, nv * sizeof *m->mesh.X) != 0;
     for (int32_t f = 0; f < m->mesh.nf; f++) g->most = corners(g->mesh, f) > g->most ? corners(g->mesh, f) : g->most;

@@ -191,7 +191,7 @@ static rg_status book_init(book *b, const rg_motion *m, const rg_picture *p)
 {
     const rg_memory *mem = &m->mem;
     const size_t nf = (size_t)m->mesh.nf, nv = (size_t)m->mesh.nv;
-    *b = (book){.m = m, .mesh = &m->mesh, .rigid = 1, .middle = rg_motion_middle(m)};
+    *b = (book){.m = m, .mesh = &m->mesh, .rigid = m->space == NULL, .middle = rg_motion_middle(m)};
     for (int32_t k = 0; k < m->report.frame_count; k++)
         b->rigid &= memcmp(rg_motion_pattern(m, k), m->mesh.X, nv * sizeof *m->mesh.X) == 0;
     rg_status s = rg_triangles_init(mem, &m->mesh, &b->t);
