@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <ftw.h>
 #include <jansson.h>
 #include <limits.h>
 #include <dirent.h>
@@ -288,6 +289,74 @@ static void states_in_frames(void **state)
     }
     says(ends(2, run("fold", "door.fold", "--frame", "2-1")), "rigami: --frame: ", "2-1");
     unlink("door.csv");
+}
+
+/* A motion is drawn again from its file: what is drawn is the same, and nothing is folded. */
+static void a_motion_is_drawn_again(void **state)
+{
+    (void)state;
+    static char first[ROOM], again[ROOM];
+    ends(0, run("fold", "good.opx", "-q", "--frames", "7", "-o", "good.fold", "-o", "first.stl"));
+    const ran *r = ends(0, run("draw", "good.fold", "-o", "again.stl", "-o", "again.csv", "-o", "again.html"));
+    assert_non_null(strstr(r->out, "7 frames"));
+    struct stat a, b;
+    assert_true(stat("first.stl", &a) == 0 && stat("again.stl", &b) == 0 && a.st_size == b.st_size);
+    FILE *f = fopen("first.stl", "rb"), *g = fopen("again.stl", "rb");
+    assert_true(f && g && fread(first, 1, (size_t)a.st_size, f) == (size_t)a.st_size && fread(again, 1, (size_t)a.st_size, g) == (size_t)a.st_size);
+    fclose(f);
+    fclose(g);
+    for (long at = 84; at + 4 <= a.st_size; at += at % 50 == 30 ? 6 : 4) {
+        float x, y;
+        memcpy(&x, first + at, 4);
+        memcpy(&y, again + at, 4);
+        near(x, y, 1e-5);
+    }
+    says(ends(2, run("draw", "good.opx", "-o", "again.png")), "rigami: good.opx", "");
+    write_file("flat.fold", "{\"vertices_coords\":[[0,0],[3,0],[3,2],[0,2]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0],[0,2]],"
+               "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"V\"]}");
+    says(ends(2, run("draw", "flat.fold", "-o", "again.csv")), "rigami: flat.fold: ", "no frame has vertices_coords");
+    says(ends(2, run("draw", "good.fold")), "rigami: ", "-o");
+    const char *const made[] = {"first.stl", "again.stl", "again.csv", "again.html", "good.fold"};
+    for (int i = 0; i < 5; i++) unlink(made[i]);
+}
+
+/* Each file by itself, one table, going on where it was; in parts that are joined; every sheet of a drawing. */
+static void a_batch(void **state)
+{
+    (void)state;
+    static char table[ROOM], again[ROOM];
+    write_file("two.cp", "1 0 0 9 0\n1 9 0 9 9\n1 9 9 0 9\n1 0 9 0 0\n2 0 0 9 9\n1 20 0 29 0\n1 29 0 29 9\n1 29 9 20 9\n1 20 9 20 0\n3 20 0 29 9\n");
+    const ran *r = ends(1, run("batch", "good.opx", "two.cp", "short.opx", "missing.opx", "-o", "batch/", "--frames", "4", "--effort", "fast",
+                               "--adjust", "off", "--triangulate", "none", "--write", "csv"));
+    assert_non_null(strstr(r->out, "5 files, 3 folded, 2 not"));
+    slurp("batch/table.csv", table);
+    assert_int_equal(lines_in(table), 6);
+    const char *const rows[] = {",good.opx,0,0,folded,100", ",two.cp,1,0,folded,100", ",two.cp,2,0,folded,100", ",short.opx,0,1,stopped,", ",missing.opx,0,2,refused,"};
+    const char *at = table;
+    for (int i = 0; i < 5; i++) assert_non_null(at = strstr(at, rows[i])); /* in the order of the files */
+    const char *const made[] = {"batch/good.json", "batch/good.csv", "batch/two-1.csv", "batch/two-2.csv", "batch/short.json", "batch/missing.log", "batch/table.txt"};
+    for (int i = 0; i < 7; i++) assert_false(is_empty(made[i]));
+    /* What is there is not made again, other options make it again. */
+    const char *const same[] = {"batch", "good.opx", "-o", "batch", "--frames", "4", "--effort", "fast", "--adjust", "off", "--triangulate", "none", "--write", "csv", NULL};
+    assert_non_null(strstr(ends(0, run_with(&(streams){0}, same))->out, "(kept)"));
+    assert_null(strstr(ends(0, run("batch", "good.opx", "-o", "batch", "--frames", "5"))->out, "(kept)"));
+    /* In parts, joined, it is one table. */
+    ends(0, run("batch", "good.opx", "two.cp", "-o", "whole", "--frames", "4", "-q"));
+    ends(0, run("batch", "good.opx", "two.cp", "-o", "parts", "--frames", "4", "-q", "--part", "2/2"));
+    says(ends(1, run("batch", "good.opx", "two.cp", "-o", "parts", "--frames", "4", "-q", "--merge")), "rigami: batch: ", "1 of 3 files have no row");
+    ends(0, run("batch", "good.opx", "two.cp", "-o", "parts", "--frames", "4", "-q", "--part", "1/2"));
+    ends(0, run("batch", "good.opx", "two.cp", "-o", "parts", "--frames", "4", "-q", "--merge"));
+    slurp("whole/table.csv", table);
+    slurp("parts/table.csv", again);
+    assert_int_equal(lines_in(table), 4);
+    for (char *p = strtok(table, "\n"); p; p = strtok(NULL, "\n")) { /* but for the seconds */
+        char head[200];
+        snprintf(head, sizeof head, "%.60s", p);
+        assert_non_null(strstr(again, head));
+    }
+    says(ends(2, run("batch", "good.opx", "-o", "parts", "--part", "3/2")), "rigami: --part: ", "3/2");
+    says(ends(2, run("batch", "good.opx", "-o", "parts", "--write", "xyz")), "rigami: ", "xyz");
+    says(ends(2, run("batch", "good.opx")), "rigami: ", "-o DIR/");
 }
 
 static void what_was_meant(void **state)
@@ -855,15 +924,17 @@ static int begin_all(void **state)
     return 0;
 }
 
+static int remove_one(const char *path, const struct stat *is, int kind, struct FTW *at)
+{
+    (void)is, (void)kind, (void)at;
+    return remove(path);
+}
+
 static int end_all(void **state)
 {
     (void)state;
     if (!is_in_folder) return 0;
-    DIR *d = opendir(".");
-    for (struct dirent *e; d && (e = readdir(d));)
-        if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0) unlink(e->d_name);
-    if (d) closedir(d);
-    return chdir("/") || rmdir(folder);
+    return chdir("/") || nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
 }
 
 int main(void)
@@ -871,7 +942,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_pattern_folds),
         cmocka_unit_test(a_fold_that_stops_short_is_written_and_explained),
-        cmocka_unit_test(the_verdict_comes_first), cmocka_unit_test(states_in_frames), cmocka_unit_test(what_was_meant),
+        cmocka_unit_test(the_verdict_comes_first), cmocka_unit_test(states_in_frames), cmocka_unit_test(what_was_meant), cmocka_unit_test(a_motion_is_drawn_again),
+        cmocka_unit_test(a_batch),
         cmocka_unit_test(wrong_usage_is_refused),
         cmocka_unit_test(unreadable_input_is_refused),
         cmocka_unit_test(a_bad_line_is_named),

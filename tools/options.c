@@ -11,7 +11,7 @@
 #define DEG (3.14159265358979323846 / 180)
 
 /* How the value of an option is read, and where to. */
-typedef enum kind { SWITCH, WHOLE, REAL, ABOVE, CHOICE, TEXT, OUTPUT, KIND, FRAMES, SIZE, CAMERA, ADJUST, COLOURS, LINES } kind;
+typedef enum kind { SWITCH, WHOLE, REAL, ABOVE, CHOICE, TEXT, OUTPUT, KIND, FORM, PART, JOIN, FRAMES, SIZE, CAMERA, ADJUST, COLOURS, LINES } kind;
 
 typedef struct rule {
     int commands;            /* FOR_... */
@@ -48,11 +48,12 @@ static const char *const contacts[] = {[RG_CONTACT_AVOID] = "avoid", [RG_CONTACT
 
 #define AT(field) offsetof(options, field)
 #define READS (FOR_FOLD | FOR_INFO | FOR_CONVERT | FOR_CHART)
-#define EVERY (READS | FOR_GEN)
+#define EVERY (READS | FOR_GEN | FOR_DRAW)
+#define PICTURES (FOR_FOLD | FOR_DRAW)
 #define NOTHING 0, 0, 1, NULL
 
 static const rule rules[] = {
-    {FOR_FOLD, "output", 'o', "OUT", OUTPUT, 0, NOTHING, "write the motion to OUT, see below; may be given many times"},
+    {FOR_FOLD | FOR_DRAW, "output", 'o', "OUT", OUTPUT, 0, NOTHING, "write the motion to OUT, see below; may be given many times"},
     {FOR_CONVERT | FOR_GEN, "output", 'o', "OUT", OUTPUT, 0, NOTHING, "the file to write, - for standard output"},
     {FOR_CHART, "output", 'o', "DIR", OUTPUT, 0, NOTHING, "the folder to write to"},
     {FOR_FOLD | FOR_CHART, "frames", 0, "N", WHOLE, AT(settings.frames), 2, 1e6, 1, NULL,
@@ -88,41 +89,48 @@ static const rule rules[] = {
      "FOLD files: the frame to read, 0 is the key frame (the first crease pattern); several, such as 1-4, 1,3 or all, are states of one sheet"},
     {FOR_INFO | FOR_CONVERT | FOR_CHART, "frame", 0, "K", WHOLE, AT(settings.file_frame), 0, INT32_MAX, 1, NULL,
      "FOLD files: the frame to read, 0 is the key frame (the first crease pattern)"},
-    {READS, "flip", 0, NULL, SWITCH, AT(settings.flip), 1, 0, 1, NULL,
+    {READS | FOR_DRAW, "flip", 0, NULL, SWITCH, AT(settings.flip), 1, 0, 1, NULL,
      "the file's y runs the other way than is usual for its format"},
-    {READS, "merge", 0, "TOL", REAL, AT(settings.merge), 0, 0.1, 1, NULL,
+    {FOR_BATCH, "merge", 0, "[=TOL]", JOIN, 0, 0, 0.1, 1, NULL,
+     "fold nothing: join what the parts have in DIR to one table; with =TOL, as in rigami fold: ends nearer than this are one vertex"},
+    {READS | FOR_DRAW, "merge", 0, "TOL", REAL, AT(settings.merge), 0, 0.1, 1, NULL,
      "ends nearer than this part of the sheet's size are one vertex (2e-5; .svg: 1e-3)"},
     {READS, "aux", 0, NULL, SWITCH, AT(settings.aux_creases), 1, 0, 1, NULL, "auxiliary lines are creases that may fold"},
     {READS, "line", 0, "KEY=KIND", KIND, 0, NOTHING,
      "drawings: what lines of a colour, layer, name or dash are: border, cut, mountain, valley, unassigned, aux or none; may be given many times"},
     {FOR_FOLD | FOR_INFO | FOR_CHART, "sheet", 0, "N", WHOLE, AT(settings.sheet), 1, INT32_MAX, 1, NULL,
      "of several sheets in a drawing the one to take, in the order of the file"},
-    {FOR_FOLD, "size", 0, "WxH", SIZE, 0, 1, 16384, 1, NULL, "pictures: width and height in pixels (960x720)"},
-    {FOR_FOLD, "camera", 0, "AZ,EL[,ZOOM[,X,Y]]", CAMERA, 0, NOTHING,
+    {PICTURES, "size", 0, "WxH", SIZE, 0, 1, 16384, 1, NULL, "pictures: width and height in pixels (960x720)"},
+    {PICTURES, "camera", 0, "AZ,EL[,ZOOM[,X,Y]]", CAMERA, 0, NOTHING,
      "pictures: azimuth and elevation in degrees, zoom (1: the sheet just fits), and a point of the pattern to look at (chosen from the "
      "motion, 1, the sheet's middle)"},
-    {FOR_FOLD, "background", 0, "COLOUR", COLOURS, AT(picture.background), 1, 1, 1, NULL, "pictures: rrggbb or a name (323844)"},
-    {FOR_FOLD, "paper", 0, "FRONT,BACK", COLOURS, AT(picture.front), 2, 2, 1, NULL, "pictures: the two sides (f6b850,fcf8f0)"},
-    {FOR_FOLD, "lines", 0, "WHAT[,WIDTH]", LINES, 0, 0.1, 10, 1, NULL,
+    {PICTURES, "background", 0, "COLOUR", COLOURS, AT(picture.background), 1, 1, 1, NULL, "pictures: rrggbb or a name (323844)"},
+    {PICTURES, "paper", 0, "FRONT,BACK", COLOURS, AT(picture.front), 2, 2, 1, NULL, "pictures: the two sides (f6b850,fcf8f0)"},
+    {PICTURES, "lines", 0, "WHAT[,WIDTH]", LINES, 0, 0.1, 10, 1, NULL,
      "pictures: creases (mountains red, valleys blue), edges (all alike) or none, and how wide (creases,1)"},
-    {FOR_FOLD, "see-through", 0, "PCT", REAL, AT(picture.see_through), 0, 90, 0.01, NULL,
+    {PICTURES, "see-through", 0, "PCT", REAL, AT(picture.see_through), 0, 90, 0.01, NULL,
      "pictures: how much light passes a facet, in percent (0)"},
-    {FOR_FOLD, "no-shadow", 0, NULL, SWITCH, AT(picture.shadow), 0, 0, 1, NULL, "pictures: no shadow on the floor"},
-    {FOR_FOLD, "caption", 0, NULL, SWITCH, AT(picture.caption), 1, 0, 1, NULL, "pictures: title and percent at their lower edge"},
-    {FOR_FOLD, "image", 0, "FILE", TEXT, AT(picture.image), NOTHING, "pictures: a PNG printed on the paper's front"},
-    {FOR_FOLD, "colour", 0, "BY", CHOICE, AT(colour), 0, 0, 1, colourings, "pictures: what the colours of facets tell (paper):"},
-    {FOR_FOLD, "fps", 0, "N", REAL, AT(picture.fps), 0.01, 1000, 1, NULL, "animations: frames a second (30)"},
-    {FOR_FOLD, "loop", 0, "HOW", CHOICE, AT(loop), 0, 0, 1, loops,
+    {PICTURES, "no-shadow", 0, NULL, SWITCH, AT(picture.shadow), 0, 0, 1, NULL, "pictures: no shadow on the floor"},
+    {PICTURES, "caption", 0, NULL, SWITCH, AT(picture.caption), 1, 0, 1, NULL, "pictures: title and percent at their lower edge"},
+    {PICTURES, "image", 0, "FILE", TEXT, AT(picture.image), NOTHING, "pictures: a PNG printed on the paper's front"},
+    {PICTURES, "colour", 0, "BY", CHOICE, AT(colour), 0, 0, 1, colourings, "pictures: what the colours of facets tell (paper):"},
+    {PICTURES, "fps", 0, "N", REAL, AT(picture.fps), 0.01, 1000, 1, NULL, "animations: frames a second (30)"},
+    {PICTURES, "loop", 0, "HOW", CHOICE, AT(loop), 0, 0, 1, loops,
      "animations: there and back, forward over and over, or once (back):"},
-    {FOR_FOLD, "hold", 0, "SEC", REAL, AT(picture.hold), 0, 60, 1, NULL, "animations: seconds to stay at the end (1)"},
+    {PICTURES, "hold", 0, "SEC", REAL, AT(picture.hold), 0, 60, 1, NULL, "animations: seconds to stay at the end (1)"},
     {FOR_FOLD, "report", 0, "FILE", TEXT, AT(report), NOTHING, "write a report as JSON, - for standard output"},
+    {FOR_BATCH, "write", 0, "FORM", FORM, 0, NOTHING, "for each file also DIR/NAME.FORM: gif, fold, html, ...; may be given many times"},
+    {FOR_BATCH, "jobs", 0, "N", WHOLE, AT(jobs), 1, 4096, 1, NULL, "files at a time (as many as processors)"},
+    {FOR_BATCH, "limit", 0, "SEC", REAL, AT(limit), 1, 1e6, 1, NULL, "seconds for one file, then it is told as a timeout (none)"},
+    {FOR_BATCH, "part", 0, "K/N", PART, 0, NOTHING, "only every N-th file, from the K-th on: for several machines"},
+    {FOR_BATCH, "fresh", 0, NULL, SWITCH, AT(fresh), 1, 0, 1, NULL, "do not go on from what DIR has"},
     {FOR_INFO, "json", 0, NULL, SWITCH, AT(json), 1, 0, 1, NULL, "print one JSON object instead of text"},
     {FOR_GEN, "angle", 0, "DEG", ABOVE, AT(angle), 0, 180, DEG, NULL, "the kind's angle, degrees (its own)"},
     {FOR_FOLD | FOR_INFO, "verbose", 'v', NULL, SWITCH, AT(verbose), 1, 0, 1, NULL, "everything that is known, with lists"},
     {EVERY, "quiet", 'q', NULL, SWITCH, AT(quiet), 1, 0, 1, NULL, "no warnings, no summary, no progress"},
-    {FOR_FOLD | FOR_CHART, "progress", 0, NULL, SWITCH, AT(progress), 1, 0, 1, NULL,
+    {FOR_FOLD | FOR_CHART | FOR_DRAW, "progress", 0, NULL, SWITCH, AT(progress), 1, 0, 1, NULL,
      "show progress on standard error (on a terminal)"},
-    {FOR_FOLD | FOR_CHART, "no-progress", 0, NULL, SWITCH, AT(progress), 0, 0, 1, NULL, "do not show it"},
+    {FOR_FOLD | FOR_CHART | FOR_DRAW, "no-progress", 0, NULL, SWITCH, AT(progress), 0, 0, 1, NULL, "do not show it"},
     {EVERY, "help", 'h', NULL, SWITCH, AT(help), 1, 0, 1, NULL, "print this"},
     {EVERY, "version", 0, NULL, SWITCH, AT(version), 1, 0, 1, NULL, "print the version"},
 };
@@ -277,6 +285,25 @@ static int set_adjust(const rule *r, const char *text, rg_settings *s)
     return ENDS_WELL;
 }
 
+/* Alone it is the batch's own; with a value, that of folding. */
+static int set_join(const rule *r, const char *text, options *o)
+{
+    o->merge = text == NULL;
+    return text ? set_number(&(rule){.name = r->name, .kind = REAL, .low = r->low, .high = r->high, .unit = 1}, text, &o->settings.merge) : ENDS_WELL;
+}
+
+static int set_part(const rule *r, const char *text, options *o)
+{
+    int32_t k, n;
+    char end;
+    if (strspn(text, "0123456789/") == strlen(text) && strlen(text) < 16 && sscanf(text, "%d/%d%c", &k, &n, &end) == 2 && k >= 1 && k <= n) {
+        o->part = k;
+        o->parts = n;
+        return ENDS_WELL;
+    }
+    return refuse(r, text, "K/N, such as 1/8: K from 1 to N");
+}
+
 /* K, K-L, lists of these with commas, or all: then there is one range from 1 to 0. */
 static int set_frames(const rule *r, const char *text, options *o)
 {
@@ -316,6 +343,9 @@ static int set(options *o, const rule *r, const char *text)
     case TEXT: *(const char **)to = text; return ENDS_WELL;
     case OUTPUT: o->output[o->outputs++] = text; return ENDS_WELL;
     case KIND: o->kind[o->settings.kinds++] = text; return ENDS_WELL;
+    case FORM: o->form[o->forms++] = text; return ENDS_WELL;
+    case JOIN: return set_join(r, text, o);
+    case PART: return set_part(r, text, o);
     case FRAMES: return set_frames(r, text, o);
     case SIZE: return set_size(r, text, &o->picture);
     case CAMERA: return set_camera(r, text, &o->picture);
@@ -330,13 +360,23 @@ static int set(options *o, const rule *r, const char *text)
 
 /* What getopt_long is to know of the command's options; its values are places in `rules`, above any letter. */
 enum { FIRST = 256 };
+/* Whether rule i is one of the command's: of two of one name it is the first. */
+static int is_of(int bit, int i)
+{
+    if (!(rules[i].commands & bit)) return 0;
+    for (int k = 0; k < i; k++)
+        if ((rules[k].commands & bit) && strcmp(rules[k].name, rules[i].name) == 0) return 0;
+    return 1;
+}
+
 static void tell_getopt(int bit, struct option *longs, char *shorts)
 {
     int n = 0;
     shorts += sprintf(shorts, "-:"); /* operands in their order, whatever POSIXLY_CORRECT says; errors left to us */
     for (int i = 0; i < RULES; i++) {
-        if (!(rules[i].commands & bit)) continue;
-        longs[n++] = (struct option){rules[i].name, rules[i].value ? required_argument : no_argument, NULL, FIRST + i};
+        if (!is_of(bit, i)) continue;
+        const int has_value = rules[i].kind == JOIN ? optional_argument : rules[i].value ? required_argument : no_argument;
+        longs[n++] = (struct option){rules[i].name, has_value, NULL, FIRST + i};
         if (rules[i].letter) shorts += sprintf(shorts, "%c%s", rules[i].letter, rules[i].value ? ":" : "");
     }
     memset(&longs[n], 0, sizeof *longs);
@@ -398,6 +438,15 @@ static int check_operands(const options *o, const command *c)
     return ENDS_USAGE;
 }
 
+/* What a fold depends on, word by word. */
+static void note(options *o, const rule *r, const char *text)
+{
+    const size_t n = strlen(o->said);
+    const int matters = (r->commands & FOR_FOLD) || r->kind == FORM || (r->kind == JOIN && text);
+    if (matters && r->kind != OUTPUT && strcmp(r->name, "quiet") != 0 && strcmp(r->name, "progress") != 0 && strcmp(r->name, "no-progress") != 0)
+        snprintf(o->said + n, sizeof o->said - n, "--%s %s ", r->name, text ? text : "");
+}
+
 static void settle(options *o)
 {
     o->settings.format = (rg_format)o->format;
@@ -420,8 +469,9 @@ int options_parse(options *o, const command *c, int argc, char **argv)
     o->operand = calloc((size_t)argc + 1, sizeof *o->operand);
     o->output = calloc((size_t)argc + 1, sizeof *o->output);
     o->kind = calloc((size_t)argc + 1, sizeof *o->kind);
+    o->form = calloc((size_t)argc + 1, sizeof *o->form);
     o->settings.kind = o->kind;
-    if (!o->operand || !o->output || !o->kind) {
+    if (!o->operand || !o->output || !o->kind || !o->form) {
         say("out of memory");
         return ENDS_UNWRITTEN;
     }
@@ -434,6 +484,7 @@ int options_parse(options *o, const command *c, int argc, char **argv)
         if (code == 1) o->operand[o->operands++] = optarg;
         else if (r && set(o, r, optarg) != ENDS_WELL) return ENDS_USAGE;
         if (o->help || o->version) return ENDS_WELL;
+        if (r) note(o, r, optarg);
     }
     while (optind < argc) o->operand[o->operands++] = argv[optind++];
     settle(o);
@@ -445,6 +496,7 @@ void options_free(options *o)
     free(o->operand);
     free(o->output);
     free(o->kind);
+    free(o->form);
     free(o->range);
     memset(o, 0, sizeof *o);
 }
@@ -494,6 +546,6 @@ void options_help(const command *c, FILE *out)
 {
     fprintf(out, "Usage: rigami %s %s\n%s\n\n", c->name, c->operands, c->summary);
     for (int i = 0; i < RULES; i++)
-        if (rules[i].commands & c->bit) help_option(&rules[i], out);
+        if (is_of(c->bit, i)) help_option(&rules[i], out);
     if (c->notes[0]) fprintf(out, "\n%s", c->notes);
 }

@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 /* Which commands an option is for. */
-enum { FOR_FOLD = 1, FOR_INFO = 2, FOR_CONVERT = 4, FOR_GEN = 8, FOR_CHART = 16 };
+enum { FOR_FOLD = 1, FOR_INFO = 2, FOR_CONVERT = 4, FOR_GEN = 8, FOR_CHART = 16, FOR_DRAW = 64, FOR_BATCH = 128 };
 
 typedef struct frame_range { int32_t first, last; } frame_range; /* of a FOLD file; last below first: to its last one */
 
@@ -15,10 +15,14 @@ typedef struct options {
     rg_settings settings;
     rg_picture picture;
     double angle; /* of gen, radians; 0: the kind's own */
-    const char **operand, **output, **kind; /* kind: of --line */
+    const char **operand, **output, **kind, **form; /* kind: of --line; form: of --write */
     int operands, outputs;
     frame_range *range;                                   /* of --frame: states in one file; one frame alone is in `settings` too */
     int ranges;
+    int forms, merge, fresh;                              /* of batch */
+    int32_t jobs, part, parts;                            /* 0: as many as processors; all of them */
+    double limit;                                         /* seconds a file, 0: none */
+    char said[1024];                                      /* options that say how to fold and what to write, as given */
     const char *report;                                   /* NULL: none */
     int verbose, quiet, json, progress;                            /* progress: 1 yes, 0 no, -1 on a terminal */
     int help, version;                                    /* asked for: nothing after it was looked at */

@@ -43,6 +43,18 @@ static const command commands[] = {
      "cannot be written.\n",
      cmd_convert},
     {"gen", FOR_GEN, "KIND [N [M]] -o OUT", 1, 3, "Writes an example crease pattern as .opx, of N by M parts.", "", cmd_gen},
+    {"draw", FOR_DRAW, "MOTION.fold -o OUT [-o OUT]...", 1, 1, "Draws a motion that was written before, without folding.",
+     "MOTION is a FOLD file with a flat crease pattern and frames that have vertices_coords: what rigami fold\n"
+     "writes as .fold, or another program; - is standard input. OUT is as for rigami fold. Exit status: 0 when\n"
+     "all was written; 2 when MOTION cannot be read; 3 when an output cannot be written.\n",
+     cmd_draw},
+    {"batch", FOR_FOLD | FOR_BATCH, "IN [IN]... -o DIR/", 1, 1000000, "Folds many crease patterns, each by itself, to one table.",
+     "Each IN has DIR/NAME.json, its report, and DIR/NAME.log, what was said of it; all together have DIR/table.csv and\n"
+     "DIR/table.txt. A drawing of several sheets is folded sheet by sheet. What DIR has already, of the same files, options\n"
+     "and program, is kept: an interrupted batch goes on when it is called again. On several machines that share DIR:\n"
+     "--part 1/8 on the first, ... --part 8/8 on the last, then once --merge with all files. Exit status: 0 when all\n"
+     "fold; 1 when some do not, or are not done yet; 2 for wrong usage; 3 for output that cannot be written.\n",
+     cmd_batch},
     {"chart", FOR_CHART, "IN [-o DIR]", 1, 1, "Charts speed against accuracy of every method, and where each stops.",
      "IN is a crease pattern, - standard input. Says what each method and solver costs and how far off\n"
      "it is; with -o also writes DIR/IN.csv, every run, DIR/IN.svg, the diagram, and DIR/IN.md.\n"

@@ -1,0 +1,14 @@
+/* places.h -- where a motion is to be written: whether it can be, before any work, and writing it.
+ * Uses  progress.h say.h        Used by  cmd_fold.c cmd_draw.c */
+#ifndef PLACES_H
+#define PLACES_H
+
+#include "options.h"
+#include "progress.h"
+
+/* Both return an exit status; what is wrong has been said. */
+int places_check(const options *o);
+/* All outputs are tried, whatever becomes of one; the report comes last, as it tells how long they took. */
+int places_write(const options *o, const rg_motion *m, progress *bar);
+
+#endif
