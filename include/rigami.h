@@ -443,6 +443,46 @@ RG_API rg_status rg_info_text(const rg_pattern *p, int lists, const char *file, 
 /* What is wrong with a vertex, where and by how much, as part of a sentence: "at (0.5, 2) five creases meet ...". */
 RG_API void rg_unfoldable_text(const rg_pattern *p, const rg_unfoldable *u, char text[240]);
 
+/* ---------------------------------------------------------------------------------------------- verify ---- */
+
+/* Is a motion that was written to a .fold file one that paper can make? Found again from the file alone, by code that shares nothing
+ * with what folds: one and the same sheet, rigid facets, closed vertices, angles that are those of the places, mountains and
+ * valleys, a steady path; no facets that pass through each other, in frames or, by bounds that hold all the way, on rigid ways
+ * between them; and layers that are possible where it ends flat, which rests on their order alone. */
+typedef struct rg_certificate rg_certificate;
+
+typedef struct rg_fault {
+    int32_t frame;    /* from 0; -1: of the pattern */
+    int32_t facet[2]; /* which, by their numbers in the file; -1: none */
+    char text[200];   /* what, without full stop; with facets, it begins after them */
+} rg_fault;
+
+typedef struct rg_certificate_info {
+    int valid;                 /* non-zero: no fault */
+    int32_t frames, facets, faults;
+    double max_sheet;          /* the farthest that the border of a frame's pattern is off the border given, over the sheet's size */
+    double max_rigid;          /* the farthest that a corner is off its facet, over the sheet's size */
+    double max_closure;        /* radians, over frames and inner vertices */
+    double max_angle;          /* the largest difference of an angle to the places, radians */
+    double max_leap_deg;       /* the largest change of a mountain or valley from frame to frame */
+    double max_wrong_side_deg; /* the most that a crease is on the wrong side of flat on the way */
+    double contact_depth;      /* the deepest crossing in a frame, over the sheet's size; 0: none above 1e-4 */
+    double between_depth;      /* no crossing between frames is deeper than this */
+    int ends_flat;
+    int32_t layer_pairs, layers_shown; /* facets over each other at a flat end; of these, whose order the frame before shows */
+} rg_certificate_info;
+
+/* motion: a .fold file, "-" standard input. given: the pattern that it is to be a motion of, NULL: any. s: memory. RG_OK whatever is
+ * found: read the info; RG_EREAD, RG_EFORMAT: the file cannot be read as a motion. Owner: the caller, rg_certificate_destroy. */
+RG_API rg_status rg_certificate_create(const char *motion, const rg_pattern *given, const rg_settings *s, rg_certificate **certificate,
+                                       rg_diag *why);
+RG_API void rg_certificate_destroy(rg_certificate *c);
+RG_API void rg_certificate_get_info(const rg_certificate *c, rg_certificate_info *info);
+/* The first of the faults, at most 200; borrowed. */
+RG_API int32_t rg_certificate_faults(const rg_certificate *c, const rg_fault **list);
+/* For people, a line each; or as one JSON object. `file` "-": standard output; else written whole or not at all. */
+RG_API rg_status rg_certificate_write(const rg_certificate *c, int json, const char *file, rg_diag *why);
+
 /* ----------------------------------------------------------------------------------------------- chart ---- */
 
 /* Speed against accuracy for one pattern: every method with every solver over a range of steps, against the path in

@@ -774,6 +774,40 @@ static void passing_through_itself_is_told(void **state)
     says(ends(2, run("fold", "through.opx", "--contact", "perhaps")), "rigami: --contact: ", "avoid, report or ignore");
 }
 
+/* What was folded freely is found to be a motion by its file alone; of what was not, frame and facets are said, a line each. */
+static void motions_are_verified(void **state)
+{
+    (void)state;
+    ends(0, run("fold", "good.opx", "-q", "-o", "good.fold"));
+    const ran *r = ends(0, run("verify", "good.fold", "good.opx"));
+    assert_int_equal(strncmp(r->out, "valid: one sheet, ", 18), 0);
+    assert_non_null(strstr(r->out, "the last frame lies flat and rests on the order of its layers alone"));
+    assert_string_equal(r->err, "");
+    assert_string_equal(ends(0, run("verify", "good.fold", "-q"))->out, "");
+    r = ends(0, run("verify", "good.fold", "--json"));
+    json_t *found = json_loads(r->out, JSON_REJECT_DUPLICATES, NULL);
+    assert_true(json_is_true(json_object_get(found, "valid")));
+    assert_int_equal(json_array_size(json_object_get(found, "faults")), 0);
+    json_decref(found);
+    ends(0, run("gen", "waterbomb", "6", "-o", "through.opx"));
+    ends(1, run("fold", "through.opx", "-q", "-o", "through.fold"));
+    r = ends(1, run("verify", "through.fold"));
+    assert_int_equal(strncmp(r->out, "frame ", 6), 0);
+    assert_true(strstr(r->out, " %): facets ") && strstr(r->out, " cross, 0.0"));
+    r = ends(1, run("verify", "good.fold", "through.opx"));
+    assert_non_null(strstr(r->out, "pattern: edge "));
+    r = ends(1, run("verify", "through.fold", "--json"));
+    found = json_loads(r->out, JSON_REJECT_DUPLICATES, NULL);
+    assert_true(json_is_false(json_object_get(found, "valid")));
+    assert_true(json_array_size(json_object_get(found, "faults")) > 0);
+    json_decref(found);
+    says(ends(2, run("verify", "good.opx")), "rigami: good.opx: ", "");
+    says(ends(2, run("verify", "missing.fold")), "rigami: missing.fold: ", strerror(ENOENT));
+    ends(2, run("verify"));
+    unlink("good.fold");
+    unlink("through.fold");
+}
+
 static void the_report_has_what_is_promised(void **state)
 {
     (void)state;
@@ -963,6 +997,7 @@ int main(void)
         cmocka_unit_test(examples_are_made),
         cmocka_unit_test(patterns_are_converted),
         cmocka_unit_test(passing_through_itself_is_told),
+        cmocka_unit_test(motions_are_verified),
         cmocka_unit_test(the_report_has_what_is_promised),
         cmocka_unit_test(info_as_json_has_what_is_promised),
         cmocka_unit_test(an_interrupted_fold_is_written_up_to_there),

@@ -11,6 +11,7 @@ int cmd_info(const options *o);
 int cmd_convert(const options *o);
 int cmd_gen(const options *o);
 int cmd_chart(const options *o);
+int cmd_verify(const options *o);
 int cmd_draw(const options *o);
 int cmd_batch(const options *o);
 

@@ -47,7 +47,7 @@ static const char *const contacts[] = {[RG_CONTACT_AVOID] = "avoid", [RG_CONTACT
                                        [RG_CONTACT_IGNORE] = "ignore", NULL};
 
 #define AT(field) offsetof(options, field)
-#define READS (FOR_FOLD | FOR_INFO | FOR_CONVERT | FOR_CHART)
+#define READS (FOR_FOLD | FOR_INFO | FOR_CONVERT | FOR_CHART | FOR_VERIFY)
 #define EVERY (READS | FOR_GEN | FOR_DRAW)
 #define PICTURES (FOR_FOLD | FOR_DRAW)
 #define NOTHING 0, 0, 1, NULL
@@ -124,7 +124,7 @@ static const rule rules[] = {
     {FOR_BATCH, "limit", 0, "SEC", REAL, AT(limit), 1, 1e6, 1, NULL, "seconds for one file, then it is told as a timeout (none)"},
     {FOR_BATCH, "part", 0, "K/N", PART, 0, NOTHING, "only every N-th file, from the K-th on: for several machines"},
     {FOR_BATCH, "fresh", 0, NULL, SWITCH, AT(fresh), 1, 0, 1, NULL, "do not go on from what DIR has"},
-    {FOR_INFO, "json", 0, NULL, SWITCH, AT(json), 1, 0, 1, NULL, "print one JSON object instead of text"},
+    {FOR_INFO | FOR_VERIFY, "json", 0, NULL, SWITCH, AT(json), 1, 0, 1, NULL, "print one JSON object instead of text"},
     {FOR_GEN, "angle", 0, "DEG", ABOVE, AT(angle), 0, 180, DEG, NULL, "the kind's angle, degrees (its own)"},
     {FOR_FOLD | FOR_INFO, "verbose", 'v', NULL, SWITCH, AT(verbose), 1, 0, 1, NULL, "everything that is known, with lists"},
     {EVERY, "quiet", 'q', NULL, SWITCH, AT(quiet), 1, 0, 1, NULL, "no warnings, no summary, no progress"},

@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 /* Which commands an option is for. */
-enum { FOR_FOLD = 1, FOR_INFO = 2, FOR_CONVERT = 4, FOR_GEN = 8, FOR_CHART = 16, FOR_DRAW = 64, FOR_BATCH = 128 };
+enum { FOR_FOLD = 1, FOR_INFO = 2, FOR_CONVERT = 4, FOR_GEN = 8, FOR_CHART = 16, FOR_VERIFY = 32, FOR_DRAW = 64, FOR_BATCH = 128 };
 
 typedef struct frame_range { int32_t first, last; } frame_range; /* of a FOLD file; last below first: to its last one */
 

@@ -61,6 +61,14 @@ static const command commands[] = {
      "Exit status: 0 when it was made, whatever it says; 2 when IN cannot be read or holds nothing to\n"
      "solve; 3 when an output cannot be written.\n",
      cmd_chart},
+    {"verify", FOR_VERIFY, "MOTION.fold [IN]", 1, 2, "Says whether a motion that was written is one that paper can make.",
+     "MOTION.fold is judged by itself, by code that shares nothing with what folds: one and the same\n"
+     "sheet, rigid facets, closed vertices, angles as the places have them, mountains and valleys, a\n"
+     "steady path, no facets through each other in frames or on rigid ways between them, possible\n"
+     "layers where it ends flat. IN: the pattern that it is to be a motion of. Exit status: 0 it is\n"
+     "one; 1 it is not, and what is wrong in which frame with which facets is said, a line each; 2 a\n"
+     "file that cannot be read.\n",
+     cmd_verify},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
 

@@ -1,0 +1,171 @@
+#include "verify/certificate.h"
+#include "base/file.h"
+#include "base/json.h"
+#include "base/status.h"
+#include "verify/given.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+void rg_certificate_destroy(rg_certificate *c)
+{
+    if (!c) return;
+    const rg_memory mem = c->mem;
+    rg_mem_free(&mem, c->percent);
+    rg_mem_free(&mem, c);
+}
+
+void rg_certificate_get_info(const rg_certificate *c, rg_certificate_info *info) { *info = c->info; }
+
+int32_t rg_certificate_faults(const rg_certificate *c, const rg_fault **list)
+{
+    *list = c->faults.list;
+    return c->faults.count < RG_FAULTS_KEPT ? c->faults.count : RG_FAULTS_KEPT;
+}
+
+static rg_status read_whole(const char *path, const rg_memory *mem, char **bytes, size_t *size, rg_diag *why)
+{
+    FILE *f = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
+    size_t room = 0;
+    rg_status s = RG_OK;
+    if (!f) return rg_fail(RG_EREAD, why, 0, "%s", strerror(errno));
+    errno = 0;
+    for (size_t got = 1; s == RG_OK && got > 0; *size += got) {
+        s = rg_mem_grow(mem, (void **)bytes, &room, *size + 65536, 1);
+        got = s == RG_OK ? fread(*bytes + *size, 1, room - *size, f) : 0;
+    }
+    if (s == RG_OK && ferror(f)) s = rg_fail(RG_EREAD, why, 0, "%s", errno ? strerror(errno) : "cannot be read");
+    else if (s != RG_OK) rg_fail(s, why, 0, "out of memory");
+    if (f != stdin) fclose(f);
+    return s;
+}
+
+/* Places first; what they are not good for is not asked of them. */
+static rg_status look(rg_certificate *c, rg_record *r, const rg_pattern *given)
+{
+    rg_pieces p = {0};
+    int whole = 0;
+    rg_status s = rg_isometry_pattern(r, &c->faults, &whole);
+    if (s == RG_OK && given) rg_given_check(r, given, &c->faults);
+    if (s != RG_OK || !whole) return s;
+    s = rg_isometry_frames(r, &c->faults, &c->isometry);
+    if (s == RG_OK && !(c->isometry.rigid <= RG_THROUGH_LEAST)) return s; /* facets that are none cross nothing */
+    if (s == RG_OK) s = rg_pieces_init(r, &p);
+    if (s == RG_OK) s = rg_through_frames(r, &p, &c->faults, &c->through);
+    if (s == RG_OK) s = rg_pile_check(r, &p, &c->faults, &c->pile);
+    rg_pieces_free(&p);
+    return s;
+}
+
+rg_status rg_certificate_create(const char *path, const rg_pattern *given, const rg_settings *settings, rg_certificate **certificate,
+                                rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(settings->memory);
+    rg_record r = {0};
+    char *bytes = NULL;
+    size_t size = 0;
+    rg_certificate *c = rg_mem_array(&mem, 1, sizeof *c);
+    if (!c) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
+    c->mem = mem;
+    rg_status s = read_whole(path, &mem, &bytes, &size, why);
+    if (s == RG_OK) s = rg_record_parse(bytes, size, &mem, &r, why);
+    rg_mem_free(&mem, bytes);
+    if (s == RG_OK) {
+        s = look(c, &r, given);
+        if (s == RG_ENOMEM) rg_fail(s, why, 0, "out of memory");
+        c->info = (rg_certificate_info){.valid = c->faults.count == 0, .facets = r.nf, .frames = r.frames, .faults = c->faults.count,
+            .max_sheet = c->isometry.sheet, .max_rigid = c->isometry.rigid, .max_closure = c->isometry.closed, .max_angle = c->isometry.angle,
+            .max_leap_deg = c->isometry.leap / RG_DEG, .max_wrong_side_deg = c->isometry.wrong / RG_DEG, .contact_depth = c->through.depth,
+            .between_depth = c->through.allowed, .ends_flat = c->pile.is_flat, .layer_pairs = c->pile.pairs, .layers_shown = c->pile.seen};
+        c->percent = r.percent; /* kept, to say where */
+        r.percent = NULL;
+    }
+    rg_record_free(&r);
+    if (s != RG_OK) {
+        rg_certificate_destroy(c);
+        return s;
+    }
+    *certificate = c;
+    return RG_OK;
+}
+
+/* ----------------------------------------------------------------------------------------------------------- said ---- */
+
+static void where(const rg_certificate *c, const rg_fault *f, char *text, size_t room)
+{
+    int n = f->frame < 0 ? snprintf(text, room, "pattern: ") : snprintf(text, room, "frame %d", (int)f->frame);
+    if (f->frame >= 0 && !isnan(c->percent[f->frame])) n += snprintf(text + n, room - (size_t)n, " (%.4g %%)", c->percent[f->frame]);
+    if (f->frame >= 0) n += snprintf(text + n, room - (size_t)n, ": ");
+    if (f->facet[0] >= 0 && f->facet[1] >= 0) snprintf(text + n, room - (size_t)n, "facets %d and %d ", (int)f->facet[0], (int)f->facet[1]);
+    else if (f->facet[0] >= 0 || f->facet[1] >= 0) snprintf(text + n, room - (size_t)n, "facet %d ", (int)(f->facet[0] >= 0 ? f->facet[0] : f->facet[1]));
+}
+
+static void write_text(const rg_certificate *c, FILE *out)
+{
+    enum { SHOWN = 12 };
+    const rg_certificate_info *i = &c->info;
+    for (int32_t k = 0; k < i->faults && k < SHOWN; k++) {
+        char place[120] = "";
+        where(c, &c->faults.list[k], place, sizeof place);
+        fprintf(out, "%s%s\n", place, c->faults.list[k].text);
+    }
+    if (i->faults > SHOWN) fprintf(out, "and %d more\n", (int)(i->faults - SHOWN));
+    if (!i->valid) return;
+    fprintf(out, "valid: one sheet, %d rigid facets, closed in all of %d frames; nothing crosses in them deeper than %g of the sheet, or on rigid ways "
+            "between them deeper than %.2g\n", (int)i->facets, (int)i->frames, RG_THROUGH_LEAST, i->between_depth);
+    if (i->ends_flat)
+        fprintf(out, "the last frame lies flat and rests on the order of its layers alone: %d pairs of facets, valid; the frame before shows %d of them\n",
+                (int)i->layer_pairs, (int)i->layers_shown);
+}
+
+static void write_json(const rg_certificate *c, FILE *out)
+{
+    const rg_certificate_info *i = &c->info;
+    rg_json j;
+    rg_json_begin(&j, out);
+    rg_json_open(&j, NULL, '{');
+    rg_json_string(&j, "rigami", RG_VERSION);
+    rg_json_bool(&j, "valid", i->valid);
+    rg_json_integer(&j, "frames", i->frames);
+    rg_json_integer(&j, "facets", i->facets);
+    rg_json_number(&j, "max_sheet", i->max_sheet);
+    rg_json_number(&j, "max_rigid", i->max_rigid);
+    rg_json_number(&j, "max_closure", i->max_closure);
+    rg_json_number(&j, "max_angle", i->max_angle);
+    rg_json_number(&j, "max_leap_deg", i->max_leap_deg);
+    rg_json_number(&j, "max_wrong_side_deg", i->max_wrong_side_deg);
+    rg_json_number(&j, "contact_depth", i->contact_depth);
+    rg_json_number(&j, "between_depth", i->between_depth);
+    rg_json_bool(&j, "ends_flat", i->ends_flat);
+    rg_json_integer(&j, "layer_pairs", i->layer_pairs);
+    rg_json_integer(&j, "layers_shown", i->layers_shown);
+    rg_json_integer(&j, "fault_count", i->faults);
+    rg_json_open(&j, "faults", '[');
+    const rg_fault *list;
+    const int32_t n = rg_certificate_faults(c, &list);
+    for (int32_t k = 0; k < n; k++) {
+        rg_json_open_line(&j, NULL, '{');
+        if (list[k].frame >= 0) rg_json_integer(&j, "frame", list[k].frame);
+        else rg_json_number(&j, "frame", NAN);
+        rg_json_number(&j, "percent", list[k].frame >= 0 ? c->percent[list[k].frame] : NAN);
+        rg_json_open_line(&j, "facets", '[');
+        for (int f = 0; f < 2; f++)
+            if (list[k].facet[f] >= 0) rg_json_integer(&j, NULL, list[k].facet[f]);
+        rg_json_close(&j);
+        rg_json_string(&j, "what", list[k].text);
+        rg_json_close(&j);
+    }
+    rg_json_close(&j);
+    rg_json_close(&j);
+}
+
+rg_status rg_certificate_write(const rg_certificate *c, int json, const char *file, rg_diag *why)
+{
+    rg_file out;
+    const rg_status s = rg_file_begin(&out, &c->mem, file, why);
+    if (s != RG_OK) return s;
+    if (json) write_json(c, out.stream);
+    else write_text(c, out.stream);
+    return rg_file_commit(&out, why);
+}

@@ -1,0 +1,119 @@
+#include "verify/pieces.h"
+
+#include <string.h>
+
+/* Sine of a corner that is turned inwards by rounding only. */
+static const double STRAIGHT = 1e-7;
+
+static double sine_at(rg_vec2 a, rg_vec2 b, rg_vec2 c)
+{
+    const rg_vec2 u = rg_vec2_sub(b, a), v = rg_vec2_sub(c, b);
+    return rg_vec2_cross(u, v) / (rg_vec2_length(u) * rg_vec2_length(v) + 1e-300);
+}
+
+static int all_outwards(const rg_vec2 *X, const int32_t *c, int32_t n)
+{
+    int good = n <= RG_PIECE_MOST;
+    for (int32_t i = 0; good && i < n; i++) good = sine_at(X[c[i]], X[c[(i + 1) % n]], X[c[(i + 2) % n]]) >= -STRAIGHT;
+    return good;
+}
+
+static void add(rg_pieces *p, int32_t f, const int32_t *c, int32_t n)
+{
+    p->facet[p->n] = f;
+    memcpy(p->corner + p->start[p->n], c, (size_t)n * sizeof *c);
+    p->start[p->n + 1] = p->start[p->n] + n;
+    p->n++;
+}
+
+/* The triangle at corner i holds no other corner. */
+static int is_ear(const rg_vec2 *X, const int32_t *c, int32_t n, int32_t i)
+{
+    const rg_vec2 a = X[c[(i + n - 1) % n]], b = X[c[i]], d = X[c[(i + 1) % n]];
+    if (!(sine_at(a, b, d) > STRAIGHT)) return 0;
+    for (int32_t k = 0; k < n; k++) {
+        const rg_vec2 q = X[c[k]];
+        if (k == i || k == (i + 1) % n || k == (i + n - 1) % n) continue;
+        if (rg_vec2_turn(a, b, q) >= 0 && rg_vec2_turn(b, d, q) >= 0 && rg_vec2_turn(d, a, q) >= 0) return 0;
+    }
+    return 1;
+}
+
+/* Ears off, one after the other; corners in line that are left over have no area. c[n] is used up. */
+static void cut(rg_pieces *p, const rg_vec2 *X, int32_t f, int32_t *c, int32_t n)
+{
+    while (n >= 3) {
+        int32_t i = 0;
+        while (i < n && !is_ear(X, c, n, i)) i++;
+        if (i == n) return;
+        add(p, f, (const int32_t[]){c[(i + n - 1) % n], c[i], c[(i + 1) % n]}, 3);
+        memmove(c + i, c + i + 1, (size_t)(n - i - 1) * sizeof *c);
+        n--;
+    }
+}
+
+rg_status rg_pieces_init(const rg_record *r, rg_pieces *p)
+{
+    const size_t corners = (size_t)r->start[r->nf];
+    memset(p, 0, sizeof *p);
+    p->mem = r->mem;
+    p->facet = rg_mem_array(&r->mem, corners, sizeof *p->facet);
+    p->first = rg_mem_array(&r->mem, (size_t)r->nf + 1, sizeof *p->first);
+    p->start = rg_mem_array(&r->mem, corners + 1, sizeof *p->start);
+    p->corner = rg_mem_array(&r->mem, 3 * corners, sizeof *p->corner);
+    int32_t *c = rg_mem_array(&r->mem, corners, sizeof *c);
+    const int ok = p->facet && p->first && p->start && p->corner && c;
+    for (int32_t f = 0; ok && f < r->nf; f++) {
+        const int32_t n = r->start[f + 1] - r->start[f];
+        memcpy(c, r->corner + r->start[f], (size_t)n * sizeof *c);
+        p->first[f] = p->n;
+        if (all_outwards(r->flat, c, n)) add(p, f, c, n);
+        else cut(p, r->flat, f, c, n);
+    }
+    if (ok) p->first[r->nf] = p->n;
+    rg_mem_free(&r->mem, c);
+    if (!ok) rg_pieces_free(p);
+    return ok ? RG_OK : RG_ENOMEM;
+}
+
+void rg_pieces_free(rg_pieces *p)
+{
+    if (!p->mem.resize) return;
+    rg_mem_free(&p->mem, p->facet);
+    rg_mem_free(&p->mem, p->first);
+    rg_mem_free(&p->mem, p->start);
+    rg_mem_free(&p->mem, p->corner);
+    memset(p, 0, sizeof *p);
+}
+
+double rg_pieces_area(const rg_vec2 *a, int32_t n)
+{
+    double sum = 0;
+    for (int32_t i = 1; i + 1 < n; i++) sum += rg_vec2_turn(a[0], a[i], a[i + 1]) / 2;
+    return sum;
+}
+
+/* a, cut by the line of one side of b after the other (Sutherland and Hodgman 1974). */
+int32_t rg_pieces_common(const rg_vec2 *a, int32_t na, const rg_vec2 *b, int32_t nb, rg_vec2 common[RG_PIECE_COMMON])
+{
+    const double way = rg_pieces_area(b, nb) < 0 ? -1 : 1;
+    rg_vec2 from[RG_PIECE_COMMON];
+    int32_t n = na;
+    for (int32_t i = 0; i < na; i++) common[i] = rg_pieces_area(a, na) < 0 ? a[na - 1 - i] : a[i];
+    for (int32_t side = 0; side < nb && n > 0; side++) {
+        const rg_vec2 p = b[side], q = b[(side + 1) % nb];
+        const int32_t m = n;
+        memcpy(from, common, (size_t)m * sizeof *from);
+        n = 0;
+        for (int32_t i = 0; i < m && n + 2 <= RG_PIECE_COMMON; i++) {
+            const rg_vec2 s = from[i], e = from[(i + 1) % m];
+            const double at = way * rg_vec2_turn(p, q, s), then = way * rg_vec2_turn(p, q, e);
+            if (at >= 0) common[n++] = s;
+            if ((at > 0 && then < 0) || (at < 0 && then > 0)) {
+                const double t = at / (at - then);
+                common[n++] = (rg_vec2){s.x + t * (e.x - s.x), s.y + t * (e.y - s.y)};
+            }
+        }
+    }
+    return n;
+}

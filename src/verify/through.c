@@ -1,0 +1,407 @@
+#include "verify/through.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Facets with a common corner: over less of the sheet it is how the corner is rounded. */
+static const double STRETCH = 1e-3;
+/* Sine of sides that count as parallel. */
+static const double PARALLEL = 1e-9;
+/* Radians that one facet may turn by, as another one sees it: more leaves open which way it went. */
+static const double LEAP = RG_PI / 2;
+/* A way in so many halvings is not looked at closer: a 4000th of a frame. */
+enum { HALVINGS = 12 };
+
+typedef struct polygon { int32_t n; rg_vec3 x[RG_PIECE_MOST]; } polygon;
+
+static rg_vec3 unit(rg_vec3 a)
+{
+    const double n = rg_vec3_length(a);
+    return n > 0 ? rg_vec3_scale(1 / n, a) : a;
+}
+
+static rg_vec3 normal_of(const polygon *p)
+{
+    rg_vec3 sum = {0, 0, 0};
+    for (int32_t k = 1; k + 1 < p->n; k++)
+        sum = rg_vec3_add(sum, rg_vec3_cross(rg_vec3_sub(p->x[k], p->x[0]), rg_vec3_sub(p->x[k + 1], p->x[0])));
+    return unit(sum);
+}
+
+/* The axes along which two plates can be parted: both normals, and all sides by all sides. Returns how many, at most
+ * 2 + RG_PIECE_MOST squared. */
+static int32_t find_axes(const polygon *a, const polygon *b, rg_vec3 *axis)
+{
+    int32_t n = 0;
+    axis[n++] = normal_of(a);
+    axis[n++] = normal_of(b);
+    for (int32_t i = 0; i < a->n; i++)
+        for (int32_t k = 0; k < b->n; k++) {
+            const rg_vec3 e = rg_vec3_sub(a->x[(i + 1) % a->n], a->x[i]), g = rg_vec3_sub(b->x[(k + 1) % b->n], b->x[k]);
+            const rg_vec3 u = rg_vec3_cross(e, g);
+            const double length = rg_vec3_length(u);
+            if (length > PARALLEL * rg_vec3_length(e) * rg_vec3_length(g)) axis[n++] = rg_vec3_scale(1 / length, u);
+        }
+    return n;
+}
+
+static void span(const polygon *p, rg_vec3 u, double *low, double *high)
+{
+    *low = INFINITY, *high = -INFINITY;
+    for (int32_t k = 0; k < p->n; k++) {
+        const double d = rg_vec3_dot(u, p->x[k]);
+        *low = d < *low ? d : *low;
+        *high = d > *high ? d : *high;
+    }
+}
+
+/* The least way that parts them; not more than `least`: found out of what axis comes first. */
+static double depth_of(const polygon *a, const polygon *b, double least, rg_vec3 *axis)
+{
+    double depth = INFINITY;
+    const int32_t n = find_axes(a, b, axis);
+    for (int32_t i = 0; i < n && depth > least; i++) {
+        double al, ah, bl, bh;
+        span(a, axis[i], &al, &ah);
+        span(b, axis[i], &bl, &bh);
+        depth = fmin(depth, fmin(ah - bl, bh - al));
+    }
+    return depth;
+}
+
+/* How long the common line of two planes is in both. */
+static double stretch_of(const polygon *a, const polygon *b)
+{
+    const rg_vec3 d = unit(rg_vec3_cross(normal_of(a), normal_of(b)));
+    double low = -INFINITY, high = INFINITY;
+    for (int turn = 0; turn < 2; turn++) {
+        const polygon *p = turn ? b : a, *q = turn ? a : b;
+        const rg_vec3 n = normal_of(q);
+        double from = INFINITY, to = -INFINITY;
+        for (int32_t k = 0; k < p->n; k++) {
+            const rg_vec3 e = p->x[k], g = p->x[(k + 1) % p->n];
+            const double s = rg_vec3_dot(n, rg_vec3_sub(e, q->x[0])), t = rg_vec3_dot(n, rg_vec3_sub(g, q->x[0]));
+            if (s * t > 0 || s == t) continue;
+            const double at = rg_vec3_dot(d, rg_vec3_axpy(s / (s - t), rg_vec3_sub(g, e), e));
+            from = fmin(from, at), to = fmax(to, at);
+        }
+        low = fmax(low, from), high = fmin(high, to);
+    }
+    return high > low ? high - low : 0;
+}
+
+/* ------------------------------------------------------------------------------------------------- one frame ---- */
+
+typedef struct look {
+    const rg_record *r;
+    const rg_pieces *p;
+    rg_faults *all;
+    rg_through *found;
+    rg_record_place *place[2]; /* [nf] of a frame and the next */
+    rg_vec3 (*low), (*high);   /* [n] boxes */
+    int32_t *order;            /* [n] */
+    double *arm;               /* [n] */
+    rg_vec3 (*middle)[2];      /* [n] */
+    rg_vec3 *axis;             /* room for axes */
+} look;
+
+static polygon piece_at(const look *l, int32_t frame, int32_t a)
+{
+    polygon p = {.n = l->p->start[a + 1] - l->p->start[a]};
+    for (int32_t k = 0; k < p.n; k++) p.x[k] = l->r->x[(size_t)frame * (size_t)l->r->nv + (size_t)l->p->corner[l->p->start[a] + k]];
+    return p;
+}
+
+/* A corner that two facets have in common; -1: none. *two: out, whether they have another one. */
+static int32_t common_corner(const rg_record *r, int32_t f, int32_t g, int *two)
+{
+    int32_t found = -1;
+    *two = 0;
+    for (int32_t i = r->start[f]; i < r->start[f + 1]; i++)
+        for (int32_t k = r->start[g]; k < r->start[g + 1]; k++)
+            if (r->corner[i] == r->corner[k]) {
+                *two = found >= 0;
+                found = r->corner[i];
+            }
+    return found;
+}
+
+static void check_pair(look *l, int32_t frame, int32_t a, int32_t b)
+{
+    const int32_t f = l->p->facet[a], g = l->p->facet[b];
+    const polygon A = piece_at(l, frame, a), B = piece_at(l, frame, b);
+    const double depth = depth_of(&A, &B, RG_THROUGH_LEAST * l->r->size, l->axis) / l->r->size;
+    int two;
+    if (!(depth > RG_THROUGH_LEAST)) return;
+    if (common_corner(l->r, f, g, &two) >= 0 && !(stretch_of(&A, &B) > STRETCH * l->r->size)) return;
+    l->found->depth = fmax(l->found->depth, depth);
+    rg_faults_add(l->all, frame, f, g, "cross, %.3g of the sheet deep", depth);
+}
+
+typedef struct start { double at; int32_t piece; } start;
+
+static int by_start(const void *a, const void *b)
+{
+    const start *p = a, *q = b;
+    return p->at < q->at ? -1 : p->at > q->at ? 1 : p->piece - q->piece;
+}
+
+/* Pairs whose boxes meet, in the order of where these begin. */
+static rg_status check_frame(look *l, int32_t frame)
+{
+    start *s = rg_mem_array(&l->r->mem, (size_t)l->p->n, sizeof *s);
+    if (!s) return RG_ENOMEM;
+    for (int32_t a = 0; a < l->p->n; a++) {
+        const polygon p = piece_at(l, frame, a);
+        span(&p, (rg_vec3){1, 0, 0}, &l->low[a].x, &l->high[a].x);
+        span(&p, (rg_vec3){0, 1, 0}, &l->low[a].y, &l->high[a].y);
+        span(&p, (rg_vec3){0, 0, 1}, &l->low[a].z, &l->high[a].z);
+        s[a] = (start){l->low[a].x, a};
+    }
+    qsort(s, (size_t)l->p->n, sizeof *s, by_start);
+    for (int32_t i = 0; i < l->p->n; i++)
+        for (int32_t k = i + 1; k < l->p->n && s[k].at <= l->high[s[i].piece].x; k++) {
+            const int32_t a = s[i].piece, b = s[k].piece;
+            if (l->p->facet[a] == l->p->facet[b] || l->low[a].y > l->high[b].y || l->low[b].y > l->high[a].y || l->low[a].z > l->high[b].z ||
+                l->low[b].z > l->high[a].z)
+                continue;
+            check_pair(l, frame, a < b ? a : b, a < b ? b : a);
+        }
+    rg_mem_free(&l->r->mem, s);
+    return RG_OK;
+}
+
+/* ---------------------------------------------------------------------------------------------- between frames ---- */
+
+/* A pair as its first facet sees it: corner i of the second is at p + t dp + turn(t) Q (r + t dr). */
+typedef struct way {
+    int32_t na, nb;
+    rg_vec2 a[RG_PIECE_MOST], da[RG_PIECE_MOST], r[RG_PIECE_MOST], dr[RG_PIECE_MOST];
+    rg_vec3 p, dp, axis;
+    rg_mat3 Q;
+    double angle, bend; /* bend: the most that the second time derivative of a corner's place can be */
+    double allowed;     /* file units */
+} way;
+
+static rg_mat3 inverse_times(const rg_mat3 *A, const rg_mat3 *B)
+{
+    rg_mat3 C;
+    for (int k = 0; k < 3; k++)
+        C.c[k] = (rg_vec3){rg_vec3_dot(A->c[0], B->c[k]), rg_vec3_dot(A->c[1], B->c[k]), rg_vec3_dot(A->c[2], B->c[k])};
+    return C;
+}
+
+static rg_vec3 put(const rg_mat3 *Q, rg_vec2 r) { return rg_vec3_add(rg_vec3_scale(r.x, Q->c[0]), rg_vec3_scale(r.y, Q->c[1])); }
+
+static void set_way(const look *l, int32_t frame, int32_t a, int32_t b, int32_t corner, way *w)
+{
+    const int32_t *ca = l->p->corner + l->p->start[a], *cb = l->p->corner + l->p->start[b], f = l->p->facet[a], g = l->p->facet[b];
+    const rg_vec2 *X = l->r->flat + (size_t)frame * (size_t)l->r->nv, *Y = X + l->r->nv;
+    rg_mat3 Q[2];
+    rg_vec3 at[2];
+    rg_vec2 pivot[2];
+    w->na = l->p->start[a + 1] - l->p->start[a], w->nb = l->p->start[b + 1] - l->p->start[b];
+    for (int end = 0; end < 2; end++) {
+        const rg_vec2 *Z = end ? Y : X;
+        const rg_record_place *A = &l->place[end][f], *B = &l->place[end][g];
+        pivot[end] = (rg_vec2){0, 0};
+        for (int32_t k = 0; corner < 0 && k < w->nb; k++) pivot[end] = (rg_vec2){pivot[end].x + Z[cb[k]].x / w->nb, pivot[end].y + Z[cb[k]].y / w->nb};
+        if (corner >= 0) pivot[end] = Z[corner];
+        Q[end] = inverse_times(&A->R, &B->R);
+        const rg_vec3 d = rg_vec3_sub(rg_vec3_add(put(&B->R, pivot[end]), B->t), A->t);
+        at[end] = (rg_vec3){rg_vec3_dot(A->R.c[0], d), rg_vec3_dot(A->R.c[1], d), rg_vec3_dot(A->R.c[2], d)};
+    }
+    w->p = at[0], w->dp = rg_vec3_sub(at[1], at[0]), w->Q = Q[0];
+    /* Q1 Q0^T, whose skew part is the axis by the sine. */
+    rg_vec3 skew = {0, 0, 0};
+    double trace = 0;
+    for (int k = 0; k < 3; k++) {
+        skew = rg_vec3_add(skew, rg_vec3_cross(Q[0].c[k], Q[1].c[k]));
+        trace += rg_vec3_dot(Q[0].c[k], Q[1].c[k]);
+    }
+    const double sine = rg_vec3_length(skew) / 2;
+    w->angle = atan2(sine, (trace - 1) / 2);
+    w->axis = unit(skew);
+    double arm = 0, change = 0;
+    for (int32_t k = 0; k < w->na; k++) w->a[k] = X[ca[k]], w->da[k] = rg_vec2_sub(Y[ca[k]], X[ca[k]]);
+    for (int32_t k = 0; k < w->nb; k++) {
+        const rg_vec2 q = rg_vec2_sub(Y[cb[k]], pivot[1]);
+        w->r[k] = rg_vec2_sub(X[cb[k]], pivot[0]);
+        w->dr[k] = rg_vec2_sub(q, w->r[k]);
+        arm = fmax(arm, fmax(rg_vec2_length(w->r[k]), rg_vec2_length(q)));
+        change = fmax(change, rg_vec2_length(w->dr[k]));
+    }
+    w->bend = w->angle * (w->angle * arm + 2 * change);
+}
+
+/* Places and velocities at a time. */
+static void at_time(const way *w, double t, polygon *a, polygon *b, rg_vec3 *va, rg_vec3 *vb)
+{
+    const double c = cos(t * w->angle), s = sin(t * w->angle);
+    a->n = w->na, b->n = w->nb;
+    for (int32_t k = 0; k < w->na; k++) {
+        a->x[k] = (rg_vec3){w->a[k].x + t * w->da[k].x, w->a[k].y + t * w->da[k].y, 0};
+        va[k] = (rg_vec3){w->da[k].x, w->da[k].y, 0};
+    }
+    for (int32_t k = 0; k < w->nb; k++) {
+        rg_vec3 turned[2];
+        for (int i = 0; i < 2; i++) {
+            const rg_vec3 z = put(&w->Q, i ? w->dr[k] : (rg_vec2){w->r[k].x + t * w->dr[k].x, w->r[k].y + t * w->dr[k].y});
+            const rg_vec3 along = rg_vec3_scale(rg_vec3_dot(w->axis, z), w->axis), out = rg_vec3_sub(z, along);
+            turned[i] = rg_vec3_add(along, rg_vec3_axpy(c, out, rg_vec3_scale(s, rg_vec3_cross(w->axis, out))));
+        }
+        b->x[k] = rg_vec3_add(rg_vec3_axpy(t, w->dp, w->p), turned[0]);
+        vb[k] = rg_vec3_add(rg_vec3_add(w->dp, turned[1]), rg_vec3_scale(w->angle, rg_vec3_cross(w->axis, turned[0])));
+    }
+}
+
+/* Within h of this time, the second plate is never deeper than allowed beyond the first along u: places are linear in time but for
+ * bend h^2 / 2, and what is linear is least at an end. */
+static int holds_along(const way *w, rg_vec3 u, double h, const polygon *a, const polygon *b, const rg_vec3 *va, const rg_vec3 *vb)
+{
+    for (int end = -1; end <= 1; end += 2) {
+        double top = -INFINITY, low = INFINITY;
+        for (int32_t k = 0; k < a->n; k++) top = fmax(top, rg_vec3_dot(u, a->x[k]) + end * h * rg_vec3_dot(u, va[k]));
+        for (int32_t k = 0; k < b->n; k++) low = fmin(low, rg_vec3_dot(u, b->x[k]) + end * h * rg_vec3_dot(u, vb[k]));
+        if (!(low - top - w->bend * h * h / 2 >= -w->allowed)) return 0;
+    }
+    return 1;
+}
+
+typedef enum outcome { PROVED, THROUGH, OPEN } outcome;
+
+static outcome prove(const way *w, double t, double h, int halvings, rg_vec3 *axis)
+{
+    polygon a, b;
+    rg_vec3 va[RG_PIECE_MOST], vb[RG_PIECE_MOST], middle = {0, 0, 0};
+    at_time(w, t, &a, &b, va, vb);
+    for (int32_t k = 0; k < a.n; k++) middle = rg_vec3_axpy(-1.0 / a.n, a.x[k], middle);
+    for (int32_t k = 0; k < b.n; k++) middle = rg_vec3_axpy(1.0 / b.n, b.x[k], middle);
+    if (holds_along(w, unit(middle), h, &a, &b, va, vb)) return PROVED;
+    const int32_t n = find_axes(&a, &b, axis);
+    double depth = INFINITY;
+    for (int32_t i = 0; i < n; i++) {
+        double al, ah, bl, bh;
+        if (holds_along(w, axis[i], h, &a, &b, va, vb) || holds_along(w, rg_vec3_scale(-1, axis[i]), h, &a, &b, va, vb)) return PROVED;
+        span(&a, axis[i], &al, &ah);
+        span(&b, axis[i], &bl, &bh);
+        depth = fmin(depth, fmin(ah - bl, bh - al));
+    }
+    if (depth > w->allowed) return THROUGH;
+    if (halvings == 0) return OPEN;
+    const outcome first = prove(w, t - h / 2, h / 2, halvings - 1, axis);
+    return first != PROVED ? first : prove(w, t + h / 2, h / 2, halvings - 1, axis);
+}
+
+static double from_origin(rg_vec3 q, rg_vec3 r)
+{
+    const rg_vec3 d = rg_vec3_sub(r, q);
+    const double n = rg_vec3_dot(d, d), t = n > 0 ? fmin(1, fmax(0, -rg_vec3_dot(q, d) / n)) : 0;
+    return rg_vec3_length(rg_vec3_axpy(t, d, q));
+}
+
+/* The middle of the second goes straight, as the first sees it: does it come near enough for corners to meet? */
+static int comes_near(const look *l, int32_t a, int32_t b)
+{
+    rg_vec3 at[2];
+    for (int end = 0; end < 2; end++) {
+        const rg_mat3 *R = &l->place[end][l->p->facet[a]].R;
+        const rg_vec3 d = rg_vec3_sub(l->middle[b][end], l->middle[a][end]);
+        at[end] = (rg_vec3){rg_vec3_dot(R->c[0], d), rg_vec3_dot(R->c[1], d), rg_vec3_dot(R->c[2], d)};
+    }
+    return from_origin(at[0], at[1]) <= l->arm[a] + l->arm[b];
+}
+
+/* Do the two pieces have an edge in common, that is a crease or a cut? Its angle says all of them. */
+static int are_hinged(const look *l, int32_t a, int32_t b)
+{
+    int n = 0;
+    for (int32_t i = l->p->start[a]; i < l->p->start[a + 1]; i++)
+        for (int32_t k = l->p->start[b]; k < l->p->start[b + 1]; k++) n += l->p->corner[i] == l->p->corner[k];
+    return n > 1;
+}
+
+static void find_arms(look *l, int32_t frame)
+{
+    for (int32_t a = 0; a < l->p->n; a++) {
+        l->arm[a] = 0;
+        for (int end = 0; end < 2; end++) {
+            const polygon p = piece_at(l, frame + end, a);
+            rg_vec3 m = {0, 0, 0};
+            for (int32_t k = 0; k < p.n; k++) m = rg_vec3_axpy(1.0 / p.n, p.x[k], m);
+            for (int32_t k = 0; k < p.n; k++) l->arm[a] = fmax(l->arm[a], rg_vec3_length(rg_vec3_sub(p.x[k], m)));
+            l->middle[a][end] = m;
+        }
+    }
+}
+
+static void check_way(look *l, int32_t frame, double allowed)
+{
+    way w;
+    find_arms(l, frame);
+    for (int32_t a = 0; a < l->p->n; a++)
+        for (int32_t b = a + 1; b < l->p->n; b++) {
+            const int32_t f = l->p->facet[a], g = l->p->facet[b];
+            int two;
+            if (f == g || !comes_near(l, a, b)) continue;
+            const int32_t corner = common_corner(l->r, f, g, &two);
+            if (two && are_hinged(l, a, b)) continue;
+            l->found->proofs++;
+            set_way(l, frame, a, b, corner, &w);
+            if (!(w.angle <= LEAP)) {
+                rg_faults_add(l->all, frame + 1, f, g, "come near, and turn by %.3g degrees against each other from the frame before: no telling how",
+                              w.angle / RG_DEG);
+                continue;
+            }
+            /* As in a frame, if that can be; what the path's bends leave open, else, and then it is told. */
+            w.allowed = RG_THROUGH_LEAST * l->r->size;
+            outcome o = prove(&w, 0.5, 0.5, HALVINGS, l->axis);
+            if (o == PROVED) continue;
+            w.allowed = allowed * l->r->size;
+            o = prove(&w, 0.5, 0.5, HALVINGS, l->axis);
+            if (o == PROVED) l->found->allowed = fmax(l->found->allowed, allowed);
+            if (o == THROUGH) rg_faults_add(l->all, frame + 1, f, g, "pass through each other on the way from the frame before, deeper than %.2g of the sheet", allowed);
+            else if (o == OPEN) rg_faults_add(l->all, frame + 1, f, g, "could not be proved apart on the way from the frame before");
+        }
+}
+
+/* The most that a corner's path bends at frame k: a steady curve is off its chords by no more than an eighth of that. */
+static double bend_at(const rg_record *r, int32_t k)
+{
+    double most = 0;
+    if (k <= 0 || k + 1 >= r->frames) return 0;
+    const rg_vec3 *x = r->x + (size_t)(k - 1) * (size_t)r->nv, *y = x + r->nv, *z = y + r->nv;
+    for (int32_t v = 0; v < r->nv; v++) most = fmax(most, rg_vec3_length(rg_vec3_add(rg_vec3_axpy(-2, y[v], x[v]), z[v])));
+    return most / r->size;
+}
+
+static int make_room(look *l)
+{
+    const rg_memory *mem = &l->r->mem;
+    const size_t n = (size_t)l->p->n;
+    for (int k = 0; k < 2; k++) l->place[k] = rg_mem_array(mem, (size_t)l->r->nf, sizeof *l->place[k]);
+    l->low = rg_mem_array(mem, n, sizeof *l->low);
+    l->high = rg_mem_array(mem, n, sizeof *l->high);
+    l->arm = rg_mem_array(mem, n, sizeof *l->arm);
+    l->middle = rg_mem_array(mem, n, sizeof *l->middle);
+    l->axis = rg_mem_array(mem, 2 + RG_PIECE_MOST * RG_PIECE_MOST, sizeof *l->axis);
+    return l->place[0] && l->place[1] && l->low && l->high && l->arm && l->middle && l->axis;
+}
+
+rg_status rg_through_frames(const rg_record *r, const rg_pieces *p, rg_faults *all, rg_through *found)
+{
+    look l = {.r = r, .p = p, .all = all, .found = found};
+    *found = (rg_through){.allowed = RG_THROUGH_LEAST};
+    rg_status s = make_room(&l) ? RG_OK : RG_ENOMEM;
+    for (int32_t k = 0; s == RG_OK && k < r->frames; k++) s = check_frame(&l, k);
+    for (int32_t k = 0; s == RG_OK && k + 1 < r->frames; k++) {
+        for (int end = 0; end < 2; end++)
+            for (int32_t f = 0; f < r->nf; f++) l.place[end][f] = rg_record_fit(r, k + end, f, NULL);
+        const double bend = fmax(bend_at(r, k), bend_at(r, k + 1));
+        const double allowed = fmin(RG_THROUGH_MOST, RG_THROUGH_LEAST + 2 * bend / 8);
+        check_way(&l, k, allowed);
+    }
+    void *block[] = {l.place[0], l.place[1], l.low, l.high, l.arm, l.middle, l.axis};
+    for (int i = 0; i < 7; i++) rg_mem_free(&r->mem, block[i]);
+    return s;
+}

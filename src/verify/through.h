@@ -1,0 +1,25 @@
+/* through.h -- whether facets go through each other, in a frame or on the way to the next.
+ * Uses  pieces.h faults.h        Used by  certificate.c */
+#ifndef RG_THROUGH_H
+#define RG_THROUGH_H
+
+#include "verify/faults.h"
+#include "verify/pieces.h"
+
+/* A crossing counts from this part of the sheet on. */
+#define RG_THROUGH_LEAST 1e-4
+/* Between frames, where the way is only known to be rigid, what bends of the path leave open is added, up to this in all. */
+#define RG_THROUGH_MOST 1e-3
+
+typedef struct rg_through {
+    double depth;   /* the deepest crossing in a frame, over the sheet's size; 0: none */
+    double allowed; /* between frames no crossing deeper than this part of the sheet was let pass */
+    int32_t proofs; /* pairs of facets and ways that were looked at closely */
+} rg_through;
+
+/* All frames, and all ways between them on which every facet is rigid: of a pair, the second turns steadily, as the first sees it,
+ * about a common corner or else about its own middle, which goes straight. A way is halved until each part is proved free
+ * by bounds that hold for all of it. RG_ENOMEM. */
+rg_status rg_through_frames(const rg_record *r, const rg_pieces *p, rg_faults *all, rg_through *found);
+
+#endif
