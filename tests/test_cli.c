@@ -801,7 +801,7 @@ static void motions_are_verified(void **state)
     assert_true(json_is_false(json_object_get(found, "valid")));
     assert_true(json_array_size(json_object_get(found, "faults")) > 0);
     json_decref(found);
-    says(ends(2, run("verify", "good.opx")), "rigami: good.opx: ", "");
+    says(ends(2, run("verify", "good.opx")), "rigami: good.opx:1: ", "JSON");
     says(ends(2, run("verify", "missing.fold")), "rigami: missing.fold: ", strerror(ENOENT));
     ends(2, run("verify"));
     unlink("good.fold");
