@@ -56,8 +56,8 @@ static int settle_in(int socket)
     signal(SIGTSTP, SIG_IGN);
     sigset_t nothing;
     sigemptyset(&nothing);
-    sigprocmask(SIG_SETMASK, &nothing, NULL);
     setrlimit(RLIMIT_CORE, &none);
+    pthread_sigmask(SIG_SETMASK, &nothing, NULL);
     return OURS;
 }
 
@@ -100,11 +100,16 @@ static int begin_child(rg_canvas *c)
     if (socketpair(AF_UNIX, SOCK_STREAM, 0, pair) != 0) return 0;
     fcntl(pair[0], F_SETFD, FD_CLOEXEC);
     fcntl(pair[1], F_SETFD, FD_CLOEXEC);
+    /* No signal reaches the child before it has forgotten what its parent does with them. */
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
     const pid_t child = fork();
     if (child == 0) {
         close(pair[0]);
         serve(c, pair[1]);
     }
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
     close(pair[1]);
     if (child < 0) close(pair[0]);
     else c->socket = pair[0], c->child = child;
