@@ -33,13 +33,14 @@ B := build/$(config)$(if $(filter-out osmesa,$(GL)),-gl-$(GL))$(if $(filter 0,$(
 pkgs := libxml-2.0 jansson libpng zlib
 gl_osmesa := osmesa
 gl_egl    := egl gl
-pkgs += $(gl_$(GL))
+# OSMesa is opened when something is drawn, see render/gl.c.
+pkgs += $(filter-out osmesa,$(gl_$(GL)))
 
 # In lower case what the project needs; CPPFLAGS, CFLAGS, LDFLAGS, LDLIBS stay the caller's.
-cppflags := -Iinclude -Isrc -D_XOPEN_SOURCE=700 -DRG_GL_$(GL)=1 -I/usr/include/suitesparse $(shell pkg-config --cflags $(pkgs) 2>/dev/null)
+cppflags := -Iinclude -Isrc -D_XOPEN_SOURCE=700 -DRG_GL_$(GL)=1 -I/usr/include/suitesparse $(shell pkg-config --cflags $(pkgs) $(gl_$(GL)) 2>/dev/null)
 cflags   := -std=c11 -fPIC -fvisibility=hidden -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes \
             -Wmissing-prototypes -Wvla -Wpointer-arith -Wwrite-strings
-libs     := -lcamd -lsuitesparseconfig $(shell pkg-config --libs $(pkgs) 2>/dev/null) -lgif -lpthread -lm
+libs     := -lcamd -lsuitesparseconfig $(shell pkg-config --libs $(pkgs) 2>/dev/null) -lgif -lpthread -ldl -lm
 ifeq ($(GPL),1)
 cppflags += -DRG_GPL=1
 libs     := -lspqr -lcholmod -lgsl -lgslcblas $(libs)
