@@ -89,6 +89,11 @@ typedef enum rg_format {
     RG_FORMAT_ORI   /* Oriedita's own */
 } rg_format;
 
+typedef enum rg_pace {
+    RG_PACE_PERCENT, /* frames even in folded percent */
+    RG_PACE_STEADY   /* frames even in the largest angle that a crease turns */
+} rg_pace;
+
 #define RG_ADJUST_AUTO (-1.0)
 /* What the input's format is usually drawn to: 1e-3 for .svg, else 2e-5. A hair above 2e-5, so that 2e-5 can be asked for. */
 #define RG_MERGE_DEFAULT 2.0000000000000005e-5
@@ -113,7 +118,10 @@ typedef struct rg_settings {
     double step;                  /* largest change of any crease in one step, radians; 5 degrees */
     double tol;                   /* closure tolerance: rotation angle of F at any vertex, radians; 1e-10 */
     double to;                    /* how far to fold, -1 ... 1; negative: mountain and valley exchanged; 1 */
+    int rest;                     /* non-zero: what undriven creases leave open ends where it rests, if that comes before; 1 */
     int32_t frames;               /* frames of the motion, both ends included, at least 2; 60 */
+    rg_pace pace;                 /* of the frames; percent */
+    int32_t threads;              /* at the most: 1 or 2; 0: as many as there are processors. The result is the same. */
     int32_t fixed_facet;          /* facet that stays where it is; -1: the one nearest the centre */
     const char *const *kind;      /* what lines of a drawing are, "KEY=KIND" each: KEY a colour, layer, name or dash, KIND border, */
     int32_t kinds;                /* cut, mountain, valley, unassigned, aux or none; the last that fits counts; borrowed; none */
@@ -258,7 +266,12 @@ RG_API rg_status rg_layers_which(const rg_layers *l, uint64_t index, uint64_t *w
 /* One fold in progress, for callers that own the loop. */
 typedef struct rg_fold rg_fold;
 
-typedef enum rg_outcome { RG_RUNNING, RG_FOLDED, RG_STOPPED } rg_outcome;
+typedef enum rg_outcome {
+    RG_RUNNING,
+    RG_FOLDED,
+    RG_STOPPED,
+    RG_RESTS /* undriven creases leave its end open, and it has come to rest */
+} rg_outcome;
 
 typedef struct rg_step_info {
     rg_outcome outcome; /* RG_RUNNING while there is more to come */
@@ -284,7 +297,7 @@ RG_API void rg_fold_destroy(rg_fold *f);
 typedef struct rg_motion rg_motion;
 
 typedef struct rg_frame {
-    double percent;          /* mean over driven creases of 100 |rho| / |target| */
+    double percent;          /* mean over driven creases of 100 rho / target, signed, each at most 100 */
     double closure_residual; /* radians, recomputed from the fold angles */
 } rg_frame;
 
@@ -296,7 +309,9 @@ typedef struct rg_report {
     const char *triangulation;                                /* "none", "some" or "all", and why, below */
     const char *why_triangulated;
     char strategy[160];                                       /* what got it there: triangulation, adjustment, drive */
-    double adjust_gain, pattern_gives;                        /* both 0: the pattern was not moved */
+    double adjust_gain, compliance;                           /* both 0: the pattern was not moved */
+    const char *rung, *direction;                             /* of the ladder of what is tried: the one that got it there */
+    double seconds_of_winning_try;
     int32_t tries;                                            /* of which this motion is the first that folds, or the best */
     const char *method, *solver;
     int64_t steps, solves, cg_iterations, factorizations, assemblies;
@@ -322,6 +337,12 @@ typedef struct rg_report {
     int32_t contact_pairs;       /* and how many pairs of facets cross there, */
     double contact_depth;        /* the deepest by this part of the sheet's size, the shortest way to part it; counts from 1e-4 on */
     int32_t contact_unproved;    /* ways from frame to frame, before the first contact, that could not be proved free; 0: all are */
+    int isometric;                   /* non-zero: in every frame the border of the flat pattern is the border given, and every facet
+                                      * congruent to its own */
+    double moved_at_end;             /* the same displacement, in the last frame */
+    double max_leap_deg;             /* the most that a driven crease turns from one frame to the next */
+    double max_wrong_side_deg;       /* the most that a driven crease is on its wrong side in any frame */
+    int32_t wrong_side_frames;       /* in so many frames by more than a tenth of a degree */
     int32_t wrong_side_creases;  /* driven creases that ended on the other side of flat than they should */
     int32_t blocking_vertex_count, blocking_crease_count;
     const int32_t *blocking_vertices, *blocking_creases; /* borrowed; vertex numbers and crease numbers of the mesh */

@@ -15,7 +15,7 @@
 #include "chart/run.h"
 #include "draw.h"
 #include "fold/integrate.h"
-#include "motion/take.h"
+#include "motion/attempt.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -356,15 +356,16 @@ static inline int step_back(rg_fold *f, double ds)
 static inline int go_back(rg_fold *f, int steps, double *mid, cell *c)
 {
     if (f->settings.method == RG_METHOD_ADAPTIVE) {
-        rg_take t;
+        rg_attempt t;
         rg_mesh m;
-        rg_watch watch = {NULL, NULL, 0};
+        rg_watch watch = {0};
         rg_diag why = {0, ""};
-        const rg_flow_law law = {0, 0, 0, 0, 0.2, 0};
+        const rg_relaxation stiff = {0, 0, 0};
         double *flat = calloc((size_t)f->mesh.N, sizeof *flat);
         rg_settings s = f->settings;
         s.frames = steps + 1;
-        int there = flat && rg_mesh_copy(&f->mesh, &m) == RG_OK && rg_take_flow(&t, &m, &s, &law, f->rho, flat, NULL, 60, &watch, &why) == RG_OK;
+        int there = flat && rg_mesh_copy(&f->mesh, &m) == RG_OK && rg_attempt_relaxed(&t, &m, &s, &stiff, f->rho, flat, NULL, 0, 60, &watch, &why) == RG_OK;
+        there = there && rg_attempt_read(&t, &s) == RG_OK;
         free(flat);
         if (!there) return 0;
         for (int32_t k = 0; k < t.count; k++) {
@@ -373,7 +374,7 @@ static inline int go_back(rg_fold *f, int steps, double *mid, cell *c)
             look(c, f);
         }
         there = t.outcome == RG_FOLDED;
-        rg_take_free(&t);
+        rg_attempt_free(&t);
         return there;
     }
     for (int k = steps - 1; k >= 0; k--) {

@@ -48,9 +48,9 @@ static int32_t facet_of(const rg_mesh *none, const int32_t e[2])
 }
 
 /* Each crease bends by its own number of milliradians, as 7919 is prime, in one frame this way, in the next one half as much the other way. */
-static rg_take bent(const rg_mesh *none, const unsigned char *which)
+static rg_attempt bent(const rg_mesh *none, const unsigned char *which)
 {
-    rg_take t = {.mem = rg_mem_default(NULL), .count = FRAMES};
+    rg_attempt t = {.mem = rg_mem_default(NULL), .count = FRAMES};
     assert_int_equal(which ? rg_triangulate_some(none, which, 0, &t.mesh) : rg_triangulate_all(none, &t.mesh), RG_OK);
     t.rho = rg_mem_array(&t.mem, FRAMES * (size_t)t.mesh.N, sizeof *t.rho);
     assert_non_null(t.rho);
@@ -61,7 +61,7 @@ static rg_take bent(const rg_mesh *none, const unsigned char *which)
     return t;
 }
 
-static void measured(const rg_cuts *c, const rg_take *t)
+static void measured(const rg_cuts *c, const rg_attempt *t)
 {
     double bend[MOST];
     int32_t n = 0;
@@ -95,7 +95,7 @@ static void by_bending(void **state)
     for (int k = 0; k < 4; k++) {
         const rg_mesh none = generated(made[k].kind, made[k].n);
         rg_mesh drawn = none;
-        rg_take t = bent(&none, NULL);
+        rg_attempt t = bent(&none, NULL);
         rg_cuts c;
         assert_int_equal(rg_cuts_init(&c, &mem, &none, NULL, &t), RG_OK);
         measured(&c, &t);
@@ -114,14 +114,14 @@ static void by_bending(void **state)
             rg_cuts_bending(&c, nextafter(least, 1e9));
             assert_true(count(&c) < had - had / 3 - 1);
             rg_cuts_all_but(&c, had / 3 + 1);
-            rg_take_free(&t);
+            rg_attempt_free(&t);
             t = bent(&none, c.which);
             rg_cuts_measure(&c, &t);
             measured(&c, &t);
         }
         rg_cuts_all_but(&c, none.nf + 1);
         assert_int_equal(count(&c), 0);
-        rg_take_free(&t);
+        rg_attempt_free(&t);
         rg_cuts_free(&c);
         rg_cuts_free(&c);
         rg_mesh_free(&drawn);
@@ -133,7 +133,7 @@ static void around_vertices(void **state)
     (void)state;
     const rg_memory mem = rg_mem_default(NULL);
     rg_mesh none = generated("boxpleat", 6);
-    rg_take t = bent(&none, NULL);
+    rg_attempt t = bent(&none, NULL);
     rg_cuts c;
     assert_int_equal(rg_cuts_init(&c, &mem, &none, NULL, &t), RG_OK);
     rg_cuts_around(&c, none.inner_vertex, 0);
@@ -146,7 +146,7 @@ static void around_vertices(void **state)
         assert_int_equal(c.which[f] != 0, quad && (is_corner(&none, f, at[0]) || is_corner(&none, f, at[1])));
     }
     rg_cuts_free(&c);
-    rg_take_free(&t);
+    rg_attempt_free(&t);
     rg_mesh_free(&none);
 }
 
@@ -159,7 +159,7 @@ static void by_orbit(void **state)
     for (int k = 0; k < 4; k++) {
         rg_mesh none = generated(made[k].kind, made[k].n);
         rg_symmetry G;
-        rg_take t = {.mem = mem, .count = 1};
+        rg_attempt t = {.mem = mem, .count = 1};
         rg_cuts c;
         double bend[MOST];
         assert_int_equal(rg_symmetry_find(&G, &mem, &none), RG_OK);
@@ -196,7 +196,7 @@ static void by_orbit(void **state)
         }
         count(&c);
         rg_cuts_free(&c);
-        rg_take_free(&t);
+        rg_attempt_free(&t);
         rg_symmetry_free(&G);
         rg_mesh_free(&none);
     }
@@ -208,7 +208,7 @@ static void memory(void **state)
     counted n = {0, 0, 0};
     const rg_memory mem = {counted_resize, &n};
     rg_mesh none = generated("tatou", 0);
-    rg_take t = bent(&none, NULL);
+    rg_attempt t = bent(&none, NULL);
     rg_cuts c;
     for (long k = 0;; k++) {
         n.left = k;
@@ -219,7 +219,7 @@ static void memory(void **state)
     }
     rg_cuts_free(&c);
     assert_int_equal(n.out, 0);
-    rg_take_free(&t);
+    rg_attempt_free(&t);
     rg_mesh_free(&none);
 }
 

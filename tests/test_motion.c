@@ -79,7 +79,7 @@ static void the_report_is_true(const rg_motion *m)
         mean = 0, least = INFINITY;
         for (int32_t i = 0; i < mesh->N - mesh->added; i++) {
             if (isnan(m->target[i]) || m->target[i] == m->from[i]) continue;
-            const double part = 100 * fabs((rho[i] - m->from[i]) / (m->target[i] - m->from[i]));
+            const double part = fmin(100, 100 * (rho[i] - m->from[i]) / (m->target[i] - m->from[i]));
             mean += part / driven;
             least = fmin(least, part);
         }
@@ -105,7 +105,7 @@ static void the_report_is_true(const rg_motion *m)
     below(r->max_closure_residual, 1e-8);
     below(r->max_edge_strain, 1e-8);
     below(r->max_facet_gap, 1e-8);
-    if (r->adjust_gain == 0 && r->pattern_gives == 0) near(r->max_adjustment, 0, 0);
+    if (r->adjust_gain == 0 && r->compliance == 0) near(r->max_adjustment, 0, 0);
     assert_int_equal(r->unknowns, mesh->N);
     assert_int_equal(r->added_creases, mesh->added);
     assert_true(r->tries >= 1 && strlen(r->strategy) > 3 && strlen(r->reason) > 3);
@@ -162,7 +162,7 @@ static void plain_ways_come_first(void **state)
         const rg_settings s = with(RG_ADJUST_AUTO, RG_TRIANGULATE_AUTO);
         rg_motion *m = motion_of(generated(kinds[k], k ? 0 : 4), &s);
         assert_int_equal(rg_motion_report(m)->tries, 1);
-        assert_string_equal(rg_motion_report(m)->strategy, "straight on");
+        assert_string_equal(rg_motion_report(m)->strategy, "straight");
         folds(m, 0, 0);
     }
 }
@@ -213,7 +213,7 @@ static void straight_on_with_fewer_cuts(void **state)
             rg_pattern *p;
             assert_int_equal(rg_pattern_read(corpus(files[k], path, sizeof path), &s, &p, NULL), RG_OK);
             rg_motion *m = motion_of(p, &s);
-            assert_string_equal(rg_motion_report(m)->strategy, "straight on, triangulated");
+            assert_string_equal(rg_motion_report(m)->strategy, "straight, triangulated");
             if (some) assert_true(m->mesh.added > 0 && 3 * m->mesh.added <= 2 * all);
             all = m->mesh.added;
             folds(m, -1, 0);
@@ -303,7 +303,8 @@ static void interrupted(void **state)
     (void)state;
     int stopped = 0, folded = 0, later = 0;
     for (int32_t after = 1; !folded; after += 1 + after / 3) {
-        const rg_settings s = with(RG_ADJUST_AUTO, RG_TRIANGULATE_AUTO);
+        rg_settings s = with(RG_ADJUST_AUTO, RG_TRIANGULATE_AUTO);
+        s.threads = 1; /* or the try that is stopped depends on the timing */
         int32_t left = after;
         rg_motion *m = NULL;
         rg_pattern *p = generated("closed-adjust", 0);
@@ -329,23 +330,27 @@ static void a_part_of_the_way(void **state)
     (void)state;
     static const struct { const char *kind; int32_t n; double to; } part[] = {
         {"miura", 4, 0.5}, {"closed-split", 0, -0.3}, {"closed-adjust", 0, 0.5}, {"frog", 0, 0.7}, {"frog", 0, 0.15}};
+    int straight = 0;
     for (int k = 0; k < 5; k++) {
         rg_settings s = with(RG_ADJUST_AUTO, RG_TRIANGULATE_AUTO);
         s.to = part[k].to;
         rg_motion *m = motion_of(generated(part[k].kind, part[k].n), &s);
         const rg_report *r = rg_motion_report(m);
         const double to = 100 * fabs(s.to), *rho = rg_motion_angles(m, r->frame_count - 1);
-        assert_int_equal(r->outcome, RG_FOLDED);
+        const int wrong = r->wrong_side_creases > 0;
+        assert_int_equal(r->outcome, wrong ? RG_STOPPED : RG_FOLDED);
+        straight += !wrong;
         assert_int_equal(r->frame_count, s.frames);
         near(r->folded_percent, to, 1);
         for (int32_t i = 0; i < s.frames; i++) near(r->frames[i].percent, to * i / (s.frames - 1), 2);
-        for (int32_t i = 0; i < m->mesh.N - m->mesh.added; i++) assert_true(rho[i] / m->target[i] > 1e-6);
+        for (int32_t i = 0; i < m->mesh.N - m->mesh.added; i++) assert_true(wrong || rho[i] / m->target[i] > -1e-6);
         the_report_is_true(m);
         rg_motion_destroy(m);
     }
+    assert_true(straight >= 4);
 }
 
-/* Four mountains break Maekawa's theorem and yet fold part of the way; beyond that, the mean is not reached. */
+/* Four mountains break Maekawa's theorem: part of the way can be gone, with a crease on the wrong side, which does not count. */
 static void a_part_too_far(void **state)
 {
     (void)state;
@@ -357,9 +362,9 @@ static void a_part_too_far(void **state)
         for (int i = 0; i < 4; i++) draw(&l, RG_MOUNTAIN, 0.25, 0, i % 2 ? 1 : -1, i / 2 ? 1 : -1);
         rg_motion *m = motion_of(pattern_of(&l), &s);
         const rg_report *r = rg_motion_report(m);
-        assert_int_equal(r->outcome, far ? RG_STOPPED : RG_FOLDED);
-        if (far) below(r->folded_percent, 89);
-        else near(r->folded_percent, 20, 1);
+        assert_int_equal(r->outcome, RG_STOPPED);
+        below(r->folded_percent, far ? 89 : 20 + 1e-6);
+        assert_true(r->wrong_side_creases > 0 || r->folded_percent < 1);
         the_report_is_true(m);
         rg_motion_destroy(m);
     }

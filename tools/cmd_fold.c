@@ -15,6 +15,8 @@
 
 /* --------------------------------------------------------------------------------------------- afterwards ---- */
 
+/* A drawing's own rounding, over the sheet's size: what ends this near to the pattern given ends on it. */
+static const double ON_THE_PATTERN = 1e-4;
 /* A pattern that was moved by less is the one given, for all that one sees. */
 static const double SEEN = 1e-3;
 
@@ -25,7 +27,7 @@ static void summarize(const options *o, const char *name, const rg_motion *m)
     char files[4096], moved[120] = "";
     if (r->max_adjustment > SEEN)
         snprintf(moved, sizeof moved, ", with creases moved by up to %.2g %% of the sheet (--adjust off keeps them)", 100 * r->max_adjustment);
-    const char *what = r->outcome != RG_FOLDED ? "stopped short" : r->contact == RG_CONTACT_CROSSES ? "folded, passing through itself" : "folded";
+    const char *what = r->outcome == RG_RESTS ? "rests, as undriven creases leave its end open," : r->contact == RG_CONTACT_CROSSES ? "folded, passing through itself" : "folded";
     printf("%s: %s, %.1f %%%s; %d frames in %.2f s\n", name, what, r->folded_percent, moved, (int)r->frame_count, r->seconds_total);
     verdict_files(o, "  written   ", files, sizeof files);
     if (files[0]) puts(files);
@@ -106,7 +108,7 @@ int fold_one(const options *o, fold_seen seen, void *ctx)
         /* The state that was not reached is the one to name, else the last. */
         const char *name = o->operand[q.operand[r->states && r->states_reached < r->states ? r->states_reached : q.count - 1]];
         status = places_write(o, m, &bar);
-        const int on_output = o->report && strcmp(o->report, "-") == 0, stopped = r->outcome != RG_FOLDED;
+        const int on_output = o->report && strcmp(o->report, "-") == 0, stopped = r->outcome == RG_STOPPED;
         if (stopped) {
             char files[4096];
             verdict_say(o, name, q.pattern[r->states && r->states_reached < r->states ? r->states_reached : q.count - 1], m);
@@ -114,8 +116,12 @@ int fold_one(const options *o, fold_seen seen, void *ctx)
             if (files[0] && !o->quiet) say("%s: %s", name, files);
         } else if (!o->quiet && !on_output) summarize(o, name, m);
         if (o->verbose && !on_output) tell_details(m);
+        const int elsewhere = !stopped && !(r->moved_at_end <= ON_THE_PATTERN);
+        if (elsewhere)
+            say("%s: it ends on a pattern moved by %.2g %% of the sheet, as it does not close as it was drawn; rigami info says where", name,
+                100 * r->moved_at_end);
         if (!stopped && r->contact == RG_CONTACT_CROSSES) say_contact(name, r);
-        if (status == ENDS_WELL && (r->outcome != RG_FOLDED || r->contact == RG_CONTACT_CROSSES)) status = ENDS_SHORT;
+        if (status == ENDS_WELL && (stopped || elsewhere || r->contact == RG_CONTACT_CROSSES)) status = ENDS_SHORT;
         if (seen) seen(ctx, m, status);
     }
     rg_motion_destroy(m);

@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #define DEG (3.14159265358979323846 / 180)
 
@@ -37,6 +38,7 @@ static const char *const solvers[] = {[RG_SOLVER_AUTO] = "auto", [RG_SOLVER_CG] 
 static const char *const triangulations[] = {[RG_TRIANGULATE_AUTO] = "auto", [RG_TRIANGULATE_NONE] = "none",
                                              [RG_TRIANGULATE_ALL] = "all", NULL};
 static const char *const symmetries[] = {[RG_SYMMETRY_AUTO] = "auto", [RG_SYMMETRY_OFF] = "off", NULL};
+static const char *const paces[] = {[RG_PACE_PERCENT] = "percent", [RG_PACE_STEADY] = "steady", NULL};
 static const char *const efforts[] = {[RG_EFFORT_FAST] = "fast", [RG_EFFORT_NORMAL] = "normal",
                                       [RG_EFFORT_THOROUGH] = "thorough", NULL};
 
@@ -73,6 +75,8 @@ static const rule rules[] = {
      "move vertices so that closed ones open: auto (where nothing else folds), off, or how strongly, such as 0.1 (auto)"},
     {FOR_FOLD, "symmetry", 0, "WHAT", CHOICE, AT(symmetry), 0, 0, 1, symmetries,
      "fold a symmetric pattern by its symmetry, or by as much of it as folds (auto):"},
+    {FOR_FOLD, "pace", 0, "WHAT", CHOICE, AT(pace), 0, 0, 1, paces,
+     "frames even in percent, or even in the largest angle that a crease turns (percent; steady for films and pages alone):"},
     {FOR_FOLD, "effort", 0, "HOW", CHOICE, AT(effort), 0, 0, 1, efforts,
      "how much is tried when the plain way stops short (normal):"},
     {FOR_FOLD, "contact", 0, "WHAT", CHOICE, AT(contact), 0, 0, 1, contacts,
@@ -447,6 +451,20 @@ static void note(options *o, const rule *r, const char *text)
         snprintf(o->said + n, sizeof o->said - n, "--%s %s ", r->name, text ? text : "");
 }
 
+/* Are all outputs films and pages, which run evenly in motion unless asked otherwise? */
+static int only_animations(const options *o)
+{
+    static const char *const ends[] = {".gif", ".apng", ".mp4", ".webm", ".html"};
+    int all = o->outputs > 0;
+    for (int i = 0; i < o->outputs; i++) {
+        const char *dot = strrchr(o->output[i], '.');
+        int is = 0;
+        for (int k = 0; dot && k < 5; k++) is |= strcasecmp(dot, ends[k]) == 0;
+        all &= is;
+    }
+    return all;
+}
+
 static void settle(options *o)
 {
     o->settings.format = (rg_format)o->format;
@@ -454,6 +472,7 @@ static void settle(options *o)
     o->settings.solver = (rg_solver)o->solver;
     o->settings.triangulate = (rg_triangulation)o->triangulate;
     o->settings.symmetry = (rg_symmetry_kept)o->symmetry;
+    o->settings.pace = o->pace >= 0 ? (rg_pace)o->pace : only_animations(o) ? RG_PACE_STEADY : RG_PACE_PERCENT;
     o->settings.effort = (rg_effort)o->effort;
     o->picture.colour = (rg_colouring)o->colour;
     o->picture.loop = (rg_loop)o->loop;
@@ -464,7 +483,7 @@ int options_parse(options *o, const command *c, int argc, char **argv)
 {
     struct option longs[RULES + 1];
     char shorts[3 * RULES + 3];
-    *o = (options){.settings = rg_settings_default(), .picture = rg_picture_default(), .progress = -1,
+    *o = (options){.settings = rg_settings_default(), .picture = rg_picture_default(), .progress = -1, .pace = -1,
                    .effort = RG_EFFORT_NORMAL};
     o->operand = calloc((size_t)argc + 1, sizeof *o->operand);
     o->output = calloc((size_t)argc + 1, sizeof *o->output);
@@ -481,6 +500,7 @@ int options_parse(options *o, const command *c, int argc, char **argv)
     for (int code; (code = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
         const rule *r = code == 1 ? NULL : rule_of(c->bit, code);
         if (code == '?' || code == ':') return refuse_option(c, code, argv[optind - 1]);
+        if (r && strcmp(r->name, "to") == 0) o->settings.rest = 0; /* who says how far gets that */
         if (code == 1) o->operand[o->operands++] = optarg;
         else if (r && set(o, r, optarg) != ENDS_WELL) return ENDS_USAGE;
         if (o->help || o->version) return ENDS_WELL;

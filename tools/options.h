@@ -26,7 +26,7 @@ typedef struct options {
     const char *report;                                   /* NULL: none */
     int verbose, quiet, json, progress;                            /* progress: 1 yes, 0 no, -1 on a terminal */
     int help, version;                                    /* asked for: nothing after it was looked at */
-    int format, method, solver, triangulate, symmetry, effort, contact; /* places in the lists of names; in `settings` at the end */
+    int format, method, solver, triangulate, symmetry, pace, effort, contact; /* places in the lists of names; in `settings` at the end */
     int colour, loop;                                     /* the same, of pictures */
     int as;                                               /* of convert: the output's format, the same */
 } options;

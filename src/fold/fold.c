@@ -150,9 +150,15 @@ rg_solver rg_fold_solver(const rg_fold *f)
     return most->P.solver;
 }
 
+void rg_fold_set_due(rg_fold *f, const double *due)
+{
+    f->due = due;
+    for (int32_t p = 0; p < f->apart.parts; p++) f->apart.part[p]->due = due;
+}
+
 double rg_fold_frame_progress(const rg_fold *f, int32_t frame)
 {
-    return f->s_end * frame / (f->settings.frames - 1);
+    return f->due ? f->due[frame] : f->s_end * frame / (f->settings.frames - 1);
 }
 
 void rg_fold_accept(rg_fold *f, const double *rho, double s)

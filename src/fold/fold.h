@@ -18,6 +18,7 @@ typedef struct rg_cost {
 struct rg_fold {
     rg_memory mem;
     rg_settings settings;
+    const double *due;            /* see rg_fold_set_due */
     rg_mesh mesh;
     rg_constraint K;
     rg_drive drive;
@@ -68,6 +69,8 @@ void rg_fold_accept(rg_fold *f, const double *rho, double s);
 /* It is over, and arrived if every crease is within 1 % of its target. */
 void rg_fold_stop(rg_fold *f, const char *why);
 
+/* Frames are due at these progresses, rising, [settings.frames], borrowed; NULL: evenly. Before the first step. */
+void rg_fold_set_due(rg_fold *f, const double *due);
 /* The progress at which a frame is due. */
 double rg_fold_frame_progress(const rg_fold *f, int32_t frame);
 

@@ -7,14 +7,14 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A vertex that is this part of the sheet off where a take has it has not moved. */
+/* A vertex that is this part of the sheet off where an attempt has it has not moved. */
 static const double IN_PLACE = 1e-12;
 /* A way this short, radians, is what a drawing does not close by. */
 static const double NO_WAY = 0.02;
 
 /* ------------------------------------------------------------------------------------------------ the mesh ---- */
 
-/* Creases of states first: those that takes added come last, and are the mesh's added ones. */
+/* Creases of states first: those that attempts added come last, and are the mesh's added ones. */
 static rg_status make_mesh(rg_motion *m, const rg_states *q, rg_diag *why)
 {
     rg_lines l;
@@ -22,7 +22,7 @@ static rg_status make_mesh(rg_motion *m, const rg_states *q, rg_diag *why)
     rg_lines_init(&l, &m->mem);
     l.merge = q->merge;
     for (int32_t k = 0; s == RG_OK && k < q->count; k++) s = rg_overlay_draw(&l, &q->state[k], 0, NULL);
-    for (int32_t j = 0; s == RG_OK && j < q->stretches; j++) s = rg_overlay_draw(&l, &q->stretch[j].take.mesh, 1, NULL);
+    for (int32_t j = 0; s == RG_OK && j < q->stretches; j++) s = rg_overlay_draw(&l, &q->stretch[j].attempt.mesh, 1, NULL);
     if (s == RG_OK) return rg_overlay_mesh(&l, &q->settings, &m->mesh, why);
     rg_lines_free(&l);
     return s;
@@ -61,8 +61,8 @@ static rg_status aim(rg_motion *m, const rg_states *q)
 
 /* -------------------------------------------------------------------------------------------------- frames ---- */
 
-/* Does the take have the mesh's vertices where the mesh has them? X[nv]: scratch. */
-static int in_place(const rg_motion *m, const rg_overlay *o, const rg_take *t, rg_vec2 *X)
+/* Does the attempt have the mesh's vertices where the mesh has them? X[nv]: scratch. */
+static int in_place(const rg_motion *m, const rg_overlay *o, const rg_attempt *t, rg_vec2 *X)
 {
     if (t->flat) return 0;
     rg_overlay_points(o, t->mesh.X, X);
@@ -71,8 +71,8 @@ static int in_place(const rg_motion *m, const rg_overlay *o, const rg_take *t, r
     return 1;
 }
 
-/* Mean and least part of its creases' ways that a take has done at a frame. */
-static double part_done(const rg_take *t, int32_t frame, double *least)
+/* Mean and least part of its creases' ways that an attempt has done at a frame. */
+static double part_done(const rg_attempt *t, int32_t frame, double *least)
 {
     const double *rho = t->rho + (size_t)frame * (size_t)t->mesh.N;
     double sum = 0;
@@ -92,7 +92,7 @@ static double part_done(const rg_take *t, int32_t frame, double *least)
 /* Frame k of stretch j, as frame f of the motion. */
 static void put(rg_motion *m, const rg_states *q, const rg_stretch *s, const rg_overlay *o, int32_t k, int32_t f)
 {
-    const rg_take *t = &s->take;
+    const rg_attempt *t = &s->attempt;
     const int32_t frame = rg_stretch_frame(s, k), ways = q->count - 1;
     double least, done = part_done(t, frame, &least);
     rg_overlay_angles(o, t->rho + (size_t)frame * (size_t)t->mesh.N, m->rho + (size_t)f * (size_t)m->mesh.N);
@@ -104,8 +104,8 @@ static void put(rg_motion *m, const rg_states *q, const rg_stretch *s, const rg_
     m->report.least_folded_percent = 100 * (s->begin + least * (s->end - s->begin)) / ways;
 }
 
-/* What the take that stopped is held by, as vertices and creases of the motion. */
-static rg_status block(rg_motion *m, const rg_take *t, const rg_overlay *o)
+/* What the attempt that stopped is held by, as vertices and creases of the motion. */
+static rg_status block(rg_motion *m, const rg_attempt *t, const rg_overlay *o)
 {
     rg_report *r = &m->report;
     m->blocking_vertex = rg_mem_array(&m->mem, (size_t)t->vertices, sizeof *m->blocking_vertex);
@@ -138,7 +138,7 @@ static rg_status fill(rg_motion *m, const rg_states *q, const rg_overlay *o)
     if (!X) return RG_ENOMEM;
     for (int32_t j = 0; j < q->stretches; j++) {
         frames += (size_t)rg_stretch_frames(&q->stretch[j]);
-        moves |= !in_place(m, &o[j], &q->stretch[j].take, X);
+        moves |= !in_place(m, &o[j], &q->stretch[j].attempt, X);
     }
     rg_mem_free(&m->mem, X);
     m->rho = rg_mem_array(&m->mem, frames * N, sizeof *m->rho);
@@ -154,16 +154,16 @@ static rg_status fill(rg_motion *m, const rg_states *q, const rg_overlay *o)
     }
     memcpy(m->from, m->rho, N * sizeof *m->from);
     memcpy(m->by_flat, q->by_flat, (size_t)q->by_flat_count * sizeof *m->by_flat);
-    return block(m, &q->stretch[q->stretches - 1].take, &o[q->stretches - 1]);
+    return block(m, &q->stretch[q->stretches - 1].attempt, &o[q->stretches - 1]);
 }
 
 static void tell(rg_motion *m, const rg_states *q)
 {
     rg_report *r = &m->report;
-    const rg_take *last = &q->stretch[q->stretches - 1].take;
+    const rg_attempt *last = &q->stretch[q->stretches - 1].attempt;
     for (int32_t j = 0; j < q->stretches; j++) {
-        r->adjust_gain = fmax(r->adjust_gain, q->stretch[j].take.law.gain);
-        r->pattern_gives = fmax(r->pattern_gives, q->stretch[j].take.law.give);
+        r->adjust_gain = fmax(r->adjust_gain, q->stretch[j].gain);
+        r->compliance = fmax(r->compliance, q->stretch[j].compliance);
     }
     r->frames = m->frame;
     r->states = q->count;
@@ -183,7 +183,7 @@ static void tell(rg_motion *m, const rg_states *q)
     r->unknowns = m->mesh.N;
     r->constraints = 3 * m->mesh.M;
     snprintf(r->strategy, sizeof r->strategy, "%s%s", q->by_flat_count == 0 ? "directly from state to state" : q->by_flat_count == q->count - 1 ? "through flat" : "directly and through flat",
-             r->adjust_gain > 0 || r->pattern_gives > 0 ? ", the pattern gives way" : "");
+             r->adjust_gain > 0 || r->compliance > 0 ? ", the pattern gives way" : "");
 }
 
 rg_status rg_assemble_frames(rg_motion *m, const rg_states *q, rg_diag *why)
@@ -193,7 +193,7 @@ rg_status rg_assemble_frames(rg_motion *m, const rg_states *q, rg_diag *why)
     if (s != RG_OK) return s;
     rg_overlay *o = rg_mem_array(&m->mem, (size_t)q->stretches, sizeof *o);
     if (!o) return RG_ENOMEM;
-    for (int32_t j = 0; s == RG_OK && j < q->stretches; j++) s = rg_overlay_init(&o[j], &m->mesh, &q->stretch[j].take.mesh, q->tol);
+    for (int32_t j = 0; s == RG_OK && j < q->stretches; j++) s = rg_overlay_init(&o[j], &m->mesh, &q->stretch[j].attempt.mesh, q->tol);
     if (s == RG_OK) s = fill(m, q, o);
     if (s == RG_OK) tell(m, q);
     for (int32_t j = 0; j < q->stretches; j++) rg_overlay_free(&o[j]);

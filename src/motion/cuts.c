@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-rg_status rg_cuts_init(rg_cuts *c, const rg_memory *mem, const rg_mesh *none, const rg_symmetry *G, const rg_take *all)
+rg_status rg_cuts_init(rg_cuts *c, const rg_memory *mem, const rg_mesh *none, const rg_symmetry *G, const rg_attempt *all)
 {
     memset(c, 0, sizeof *c);
     c->mem = *mem;
@@ -31,15 +31,14 @@ void rg_cuts_free(rg_cuts *c)
 
 static int32_t orbit(const rg_cuts *c, int32_t f) { return c->G ? c->G->facet_orbit[f] : f; }
 
-void rg_cuts_measure(rg_cuts *c, const rg_take *t)
+void rg_cuts_measure(rg_cuts *c, const rg_attempt *t)
 {
     const rg_mesh *none = c->none, *m = &t->mesh;
-    const size_t N = (size_t)m->N;
     for (int32_t f = 0; f < none->nf; f++) c->bend[f] = -1;
     rg_triangulate_trace(none, m, c->piece_of);
     for (int32_t i = none->N; i < m->N; i++) {
         double *of = &c->bend[orbit(c, c->piece_of[m->edge_facet[m->crease_edge[i]][0]])];
-        for (int32_t frame = 0; frame < t->count; frame++) *of = fmax(*of, fabs(t->rho[(size_t)frame * N + (size_t)i]));
+        *of = fmax(*of, rg_attempt_largest_angle(t, i));
     }
     c->bends = 0;
     for (int32_t f = 0; f < none->nf; f++) c->bends += (c->bend[f] = c->bend[orbit(c, f)]) >= 0;

@@ -1,28 +1,28 @@
 /* cuts.h -- which facets are cut into triangles, and which of them could do without: whole orbits of facets.
- * Paper    section 3.2        Uses  take.h        Used by  strategy.c */
+ * Paper    section 3.2        Uses  attempt.h        Used by  search.c */
 #ifndef RG_CUTS_H
 #define RG_CUTS_H
 
 #include "mesh/symmetry.h"
-#include "motion/take.h"
+#include "motion/attempt.h"
 
 typedef struct rg_cuts {
     rg_memory mem;
     const rg_mesh *none;  /* borrowed: the facets as drawn */
     const rg_symmetry *G; /* borrowed: of none; NULL: facets are cut one by one */
-    int32_t *piece_of;    /* [corners] scratch: facet that a facet of a take's mesh is a piece of */
+    int32_t *piece_of;    /* [corners] scratch: facet that a facet of an attempt's mesh is a piece of */
     unsigned char *which; /* [none->nf] those to cut */
     int32_t cut;          /* how many they are */
     double *bend;         /* [none->nf] radians, of what was measured last: the most that the facet bends; negative: it is whole */
     int32_t bends;        /* how many can bend */
 } rg_cuts;
 
-/* all: a take for which all facets were cut, measured. RG_ENOMEM. Owner: the caller, rg_cuts_free. */
-rg_status rg_cuts_init(rg_cuts *c, const rg_memory *mem, const rg_mesh *none, const rg_symmetry *G, const rg_take *all);
+/* all: an attempt for which all facets were cut, measured. RG_ENOMEM. Owner: the caller, rg_cuts_free. */
+rg_status rg_cuts_init(rg_cuts *c, const rg_memory *mem, const rg_mesh *none, const rg_symmetry *G, const rg_attempt *all);
 void rg_cuts_free(rg_cuts *c);
 
-/* How facets bend in the frames of t, for which c->which were cut. */
-void rg_cuts_measure(rg_cuts *c, const rg_take *t);
+/* How facets bend on the path of t, for which c->which were cut. */
+void rg_cuts_measure(rg_cuts *c, const rg_attempt *t);
 
 /* What is to be cut next, of the facets that can bend: those that do by `least` or more; all but the n that do least, or
  * more to make orbits whole; those at one of the vertices, and their images. */

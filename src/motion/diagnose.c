@@ -86,20 +86,20 @@ rg_status rg_diagnose_blocking(rg_fold *f, int32_t *vertex, int32_t *vertices, i
     return s;
 }
 
-rg_status rg_diagnose_flow(rg_flow *F, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases)
+rg_status rg_diagnose_relaxed(rg_relax *F, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases)
 {
-    const rg_mesh *m = F->mesh;
+    const rg_mesh *m = &F->mesh;
     *vertices = *creases = 0;
     force *by = rg_mem_array(&F->mem, (size_t)m->M, sizeof *by);
     if (!by) return RG_ENOMEM;
-    rg_flow_wish_and_step(F);
+    rg_relax_wish_and_step(F);
     for (int32_t k = 0; k < m->M; k++) {
         const int32_t first = m->loop_start[k];
         by[k] = (force){turn(m->loop_start[k + 1] - first, F->J.direction + first, F->J.A.y + 3 * k), k};
     }
     *vertices = strongest(m, by, vertex);
     for (int32_t i = 0; i < F->limit.first_added; i++)
-        if (is_blocked(F->rho[i], F->from[i], F->target[i], F->wish[i], F->dz[i])) crease[(*creases)++] = i;
+        if (is_blocked(F->z[i], F->from[i], F->target[i], F->wish[i], F->dz[i])) crease[(*creases)++] = i;
     rg_mem_free(&F->mem, by);
     return RG_OK;
 }

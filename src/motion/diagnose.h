@@ -1,9 +1,9 @@
 /* diagnose.h -- where a run that stopped is held.
- * Paper    sections 3.1, 4 (which models "get stuck")        Uses  fold.h flow.h        Used by  take.c motion.c */
+ * Paper    sections 3.1, 4 (which models "get stuck")        Uses  fold.h relax.h        Used by  attempt.c motion.c */
 #ifndef RG_DIAGNOSE_H
 #define RG_DIAGNOSE_H
 
-#include "fold/flow.h"
+#include "fold/relax.h"
 #include "fold/fold.h"
 
 /* At the state f->rho:
@@ -13,7 +13,7 @@
  * Returns RG_ENOMEM, or RG_OK with the counts. */
 rg_status rg_diagnose_blocking(rg_fold *f, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases);
 
-/* The same at F->rho, F->u. */
-rg_status rg_diagnose_flow(rg_flow *F, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases);
+/* The same at F->z. */
+rg_status rg_diagnose_relaxed(rg_relax *F, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases);
 
 #endif

@@ -11,6 +11,9 @@
 static const double SYMMETRIC = 0.01 * RG_DEG;
 enum { MOST_GROUPS = 64 };
 
+/* Degrees on the wrong side that are told; lengths, over the sheet's size, that are rounding and closing tolerance. */
+static const double WRONG_SIDE = 0.1, ISOMETRIC = 1e-8;
+
 /* A new maximum, or NaN as soon as there is one. */
 static double larger(double most, double value)
 {
@@ -48,25 +51,30 @@ static double closure(gauge *g, const rg_mesh *m, const rg_vec2 *X, const double
     return worst;
 }
 
+/* Of driven creases in frame k: how far they are, and how they came there from the frame before. */
 static void measure_angles(rg_motion *m, int32_t k)
 {
     rg_report *r = &m->report;
-    const double *rho = rg_motion_angles(m, k);
-    double sum = 0, least = INFINITY;
-    int32_t driven = 0, wrong = 0;
+    const double *rho = rg_motion_angles(m, k), *before = k ? rg_motion_angles(m, k - 1) : rho;
+    double sum = 0, least = INFINITY, wrong = 0;
+    int32_t driven = 0, creases = 0;
     for (int32_t i = 0; i < m->mesh.N; i++) {
         const double way = m->target[i] - m->from[i];
         r->max_overfold_deg = larger(r->max_overfold_deg, (fabs(rho[i]) - RG_PI) / RG_DEG);
         if (isnan(way) || way == 0) continue;
-        const double part = 100 * fabs(rho[i] - m->from[i]) / fabs(way);
+        const double part = fmin(100, 100 * (rho[i] - m->from[i]) / way);
         sum += part;
         least = fmin(least, part);
-        wrong += (rho[i] - m->from[i]) * way < 0 && part > 1e-4;
+        if (part < 0) wrong = larger(wrong, fabs(rho[i] - m->from[i]) / RG_DEG);
+        creases += part < -1e-4;
+        r->max_leap_deg = larger(r->max_leap_deg, fabs(rho[i] - before[i]) / RG_DEG);
         driven++;
     }
     m->frame[k].percent = r->folded_percent = driven ? sum / driven : k ? 100 : 0;
     r->least_folded_percent = driven ? least : r->folded_percent;
-    r->wrong_side_creases = wrong;
+    r->max_wrong_side_deg = larger(r->max_wrong_side_deg, wrong);
+    r->wrong_side_frames += !(wrong <= WRONG_SIDE);
+    r->wrong_side_creases = creases;
 }
 
 /* Largest displacement of a vertex from the pattern given, over the sheet's size. */
@@ -75,6 +83,30 @@ static double displacement(const rg_mesh *m, const rg_vec2 *X)
     double most = 0;
     for (int32_t v = 0; v < m->nv; v++) most = larger(most, rg_vec2_length(rg_vec2_sub(X[v], m->X[v])) / m->size);
     return most;
+}
+
+static double area(const rg_mesh *m, int32_t f, const rg_vec2 *X)
+{
+    double twice = 0;
+    for (int32_t j = m->facet_start[f] + 1; j + 1 < m->facet_start[f + 1]; j++)
+        twice += rg_vec2_turn(X[m->facet_vertex[m->facet_start[f]]], X[m->facet_vertex[j]], X[m->facet_vertex[j + 1]]);
+    return twice;
+}
+
+/* Is the border of X the border given, and is every facet the right way up? Ends of a border edge stay on its line: a corner has two
+ * of those. */
+static int is_same_sheet(const rg_mesh *m, const rg_vec2 *X)
+{
+    int same = 1;
+    for (int32_t e = 0; e < m->ne; e++) {
+        if (m->edge_crease[e] >= 0) continue;
+        const rg_vec2 a = m->X[m->edge[e][0]], d = rg_vec2_sub(m->X[m->edge[e][1]], a);
+        for (int k = 0; k < 2; k++)
+            same &= fabs(rg_vec2_cross(d, rg_vec2_sub(X[m->edge[e][k]], a))) <= ISOMETRIC * m->size * rg_vec2_length(d);
+        same &= rg_vec2_dot(d, rg_vec2_sub(X[m->edge[e][1]], X[m->edge[e][0]])) > 0;
+    }
+    for (int32_t f = 0; f < m->nf; f++) same &= area(m, f, X) > 0;
+    return same;
 }
 
 static int make_room(gauge *g, const rg_memory *mem, const rg_mesh *m)
@@ -101,8 +133,11 @@ static void measure_frame(rg_motion *m, int32_t k, gauge *g)
     const double strain = rg_pose_strain(&m->mesh, X, g->x);
     r->max_edge_strain = larger(r->max_edge_strain, strain);
     r->max_strain_from_original = larger(r->max_strain_from_original, m->flat ? rg_pose_strain(&m->mesh, m->mesh.X, g->x) : strain);
-    if (m->flat) r->max_adjustment = larger(r->max_adjustment, displacement(&m->mesh, X));
-    r->max_facet_gap = larger(r->max_facet_gap, rg_pose_gap(X, &m->tree, g->place) / m->mesh.size);
+    const double gap = rg_pose_gap(X, &m->tree, g->place) / m->mesh.size;
+    r->max_facet_gap = larger(r->max_facet_gap, gap);
+    r->isometric = r->isometric && strain <= ISOMETRIC && gap <= ISOMETRIC && (!m->flat || is_same_sheet(&m->mesh, X));
+    r->moved_at_end = m->flat ? displacement(&m->mesh, X) : 0;
+    r->max_adjustment = larger(r->max_adjustment, r->moved_at_end);
 }
 
 static double asymmetry(const rg_motion *m, const rg_symmetry *G)
@@ -164,6 +199,7 @@ rg_status rg_measure_frames(rg_motion *m)
     gauge g = {0};
     const int ok = make_room(&g, &m->mem, &m->mesh) && (!looks || rg_course_init(&m->mesh, &course) == RG_OK);
     if (ok) m->report.components = rg_components_find(&m->mesh, g.part);
+    m->report.isometric = 1;
     for (int32_t k = 0; ok && k < m->report.frame_count; k++) {
         measure_frame(m, k, &g);
         if (looks) rg_course_add(&course, &(rg_plates_state){rg_motion_pattern(m, k), g.place, g.x});

@@ -5,7 +5,7 @@
 #include "motion/diagnose.h"
 #include "motion/ending.h"
 #include "motion/measure.h"
-#include "motion/strategy.h"
+#include "motion/search.h"
 #include "pattern/source.h"
 #include "motion/unfolding.h"
 #include "pose/lie.h"
@@ -160,10 +160,10 @@ static rg_status explain(rg_motion *m, const rg_pattern *p)
 }
 
 /* What the kept try has, becomes the motion's. */
-static rg_status adopt(rg_motion *m, rg_choice *c)
+static rg_status adopt(rg_motion *m, rg_search *c)
 {
     rg_report *r = &m->report;
-    rg_take *t = &c->take;
+    rg_attempt *t = &c->best;
     m->mesh = t->mesh;
     m->target = t->target, m->from = t->from, m->rho = t->rho, m->flat = t->flat;
     m->blocking_vertex = t->vertex, m->blocking_crease = t->crease;
@@ -172,9 +172,13 @@ static rg_status adopt(rg_motion *m, rg_choice *c)
     r->outcome = t->outcome;
     snprintf(r->reason, sizeof r->reason, "%s", t->reason);
     r->method = t->method, r->solver = t->solver;
-    r->adjust_gain = t->law.gain;
-    r->pattern_gives = t->law.give;
-    memset(t, 0, sizeof *t);
+    r->adjust_gain = t->relax ? t->relax->how.gain : 0;
+    r->compliance = c->compliance;
+    r->rung = c->rung, r->direction = c->direction;
+    r->seconds_of_winning_try = t->cost.seconds;
+    memset(&t->mesh, 0, sizeof t->mesh);
+    t->target = t->from = t->rho = NULL, t->flat = NULL, t->vertex = t->crease = NULL;
+    rg_attempt_free(t); /* the path itself is not kept */
 
     r->triangulation = c->triangulation;
     r->why_triangulated = c->why_triangulated;
@@ -222,8 +226,8 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_
     m->mem = mem;
     m->settings = *settings;
     rg_report *r = &m->report;
-    rg_watch watch = {progress, ctx, 0};
-    rg_choice choice = {0};
+    rg_watch watch = {.progress = progress, .ctx = ctx};
+    rg_search search = {0};
     rg_mesh none = {0};
     rg_pattern_get_info(p, &r->pattern);
     r->pattern.title = m->title = rg_mem_string(&mem, r->pattern.title);
@@ -231,10 +235,12 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_
     if (!m->title || !m->author) s = RG_ENOMEM;
     if (s == RG_OK) s = rg_source_copy(&p->source, &mem, &m->source);
     if (s == RG_OK) s = rg_mesh_from_pattern(p, &mem, &none, why);
-    if (s == RG_OK) s = rg_strategy_run(&choice, &none, settings, &watch, why);
-    if (s == RG_OK) s = rg_unfolding_try(&choice, &none, settings, &watch, why);
-    if (s == RG_OK) s = adopt(m, &choice);
-    else rg_take_free(&choice.take);
+    const rg_problem problem = {&none, NULL, NULL, 1};
+    if (s == RG_OK) s = rg_search_run(&search, &problem, settings, &watch, why);
+    if (s == RG_OK) s = rg_attempt_read(&search.best, settings);
+    if (s == RG_OK) s = rg_unfolding_try(&search, &none, settings, &watch, why);
+    if (s == RG_OK) s = adopt(m, &search);
+    rg_attempt_free(&search.best);
     if (s == RG_OK) s = rg_tree_init(&m->mesh, settings->fixed_facet, &m->tree);
     if (s == RG_EARG && m->mesh.nf > 0)
         rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)settings->fixed_facet, (int)m->mesh.nf - 1);

@@ -1,18 +1,19 @@
-/* states.h -- from one folded state to the next: the ways between them, each a take or two.
- * Paper    section 4, Fig. 9        Uses  strategy.h overlay.h        Used by  assemble.c
+/* states.h -- from one folded state to the next: the ways between them, each an attempt or two.
+ * Paper    section 4, Fig. 9        Uses  search.h overlay.h        Used by  assemble.c
  *
- * A way is first looked for directly: the flow from the fold angles of one state to those of the next, on a mesh that has
+ * A way is first looked for directly: a relaxed path from the fold angles of one state to those of the next, on a mesh that has
  * the creases of both, forwards or, where the next state is known exactly, backwards from it. Where that is blocked, as the
  * paper says of sinks, the first state is unfolded to flat, as it would fold but backwards, and the next one folded. */
 #ifndef RG_STATES_H
 #define RG_STATES_H
 
 #include "motion/overlay.h"
-#include "motion/strategy.h"
+#include "motion/search.h"
 
-/* A take as part of the whole: its frames after the first, or, with the roles of first and last exchanged, backwards. */
+/* An attempt as part of the whole: its frames after the first, or, with the roles of first and last exchanged, backwards. */
 typedef struct rg_stretch {
-    rg_take take;
+    rg_attempt attempt;
+    double compliance, gain;
     int backwards;
     int end_only;      /* of its frames only the end is kept; negative: none */
     double begin, end; /* of the whole way, in ways from state to state */
@@ -37,7 +38,7 @@ typedef struct rg_states {
     void *ctx;
 } rg_states;
 
-/* Frames of a stretch that are kept, and which frame of its take the k-th of them is. */
+/* Frames of a stretch that are kept, and which frame of its attempt the k-th of them is. */
 int32_t rg_stretch_frames(const rg_stretch *s);
 int32_t rg_stretch_frame(const rg_stretch *s, int32_t k);
 

@@ -10,11 +10,11 @@
 /* Work, multiplications, by effort: some 20 s of a slow machine, and 5 minutes. */
 static const double MOST_WORK[] = {0, 5e10, 8e11};
 
-/* What moving a vertex of the pattern by the shortest line at it counts, in radians of a crease, as in flow.h. */
+/* What moving a vertex of the pattern by the shortest line at it counts, in radians of a crease, as in relax.h. */
 static const double GIVE = 1;
 
 /* The first frame in which facets cross; -1: none. */
-static rg_status first_crossing(const rg_take *t, int32_t *frame)
+static rg_status first_crossing(const rg_attempt *t, int32_t *frame)
 {
     const rg_mesh *m = &t->mesh;
     rg_plates plates = {0};
@@ -50,8 +50,8 @@ static int stop(void *ctx, double done)
 
 static void read(void *ctx, double progress, double *rho, rg_vec2 *X) { rg_unfold_read(ctx, progress, rho, X); }
 
-/* What unfolding found, as a take. */
-static rg_status take_over(rg_take *t, rg_unfold *u, const rg_mesh *none, const rg_settings *s, int shorter, rg_diag *why)
+/* What unfolding found, as an attempt. */
+static rg_status take_over(rg_attempt *t, rg_unfold *u, const rg_mesh *none, const rg_settings *s, int shorter, rg_diag *why)
 {
     rg_mesh m;
     const double sign = s->to < 0 ? -1 : 1;
@@ -63,34 +63,36 @@ static rg_status take_over(rg_take *t, rg_unfold *u, const rg_mesh *none, const 
         return RG_ENOMEM;
     }
     for (int32_t i = 0; i < m.N; i++) target[i] = i < m.N - m.added ? sign * m.target[m.crease_edge[i]] : NAN;
-    status = rg_take_read(t, &m, s, target, read, u, why);
+    status = rg_attempt_from_path(t, &m, s, target, read, u, why);
     rg_mem_free(&u->mem, target);
     if (status != RG_OK) return status;
     snprintf(t->reason, sizeof t->reason, "unfolded from its flat end without contact, and read backwards");
-    t->law.give = GIVE;
     t->method = "unfold";
     t->solver = "cholesky";
     t->cost.steps = u->steps;
     return RG_OK;
 }
 
-static void adopt(rg_choice *c, rg_take *t, const rg_unfold *u)
+static void adopt(rg_search *c, rg_attempt *t, const rg_unfold *u)
 {
-    rg_take_free(&c->take);
-    c->take = *t;
+    rg_attempt_free(&c->best);
+    c->best = *t;
     memset(t, 0, sizeof *t);
-    c->triangulation = c->take.mesh.added ? "all" : "none";
+    c->triangulation = c->best.mesh.added ? "all" : "none";
     c->why_triangulated = "a motion in which facets do not pass through each other bends them";
+    c->rung = "unfolded without contact";
+    c->direction = "backward";
+    c->compliance = GIVE;
     snprintf(c->strategy, sizeof c->strategy, "%s", u->how);
 }
 
-static rg_status unfold(rg_choice *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why)
+static rg_status unfold(rg_search *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(s->memory);
     const double begun = rg_seconds();
     const rg_unfold_wish wish = {s->to < 0 ? -1 : 1, s->layer_order, 0, MOST_WORK[s->effort], stop, watch};
     rg_unfold u;
-    rg_take t = {0};
+    rg_attempt t = {0};
     int32_t crossing = 0;
     rg_status status = rg_unfold_run(&u, &mem, none, &wish);
     c->tries += u.tries;
@@ -98,20 +100,20 @@ static rg_status unfold(rg_choice *c, const rg_mesh *none, const rg_settings *s,
         status = take_over(&t, &u, none, s, wish.shorter, why);
         if (status == RG_OK) status = first_crossing(&t, &crossing);
         /* A part of the way is to be one of creases that have all left flat. */
-        if (status == RG_OK && crossing < 0 && (t.strays == 0 || c->take.outcome != RG_FOLDED)) adopt(c, &t, &u);
+        if (status == RG_OK && crossing < 0 && (t.strays == 0 || c->best.outcome != RG_FOLDED)) adopt(c, &t, &u);
     }
     c->cost.seconds += rg_seconds() - begun;
-    rg_take_free(&t);
+    rg_attempt_free(&t);
     rg_unfold_free(&u);
     return status;
 }
 
-rg_status rg_unfolding_try(rg_choice *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why)
+rg_status rg_unfolding_try(rg_search *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why)
 {
     int32_t crossing = -1;
     if (s->contact != RG_CONTACT_AVOID || s->effort == RG_EFFORT_FAST || s->to == 0 || watch->cancelled || none->M == 0) return RG_OK;
     if (s->adjust == 0 || s->triangulate == RG_TRIANGULATE_NONE) return RG_OK; /* it bends facets and moves the pattern */
-    rg_status status = c->take.outcome == RG_FOLDED ? first_crossing(&c->take, &crossing) : RG_OK;
-    if (status == RG_OK && (c->take.outcome != RG_FOLDED || crossing >= 0)) status = unfold(c, none, s, watch, why);
+    rg_status status = c->best.outcome == RG_FOLDED ? first_crossing(&c->best, &crossing) : RG_OK;
+    if (status == RG_OK && (c->best.outcome != RG_FOLDED || crossing >= 0)) status = unfold(c, none, s, watch, why);
     return status == RG_ENOMEM ? rg_fail(status, why, 0, "%s", rg_status_text(status)) : status;
 }

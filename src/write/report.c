@@ -111,7 +111,7 @@ static void result(rg_json *j, const rg_motion *m, int32_t ways)
 {
     const rg_report *r = &m->report;
     rg_json_open(j, "result", '{');
-    rg_json_string(j, "outcome", r->outcome == RG_FOLDED ? "folded" : "stopped");
+    rg_json_string(j, "outcome", r->outcome == RG_FOLDED ? "folded" : r->outcome == RG_RESTS ? "rests" : "stopped");
     rg_json_string(j, "reason", r->reason);
     rg_json_number(j, "folded_percent", r->folded_percent);
     rg_json_number(j, "least_folded_percent", r->least_folded_percent);
@@ -123,13 +123,30 @@ static void result(rg_json *j, const rg_motion *m, int32_t ways)
     rg_json_number(j, "max_strain_from_original", r->max_strain_from_original);
     rg_json_integer(j, "symmetry", r->symmetry);
     rg_json_number(j, "max_asymmetry_deg", r->max_asymmetry_deg);
+    rg_json_bool(j, "isometric", r->isometric);
+    rg_json_number(j, "max_crease_roll", r->max_adjustment);
+    rg_json_number(j, "moved_at_end", r->moved_at_end);
+    rg_json_number(j, "max_leap_deg", r->max_leap_deg);
     rg_json_integer(j, "wrong_side_creases", r->wrong_side_creases);
+    rg_json_number(j, "max_wrong_side_deg", r->max_wrong_side_deg);
+    rg_json_integer(j, "wrong_side_frames", r->wrong_side_frames);
     mobility(j, "mobility_at_end", ways);
     blocking(j, r);
     rg_json_string(j, "layers", r->layers);
     rg_json_string(j, "layer_orders", r->layer_orders && *r->layer_orders ? r->layer_orders : NULL);
     rg_json_string(j, "layers_reason", r->layers_reason);
     contact(j, r);
+    rg_json_close(j);
+}
+
+static void search(rg_json *j, const rg_report *r)
+{
+    rg_json_open(j, "search", '{');
+    rg_json_string(j, "rung", r->rung ? r->rung : "");
+    rg_json_number(j, "compliance", r->compliance);
+    rg_json_string(j, "direction", r->direction ? r->direction : "");
+    rg_json_integer(j, "tries", r->tries);
+    rg_json_number(j, "seconds_of_winning_try", r->seconds_of_winning_try);
     rg_json_close(j);
 }
 
@@ -186,6 +203,7 @@ rg_status rg_report_write(const rg_motion *m, double seconds_writing, double pea
     model(&j, m, half_way);
     run(&j, r, seconds_writing, peak_bytes);
     result(&j, m, at_end);
+    search(&j, r);
     states(&j, r);
     creases(&j, m);
     rg_json_open(&j, "frames", '[');

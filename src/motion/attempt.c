@@ -1,0 +1,467 @@
+#include "motion/attempt.h"
+#include "base/clock.h"
+#include "base/status.h"
+#include "motion/diagnose.h"
+#include "motion/rest.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Beyond half a turn by more than that, facets at a crease have passed through each other. */
+static const double MOST_OVER = RG_DEG;
+/* A crease that did less than this part of its way has not left flat. */
+static const double LEFT_FLAT = 1e-6;
+
+void rg_attempt_free(rg_attempt *t)
+{
+    if (!t->mem.resize) return;
+    if (t->relax) rg_relax_free(t->relax);
+    if (t->symmetry) rg_symmetry_free(t->symmetry);
+    rg_mesh_free(&t->mesh);
+    void *block[] = {t->relax, t->symmetry, t->target, t->from, t->rho, t->flat, t->vertex, t->crease};
+    for (int i = 0; i < 8; i++) rg_mem_free(&t->mem, block[i]);
+    memset(t, 0, sizeof *t);
+}
+
+static rg_status make_room(rg_attempt *t, const rg_mesh *m)
+{
+    const size_t N = (size_t)m->N;
+    t->target = rg_mem_array(&t->mem, N, sizeof *t->target);
+    t->from = rg_mem_array(&t->mem, N, sizeof *t->from);
+    t->vertex = rg_mem_array(&t->mem, (size_t)m->M, sizeof *t->vertex);
+    t->crease = rg_mem_array(&t->mem, N, sizeof *t->crease);
+    return t->target && t->from && t->vertex && t->crease ? RG_OK : RG_ENOMEM;
+}
+
+static int is_cancelled(rg_watch *w, double done)
+{
+    if (w->given_up && w->given_up(w->given_up_ctx)) w->cancelled = 1;
+    if (w->progress && !w->cancelled) w->cancelled = w->progress(w->ctx, fmin(1, fmax(0, done))) != 0;
+    return w->cancelled;
+}
+
+/* ------------------------------------------------------------------------------------- what it came to ---- */
+
+/* The states that the path is made of: nodes of a relaxation, frames of what went straight on. */
+static int32_t states(const rg_attempt *t) { return t->relax ? t->relax->nodes : t->count; }
+
+static const double *state(const rg_attempt *t, int32_t k)
+{
+    return t->relax ? t->relax->node + (size_t)k * (size_t)t->relax->n : t->rho + (size_t)k * (size_t)t->mesh.N;
+}
+
+/* The last state in the direction of the motion. */
+static const double *last_state(const rg_attempt *t) { return state(t, t->backwards ? 0 : states(t) - 1); }
+
+static double way(const rg_attempt *t, int32_t i)
+{
+    const double w = t->target[i] - t->from[i];
+    return isnan(w) ? 0 : w;
+}
+
+static double beyond(const rg_attempt *t, const double *rho)
+{
+    double most = 0;
+    for (int32_t i = 0; i < t->mesh.N; i++) most = fmax(most, fabs(rho[i]) - RG_PI);
+    return most;
+}
+
+static double displacement(const rg_attempt *t, const double *z)
+{
+    const rg_relax *F = t->relax;
+    double most = 0;
+    for (int32_t v = 0; F && F->U > 0 && v < t->mesh.nv; v++) {
+        const int32_t *w = F->freedom.way[v];
+        const double x = w[0] < 0 ? 0 : z[F->N + w[0]], y = w[1] < 0 ? 0 : z[F->N + w[1]];
+        most = fmax(most, hypot(x, y));
+    }
+    return most;
+}
+
+/* Mean of what was done of each crease's way, none counted for more than all of it or less than nothing. */
+static double score(const rg_attempt *t, const double *rho)
+{
+    double sum = 0;
+    int32_t n = 0;
+    for (int32_t i = 0; i < t->mesh.N; i++) {
+        if (way(t, i) == 0) continue;
+        sum += fmin(1, fmax(0, (rho[i] - t->from[i]) / way(t, i)));
+        n++;
+    }
+    return n ? sum / n : 1;
+}
+
+/* Facets that pass through each other at a crease are no motion: it stops before that, wherever it would have come out. */
+static void cut_back(rg_attempt *t)
+{
+    int32_t *n = t->relax ? &t->relax->nodes : &t->count, good = 0;
+    while (good < *n && beyond(t, state(t, good)) <= MOST_OVER) good++;
+    if (good == *n) return;
+    *n = good > 0 ? good : 1;
+    const size_t used = strlen(t->reason);
+    if (t->outcome == RG_FOLDED) snprintf(t->reason, sizeof t->reason, "creases go past half a turn on the way");
+    else snprintf(t->reason + used, sizeof t->reason - used, "; from there on creases go past half a turn");
+    t->outcome = RG_STOPPED;
+}
+
+/* Short of the whole way, a mean is what is asked for. It counts only where no crease is on the wrong side of flat there; one that has
+ * not left flat yet may come later, which is known of a path that goes on to the end. */
+static void judge(rg_attempt *t, const double *rho)
+{
+    const double to = fabs(t->to);
+    int32_t wrong = 0;
+    if (t->outcome != RG_FOLDED || to == 0 || to == 1) return;
+    for (int32_t i = 0; i < t->mesh.N; i++) {
+        if (way(t, i) == 0) continue;
+        const double part = (rho[i] - t->from[i]) / way(t, i);
+        t->strays += !t->backwards && !(part > LEFT_FLAT);
+        wrong += !(part >= -LEFT_FLAT);
+    }
+    if (wrong) t->outcome = RG_STOPPED;
+    snprintf(t->reason, sizeof t->reason, "as far as was asked for%s", wrong ? ", but with creases on the wrong side of flat" : "");
+}
+
+/* Everything that attempts are compared by. */
+static void measure(rg_attempt *t)
+{
+    cut_back(t);
+    t->score = score(t, last_state(t));
+    t->moved_at_end = displacement(t, last_state(t));
+    for (int32_t k = 0; k < states(t); k++) {
+        const double *z = state(t, k);
+        t->overfold = fmax(t->overfold, beyond(t, z));
+        t->moved = fmax(t->moved, displacement(t, z));
+        for (int32_t i = 0; i < t->mesh.N; i++)
+            if (way(t, i) != 0 && (z[i] - t->from[i]) / way(t, i) < 0) t->wrong = fmax(t->wrong, fabs(z[i] - t->from[i]));
+    }
+}
+
+double rg_attempt_largest_angle(const rg_attempt *t, int32_t i)
+{
+    double most = 0;
+    for (int32_t k = 0; k < states(t); k++) most = fmax(most, fabs(state(t, k)[i]));
+    return most;
+}
+
+/* ------------------------------------------------------------------------------------------ straight on ---- */
+
+/* One run through the frames that are due. due NULL: evenly in progress. */
+static rg_status run_straight(rg_attempt *t, rg_fold *f, const double *due, rg_watch *watch)
+{
+    rg_step_info info = {0};
+    double kept = -1;
+    rg_status s = RG_OK;
+    rg_fold_set_due(f, due);
+    t->count = 0;
+    while (s == RG_OK && info.outcome == RG_RUNNING) {
+        s = rg_fold_step(f, &info);
+        if (s == RG_OK && info.frame >= 0) {
+            memcpy(t->rho + (size_t)t->count++ * (size_t)f->mesh.N, f->rho, (size_t)f->mesh.N * sizeof *f->rho);
+            kept = f->s;
+        }
+        if (is_cancelled(watch, f->s_end > 0 ? info.progress / f->s_end : 1)) break;
+    }
+    if (s == RG_OK && f->s != kept)
+        memcpy(t->rho + (size_t)t->count++ * (size_t)f->mesh.N, f->rho, (size_t)f->mesh.N * sizeof *f->rho);
+    t->outcome = watch->cancelled ? RG_STOPPED : info.outcome;
+    return s;
+}
+
+/* How far such a run goes before it comes to rest; s_rest stays as it is where it does not. */
+static rg_status find_rest(const rg_mesh *drawn, const rg_settings *settings, rg_watch *watch, double *s_rest)
+{
+    const rg_memory mem = rg_mem_default(settings->memory);
+    rg_fold *f = NULL;
+    rg_mesh m;
+    rg_step_info info = {0};
+    double *rho = rg_mem_array(&mem, (size_t)drawn->N, sizeof *rho), *t = rg_mem_array(&mem, (size_t)drawn->N, sizeof *t);
+    rg_status s = rho && t ? rg_mesh_copy(drawn, &m) : RG_ENOMEM;
+    if (s == RG_OK) s = rg_fold_from_mesh(&m, settings, &f, NULL);
+    for (int found = 0; s == RG_OK && !found && info.outcome == RG_RUNNING; found = rg_rest_find(f, rho, t, s_rest)) {
+        s = rg_fold_step(f, &info);
+        if (is_cancelled(watch, info.progress)) break;
+    }
+    rg_fold_destroy(f);
+    rg_mem_free(&mem, rho);
+    rg_mem_free(&mem, t);
+    return s;
+}
+
+rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *settings, rg_watch *watch, rg_diag *why)
+{
+    const double begun = rg_seconds();
+    rg_settings mine = *settings;
+    rg_fold *f = NULL;
+    double s_rest = NAN;
+    memset(t, 0, sizeof *t);
+    t->mem = rg_mem_default(settings->memory);
+    rg_status s = settings->rest && rg_rest_is_open(m) ? find_rest(m, settings, watch, &s_rest) : RG_OK;
+    const int rests = s_rest < fabs(settings->to);
+    if (rests) mine.to = copysign(s_rest, settings->to);
+    t->to = mine.to;
+    if (s == RG_OK) s = rg_fold_from_mesh(m, &mine, &f, why);
+    else rg_mesh_free(m);
+    if (s != RG_OK) return s;
+    s = make_room(t, &f->mesh);
+    t->rho = rg_mem_array(&t->mem, ((size_t)settings->frames + 1) * (size_t)f->mesh.N, sizeof *t->rho);
+    if (!t->rho) s = RG_ENOMEM;
+    if (s == RG_OK) s = run_straight(t, f, NULL, watch);
+    if (s == RG_OK) {
+        memcpy(t->target, f->drive.target, (size_t)f->mesh.N * sizeof *t->target);
+        for (int32_t i = f->limit.first_added; i < f->mesh.N; i++) t->target[i] = NAN;
+        snprintf(t->reason, sizeof t->reason, "%.190s", watch->cancelled ? "interrupted" : f->reason);
+        if (t->outcome == RG_STOPPED && f->mesh.N > 0)
+            s = rg_diagnose_blocking(f, t->vertex, &t->vertices, t->crease, &t->creases);
+        static const char *const methods[] = {"auto", "euler", "newton", "heun", "rk4", "adaptive"};
+        static const char *const solvers[] = {"auto", "cg", "cholesky", "svd"};
+        t->method = methods[f->settings.method];
+        t->solver = solvers[rg_fold_solver(f)];
+        t->cost = rg_fold_cost(f);
+        t->mesh = f->mesh;
+        memset(&f->mesh, 0, sizeof f->mesh);
+        measure(t);
+        judge(t, last_state(t));
+        if (rests && t->outcome == RG_FOLDED) {
+            t->outcome = RG_RESTS;
+            snprintf(t->reason, sizeof t->reason, "undriven creases leave its end open: it rests at %.0f %%", 100 * s_rest);
+        }
+    }
+    rg_fold_destroy(f);
+    if (s != RG_OK) {
+        rg_attempt_free(t);
+        return rg_fail(s, why, 0, "%s", rg_status_text(s));
+    }
+    t->cost.seconds = rg_seconds() - begun;
+    return RG_OK;
+}
+
+/* -------------------------------------------------------------------------------------------- relaxed ---- */
+
+static rg_status make_relaxed(rg_attempt *t, const rg_settings *settings, const rg_relaxation *how)
+{
+    rg_settings mine = *settings;
+    double *end = rg_mem_array(&t->mem, (size_t)t->mesh.N, sizeof *end);
+    t->relax = rg_mem_array(&t->mem, 1, sizeof *t->relax);
+    rg_status s = end && t->relax ? RG_OK : RG_ENOMEM;
+    if (s == RG_OK && t->backwards) {
+        mine.to = copysign(1, settings->to); /* from folded, the way is the whole of it, of which a part is read off */
+        for (int32_t i = 0; i < t->mesh.N; i++) end[i] = isnan(t->target[i]) ? NAN : t->from[i];
+        double *begin = rg_mem_array(&t->mem, (size_t)t->mesh.N, sizeof *begin);
+        for (int32_t i = 0; begin && i < t->mesh.N; i++) begin[i] = isnan(t->target[i]) ? 0 : t->target[i];
+        s = begin ? rg_relax_init(t->relax, &t->mesh, &mine, how, begin, end) : RG_ENOMEM;
+        rg_mem_free(&t->mem, begin);
+    } else if (s == RG_OK) {
+        s = rg_relax_init(t->relax, &t->mesh, &mine, how, t->from, t->target);
+    }
+    rg_mem_free(&t->mem, end);
+    return s;
+}
+
+rg_status rg_attempt_relaxed(rg_attempt *t, rg_mesh *m, const rg_settings *settings, const rg_relaxation *how, const double *from,
+                             const double *target, const rg_symmetry *G, int backwards, double budget, rg_watch *watch, rg_diag *why)
+{
+    const double begun = rg_seconds();
+    memset(t, 0, sizeof *t);
+    t->mem = rg_mem_default(settings->memory);
+    t->to = settings->to;
+    t->backwards = backwards;
+    t->mesh = *m;
+    memset(m, 0, sizeof *m);
+    rg_status s = make_room(t, &t->mesh);
+    if (s == RG_OK) {
+        memcpy(t->target, target, (size_t)t->mesh.N * sizeof *target);
+        if (from) memcpy(t->from, from, (size_t)t->mesh.N * sizeof *from);
+        s = make_relaxed(t, settings, how);
+    }
+    if (s == RG_OK && G && G->order > 1) {
+        t->symmetry = rg_mem_array(&t->mem, 1, sizeof *t->symmetry);
+        s = t->symmetry ? rg_symmetry_on(t->symmetry, G, &t->mesh) : RG_ENOMEM;
+        t->relax->symmetry = t->symmetry;
+    }
+    rg_relax *F = t->relax;
+    if (s == RG_OK) {
+        F->budget = budget;
+        while (F->outcome == RG_RUNNING) {
+            rg_relax_step(F);
+            if (is_cancelled(watch, F->s_end > 0 ? F->s / F->s_end : 1)) break;
+        }
+        t->outcome = watch->cancelled || (backwards && !F->landed) ? RG_STOPPED : F->outcome;
+        snprintf(t->reason, sizeof t->reason, "%.190s", watch->cancelled ? "interrupted" : F->reason);
+        if (t->outcome == RG_STOPPED) s = rg_diagnose_relaxed(F, t->vertex, &t->vertices, t->crease, &t->creases);
+    }
+    if (s == RG_OK) {
+        measure(t);
+        /* Backwards, a way that does not lead to its beginning is no motion. */
+        if (backwards && t->outcome != RG_FOLDED) t->score = -1;
+        if (!from) {
+            const double to = backwards ? 1 - fabs(t->to) : fabs(t->to);
+            double *z = rg_mem_array(&t->mem, (size_t)F->n, sizeof *z);
+            if (z) rg_relax_at(F, fmin(to, F->node_s[F->nodes - 1]), z);
+            if (z) judge(t, z);
+            else s = RG_ENOMEM;
+            rg_mem_free(&t->mem, z);
+        }
+        t->work = F->work;
+        t->method = "relaxed";
+        t->solver = "cholesky";
+        t->cost = (rg_cost){F->steps, F->J.A.solves, F->J.A.iterations, F->J.A.factorizations, F->assemblies, 0};
+    }
+    if (s != RG_OK) {
+        rg_attempt_free(t);
+        return rg_fail(s, why, 0, "%s", rg_status_text(s));
+    }
+    t->cost.seconds = rg_seconds() - begun;
+    return RG_OK;
+}
+
+/* -------------------------------------------------------------------------------------------- frames ---- */
+
+/* Progress at frames that are even in the largest angle that a crease turns, from s0 to s1, both ways round. */
+static void pace_steadily(const rg_attempt *t, double s0, double s1, int32_t frames, double *due)
+{
+    const rg_relax *F = t->relax;
+    const double low = fmin(s0, s1), high = fmax(s0, s1);
+    double all = 0, done = 0;
+    for (int pass = 0, next = 1; pass < 2; pass++)
+        for (int32_t k = 1; k < F->nodes; k++) {
+            const double a = fmax(low, F->node_s[k - 1]), b = fmin(high, F->node_s[k]), whole = F->node_s[k] - F->node_s[k - 1];
+            double turned = 0;
+            if (!(b > a)) continue;
+            for (int32_t i = 0; i < F->N; i++) turned = fmax(turned, fabs(state(t, k)[i] - state(t, k - 1)[i]));
+            turned *= (b - a) / whole;
+            if (pass == 0) {
+                all += turned;
+                continue;
+            }
+            for (; next < frames - 1 && done + turned >= all * next / (frames - 1); next++)
+                due[next] = a + (b - a) * (turned > 0 ? (all * next / (frames - 1) - done) / turned : 1);
+            done += turned;
+        }
+    due[0] = low;
+    due[frames - 1] = high;
+    for (int32_t i = 0, j = frames - 1; s0 > s1 && i < j; i++, j--) {
+        const double d = due[i];
+        due[i] = due[j];
+        due[j] = d;
+    }
+}
+
+static rg_status read_off(rg_attempt *t, const double *due)
+{
+    rg_relax *F = t->relax;
+    double *z = rg_mem_array(&t->mem, (size_t)F->n, sizeof *z);
+    for (int32_t k = 0; z && k < t->count; k++) {
+        rg_relax_at(F, due[k], z);
+        memcpy(t->rho + (size_t)k * (size_t)t->mesh.N, z, (size_t)t->mesh.N * sizeof *z);
+        if (t->flat) rg_freedom_move(&F->freedom, z + F->N, t->flat + (size_t)k * (size_t)t->mesh.nv);
+    }
+    rg_mem_free(&t->mem, z);
+    return z ? RG_OK : RG_ENOMEM;
+}
+
+/* Progress at frames that are even in the largest angle that a crease turns, as `count` states at even progress 0 ... to tell it.
+ * due[frames]: out. sum[count]: scratch. */
+static void pace_by_states(const double *rho, size_t N, int32_t count, double to, int32_t frames, double *sum, double *due)
+{
+    for (int32_t k = 1; k < count; k++) {
+        double turned = 0;
+        for (size_t i = 0; i < N; i++) turned = fmax(turned, fabs(rho[(size_t)k * N + i] - rho[(size_t)(k - 1) * N + i]));
+        sum[k] = sum[k - 1] + turned;
+    }
+    for (int32_t j = 1, k = 1; j < frames; j++) {
+        const double want = sum[count - 1] * j / (frames - 1);
+        while (k < count - 1 && sum[k] < want) k++;
+        const double part = sum[k] > sum[k - 1] ? (want - sum[k - 1]) / (sum[k] - sum[k - 1]) : 1;
+        due[j] = to * (k - 1 + fmin(1, part)) / (count - 1);
+    }
+    due[frames - 1] = to;
+}
+
+/* What went straight on knows its frames only. They tell how fast it goes; with frames that are due accordingly it goes the same
+ * way again. */
+static rg_status read_steadily(rg_attempt *t, const rg_settings *settings)
+{
+    rg_settings mine = *settings;
+    double *sum = rg_mem_array(&t->mem, (size_t)t->count, sizeof *sum);
+    double *due = rg_mem_array(&t->mem, (size_t)settings->frames, sizeof *due);
+    rg_mesh copy = {0};
+    rg_fold *f = NULL;
+    rg_watch nobody = {0};
+    const rg_outcome outcome = t->outcome;
+    mine.to = t->to;
+    rg_status s = sum && due ? rg_mesh_copy(&t->mesh, &copy) : RG_ENOMEM;
+    if (s == RG_OK) pace_by_states(t->rho, (size_t)t->mesh.N, t->count, fabs(t->to), settings->frames, sum, due);
+    if (s == RG_OK) s = rg_fold_from_mesh(&copy, &mine, &f, NULL);
+    if (s == RG_OK) s = run_straight(t, f, due, &nobody);
+    t->outcome = outcome;
+    rg_fold_destroy(f);
+    rg_mem_free(&t->mem, sum);
+    rg_mem_free(&t->mem, due);
+    return s;
+}
+
+rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *settings, const double *target,
+                               rg_attempt_reader *read, void *ctx, rg_diag *why)
+{
+    const int32_t frames = settings->frames;
+    const double to = fabs(settings->to);
+    memset(t, 0, sizeof *t);
+    t->mem = rg_mem_default(settings->memory);
+    t->to = settings->to;
+    t->mesh = *m;
+    memset(m, 0, sizeof *m);
+    const size_t N = (size_t)t->mesh.N, nv = (size_t)t->mesh.nv;
+    rg_status s = make_room(t, &t->mesh);
+    double *due = rg_mem_array(&t->mem, (size_t)frames, sizeof *due), *sum = rg_mem_array(&t->mem, (size_t)frames, sizeof *sum);
+    t->rho = rg_mem_array(&t->mem, ((size_t)frames + 1) * N, sizeof *t->rho);
+    t->flat = rg_mem_array(&t->mem, ((size_t)frames + 1) * nv, sizeof *t->flat);
+    if (!due || !sum || !t->rho || !t->flat) s = RG_ENOMEM;
+    for (int32_t k = 0; due && k < frames; k++) due[k] = to * k / (frames - 1);
+    for (int pass = 0; s == RG_OK && pass <= (settings->pace == RG_PACE_STEADY); pass++) {
+        if (pass) pace_by_states(t->rho, N, frames, to, frames, sum, due);
+        for (t->count = 0; t->count < frames; t->count++)
+            read(ctx, due[t->count], t->rho + (size_t)t->count * N, t->flat + (size_t)t->count * nv);
+    }
+    rg_mem_free(&t->mem, due);
+    rg_mem_free(&t->mem, sum);
+    if (s != RG_OK) {
+        rg_attempt_free(t);
+        return rg_fail(s, why, 0, "%s", rg_status_text(s));
+    }
+    memcpy(t->target, target, N * sizeof *target);
+    t->outcome = RG_FOLDED;
+    measure(t);
+    for (int32_t k = 0; k < t->count; k++)
+        for (size_t v = 0; v < nv; v++)
+            t->moved = fmax(t->moved, rg_vec2_length(rg_vec2_sub(t->flat[(size_t)k * nv + v], t->mesh.X[v])));
+    judge(t, last_state(t));
+    return RG_OK;
+}
+
+rg_status rg_attempt_read(rg_attempt *t, const rg_settings *settings)
+{
+    const rg_relax *F = t->relax;
+    const int32_t frames = settings->frames;
+    if (!F && settings->pace == RG_PACE_STEADY && t->outcome != RG_STOPPED && t->count == frames) return read_steadily(t, settings);
+    if (!F || t->rho) return RG_OK;
+    const double to = fabs(settings->to), last = F->node_s[F->nodes - 1];
+    const double s0 = t->backwards ? 1 : 0, s1 = t->backwards ? 1 - to : t->outcome == RG_FOLDED ? fmin(last, to) : last;
+    double *due = rg_mem_array(&t->mem, (size_t)frames + 1, sizeof *due);
+    t->rho = rg_mem_array(&t->mem, ((size_t)frames + 1) * (size_t)t->mesh.N, sizeof *t->rho);
+    if (F->U > 0) t->flat = rg_mem_array(&t->mem, ((size_t)frames + 1) * (size_t)t->mesh.nv, sizeof *t->flat);
+    rg_status s = due && t->rho && (t->flat || F->U == 0) ? RG_OK : RG_ENOMEM;
+    if (s == RG_OK) {
+        /* Stopped short, frames keep the pace that the whole way would have had. */
+        for (t->count = 0; t->count < frames; t->count++) {
+            const double d = s0 + (t->backwards ? -to : to) * t->count / (frames - 1);
+            if (!t->backwards && t->outcome != RG_FOLDED && !(d < last)) break;
+            due[t->count] = fmin(d, last);
+        }
+        if (t->count < frames) due[t->count++] = s1;
+        else if (to == 1) due[t->backwards ? 0 : frames - 1] = last; /* the end itself */
+        if (settings->pace == RG_PACE_STEADY && t->count > 1) pace_steadily(t, s0, s1, t->count, due);
+        s = read_off(t, due);
+    }
+    rg_mem_free(&t->mem, due);
+    return s;
+}

@@ -1,0 +1,67 @@
+/* attempt.h -- one try at a motion: the path as far as it came, and frames read off it.
+ * Uses  fold.h relax.h        Used by  search.c cuts.c states.c assemble.c
+ *
+ * A path knows nothing of frames. It is found once, as states of rising progress; frames are read off it, as many and where
+ * they are asked for. */
+#ifndef RG_ATTEMPT_H
+#define RG_ATTEMPT_H
+
+#include "fold/fold.h"
+#include "fold/relax.h"
+#include "motion/motion.h"
+
+/* Tells how far it is, 0 ... 1, and asks whether to go on; asks the race it is part of, too. */
+typedef struct rg_watch {
+    rg_progress progress; /* NULL: nobody watches */
+    void *ctx;
+    int (*given_up)(void *ctx); /* NULL: never */
+    void *given_up_ctx;
+    int cancelled;
+} rg_watch;
+
+typedef struct rg_attempt {
+    rg_memory mem;
+    rg_mesh mesh;             /* owned */
+    double *target;           /* [mesh.N] what was aimed at, radians; NAN: nothing */
+    double *from;             /* [mesh.N] where it began */
+    rg_relax *relax;          /* owned; NULL: straight on */
+    rg_symmetry *symmetry;    /* owned: what the relaxation keeps; NULL: none */
+    int backwards;            /* found from its end: its path runs the other way round */
+    double to;                /* of the settings */
+    double *rho;              /* [count][mesh.N] frames; NULL: not read off yet */
+    rg_vec2 *flat;            /* [count][mesh.nv] the pattern of each; NULL: that of the mesh */
+    int32_t count;
+    rg_outcome outcome;
+    char reason[200];
+    double score;             /* to compare attempts by: how far it came, 0 ... 1 */
+    double overfold;          /* the most that a crease was beyond half a turn, radians */
+    double wrong;             /* the most that a driven crease was on its wrong side, radians */
+    double moved;             /* the farthest that a vertex of the pattern went, lengths */
+    double moved_at_end;
+    int32_t strays;           /* driven creases that are flat or on their wrong side at the end of a part of the way that
+                               * is not known to go on to the end */
+    const char *method, *solver;
+    rg_cost cost;
+    double work;              /* of a relaxation, as rg_relax counts it */
+    int32_t *vertex, vertices; /* what resists most at the end: vertex numbers, strongest first */
+    int32_t *crease, creases;  /* short of their targets, and not let any nearer */
+} rg_attempt;
+
+void rg_attempt_free(rg_attempt *t);
+/* Straight on along the motion that closes exactly, on the pattern given. *m is taken over, also on failure. */
+rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *s, rg_watch *watch, rg_diag *why);
+/* Relaxed, from `from` (NULL: flat) to `target`; backwards: the same motion, looked for from its end. G: on a mesh with the same
+ * vertices, kept; NULL: none. *m is taken over, also on failure. budget: of its work. */
+rg_status rg_attempt_relaxed(rg_attempt *t, rg_mesh *m, const rg_settings *s, const rg_relaxation *how, const double *from,
+                             const double *target, const rg_symmetry *G, int backwards, double budget, rg_watch *watch, rg_diag *why);
+/* A path that was found some other way, from flat to `target`: read(ctx, progress, rho[N], X[nv]) gives its state at a progress
+ * 0 ... 1. Its frames are read off at once. *m is taken over, also on failure. RG_ENOMEM. */
+typedef void rg_attempt_reader(void *ctx, double progress, double *rho, rg_vec2 *X);
+rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *s, const double *target, rg_attempt_reader *read,
+                               void *ctx, rg_diag *why);
+/* Frames of it, by settings->frames, to and pace; where it stopped short, those that it reached and the last state. RG_ENOMEM. */
+rg_status rg_attempt_read(rg_attempt *t, const rg_settings *s);
+/* The most that crease i turned on the whole path, radians. */
+double rg_attempt_largest_angle(const rg_attempt *t, int32_t i);
+
+#endif

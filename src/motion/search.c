@@ -1,0 +1,454 @@
+#include "motion/search.h"
+#include "base/race.h"
+#include "base/status.h"
+#include "mesh/symmetry.h"
+#include "motion/cuts.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The facets as drawn, or cut: so that inside angles are split, or by the shortest diagonals. Either folds patterns that the
+ * other does not. */
+typedef enum cut { AS_DRAWN, SPLIT, SHORT } cut;
+
+typedef struct rung {
+    const char *name;
+    int straight;
+    cut how;
+    rg_relaxation relaxation;
+    int backwards;
+    double part;       /* of the work that one try may cost */
+    rg_effort from;    /* the effort that it takes */
+} rung;
+
+/* Measured on 97 real patterns, each rung alone: no rung folds all of them, and no other rung folded any more. Rungs that move
+ * the pattern least come first; backwards is as good as forwards and quicker. */
+static const rung LADDER[] = {
+    {"straight", 1, AS_DRAWN, {0, 0, 0}, 0, 1, RG_EFFORT_FAST},
+    {"straight, triangulated", 1, SPLIT, {0, 0, 0}, 0, 1, RG_EFFORT_FAST},
+    {"relaxed, pattern fixed", 0, AS_DRAWN, {0, 0, 0}, 0, 0.3, RG_EFFORT_FAST},
+    {"relaxed, pattern fixed, triangulated", 0, SPLIT, {0, 0, 0}, 0, 0.3, RG_EFFORT_FAST},
+    {"relaxed 0.25", 0, SPLIT, {0.25, 0.1, 0}, 0, 1, RG_EFFORT_FAST},
+    {"relaxed 0.5", 0, SPLIT, {0.5, 0.1, 0}, 1, 1, RG_EFFORT_FAST},
+    {"relaxed 1", 0, SPLIT, {1, 0.1, 0}, 0, 1, RG_EFFORT_NORMAL},
+    {"relaxed 1, short diagonals", 0, SHORT, {1, 0.1, 0}, 1, 1, RG_EFFORT_NORMAL},
+    {"relaxed 0.5, short diagonals", 0, SHORT, {0.5, 0.1, 0}, 0, 1, RG_EFFORT_NORMAL},
+    {"relaxed 1", 0, SPLIT, {1, 0.1, 0}, 1, 1, RG_EFFORT_NORMAL},
+    {"relaxed 2", 0, SPLIT, {2, 0.1, 0}, 0, 1, RG_EFFORT_NORMAL},
+    {"adjusted, kept flat-foldable", 0, SPLIT, {0, 0.1, 1}, 0, 1, RG_EFFORT_THOROUGH},
+    {"relaxed 0.5", 0, SPLIT, {0.5, 0.1, 0}, 0, 1, RG_EFFORT_THOROUGH},
+    {"relaxed 0.5, short diagonals", 0, SHORT, {0.5, 0.1, 0}, 1, 1, RG_EFFORT_THOROUGH},
+    {"relaxed 1, short diagonals", 0, SHORT, {1, 0.1, 0}, 0, 1, RG_EFFORT_THOROUGH},
+    {"relaxed 2", 0, SPLIT, {2, 0.1, 0}, 1, 1, RG_EFFORT_THOROUGH},
+    {"relaxed 4", 0, SPLIT, {4, 0.1, 0}, 0, 1, RG_EFFORT_THOROUGH},
+};
+enum { RUNGS = sizeof LADDER / sizeof *LADDER, MOST_GROUPS = 8, MOST_JOBS = MOST_GROUPS * RUNGS };
+/* Work of one try, about seconds of a slow machine, by effort. */
+static const double MOST_WORK[] = {4, 25, 300};
+/* Retraction: how often half the compliance is tried, and fewer cuts, of a relaxation and straight on. A facet that bends by less
+ * (radians) may stay whole, if no vertex goes much farther. */
+static const int32_t LESS_COMPLIANCE[] = {0, 2, 5}, FEWER_CUTS[] = {0, 3, 8}, FEWER_STRAIGHT[] = {0, 8, 24};
+static const double HARDLY_BENT = 10 * RG_DEG, LITTLE_MORE = 1.1;
+/* Beyond half a turn by more, facets at a crease pass through each other: second best. */
+static const double OVERFOLD = 0.1 * RG_DEG;
+/* Short of the end, what moves the pattern must come this much farther than what leaves it as it is. */
+static const double WORTH_MOVING = 0.1;
+/* A second try beside the first costs its memory as well: not for larger sheets. */
+static const int32_t MOST_CREASES_AT_ONCE = 20000;
+
+void rg_cost_add(rg_cost *sum, const rg_cost *c)
+{
+    sum->steps += c->steps;
+    sum->solves += c->solves;
+    sum->iterations += c->iterations;
+    sum->factorizations += c->factorizations;
+    sum->assemblies += c->assemblies;
+    sum->seconds += c->seconds;
+}
+
+/* ------------------------------------------------------------------------------------------- which is better ---- */
+
+static int rank(const rg_attempt *t) { return t->outcome == RG_STOPPED ? 0 : t->overfold > OVERFOLD || t->strays > 0 ? 1 : 2; }
+
+int rg_search_is_folded(const rg_attempt *t) { return rank(t) == 2; }
+
+static int is_better(const rg_attempt *t, const rg_attempt *old)
+{
+    const int mine = rank(t), its = old->mem.resize ? rank(old) : -1;
+    if (mine != its) return mine > its;
+    if (mine == 2) return t->moved < old->moved;
+    if (mine == 1) return t->strays < old->strays;
+    return t->score > old->score + (t->moved > 0 && old->moved == 0 ? WORTH_MOVING : 0);
+}
+
+/* ------------------------------------------------------------------------------------------------- one try ---- */
+
+typedef struct job { int32_t rung, group; } job;
+
+/* What all tries of a search share. */
+typedef struct ladder {
+    const rg_problem *problem;
+    const rg_settings *settings;
+    rg_watch *watch;           /* of the calling thread */
+    int triangles;             /* all facets are triangles as they are */
+    int moves;                 /* the pattern may be moved */
+    rg_symmetry group[MOST_GROUPS]; /* of the facets as drawn: the largest first, the last of order 1 */
+    int32_t groups;
+    job job[MOST_JOBS];        /* the rungs that apply, group by group */
+    int32_t jobs;
+    rg_attempt *attempt;       /* [jobs] */
+    double told;               /* progress, 0 ... 1 */
+    rg_status status;          /* of the first try that failed for another reason than folding */
+    rg_diag why;
+} ladder;
+
+static rg_status copy_mesh(const rg_mesh *m, const rg_symmetry *G, cut how, const unsigned char *which, rg_mesh *out)
+{
+    return how ? rg_triangulate_orbits(m, G, which, how == SHORT, out) : rg_mesh_copy(m, out);
+}
+
+static cut cut_of(const ladder *l, const rung *r)
+{
+    return l->triangles || l->settings->triangulate == RG_TRIANGULATE_NONE ? AS_DRAWN : r->how;
+}
+
+/* One try: a rung, the symmetry kept, its relaxation, which facets are cut (NULL: all). */
+static rg_status try_rung(const ladder *l, const rung *r, const rg_symmetry *G, const rg_relaxation *how,
+                          const unsigned char *which, rg_watch *watch, rg_attempt *t, rg_diag *why)
+{
+    const rg_problem *p = l->problem;
+    const double sign = l->settings->to < 0 ? -1 : 1;
+    const cut cuts = cut_of(l, r);
+    rg_mesh m;
+    rg_status s = copy_mesh(p->drawn, G, cuts, which, &m);
+    if (s != RG_OK) return s;
+    if (r->straight) {
+        rg_settings mine = *l->settings;
+        mine.triangulate = cuts ? RG_TRIANGULATE_ALL : RG_TRIANGULATE_NONE;
+        return rg_attempt_straight(t, &m, &mine, watch, why);
+    }
+    const rg_memory mem = rg_mem_default(l->settings->memory);
+    double *from = rg_mem_array(&mem, (size_t)m.N, sizeof *from), *to = rg_mem_array(&mem, (size_t)m.N, sizeof *to);
+    for (int32_t i = 0; from && to && i < m.N; i++) {
+        const int drawn = i < p->drawn->N;
+        from[i] = drawn && p->from ? p->from[i] : 0;
+        to[i] = !drawn ? NAN : p->to ? p->to[i] : sign * m.target[m.crease_edge[i]];
+    }
+    if (from && to) s = rg_attempt_relaxed(t, &m, l->settings, how, p->from ? from : NULL, to, G, r->backwards,
+                                           r->part * MOST_WORK[l->settings->effort], watch, why);
+    else s = RG_ENOMEM;
+    rg_mesh_free(&m);
+    rg_mem_free(&mem, from);
+    rg_mem_free(&mem, to);
+    return s;
+}
+
+static rg_relaxation relaxation_of(const ladder *l, const rung *r)
+{
+    rg_relaxation how = r->relaxation;
+    if (how.gain > 0 && l->settings->adjust >= 0) how.gain = l->settings->adjust;
+    return how;
+}
+
+/* ------------------------------------------------------------------------------------------------ the ladder ---- */
+
+/* Is this rung one for these settings and this problem, and not the same as another one below it? */
+static int applies(const ladder *l, const rung *r)
+{
+    const rg_settings *s = l->settings;
+    const int may_cut = !l->triangles && s->triangulate != RG_TRIANGULATE_NONE;
+    const int must_cut = !l->triangles && s->triangulate == RG_TRIANGULATE_ALL;
+    const int moves = r->relaxation.gain > 0 || r->relaxation.compliance > 0;
+    if (r->from > s->effort || (must_cut && r->how == AS_DRAWN)) return 0;
+    if (!may_cut && (r->how == SHORT || (r->how == SPLIT && !moves))) return 0;
+    if (r->straight) return !l->problem->from && !l->problem->to;
+    if (s->method != RG_METHOD_AUTO && s->adjust == 0) return 0; /* asked for a method and for nothing else */
+    if (moves && (s->adjust == 0 || !l->moves)) return 0;
+    return !r->backwards || (l->problem->end_is_known && s->to != 0);
+}
+
+typedef struct job_watch { rg_race *race; int32_t job; } job_watch;
+
+static int asks_race(void *ctx)
+{
+    const job_watch *w = ctx;
+    return rg_race_given_up(w->race, w->job);
+}
+
+/* What is told never runs backwards, whichever try it is of. */
+static int tell(void *ctx, double done)
+{
+    ladder *l = ctx;
+    rg_watch *w = l->watch;
+    l->told = fmax(l->told, done);
+    if (w->progress && !w->cancelled) w->cancelled = w->progress(w->ctx, l->told) != 0;
+    return w->cancelled;
+}
+
+static int run_job(void *ctx, rg_race *race, int32_t k, int in_calling_thread)
+{
+    ladder *l = ctx;
+    const rung *r = &LADDER[l->job[k].rung];
+    const rg_relaxation how = relaxation_of(l, r);
+    job_watch mine = {race, k};
+    rg_watch watch = {in_calling_thread ? tell : NULL, l, asks_race, &mine, 0};
+    rg_diag why = {0, ""};
+    const rg_status s = try_rung(l, r, &l->group[l->job[k].group], &how, NULL, &watch, &l->attempt[k], &why);
+    if (s != RG_OK) {
+        l->status = s;
+        l->why = why;
+    }
+    if (s != RG_OK || (in_calling_thread && l->watch->cancelled)) return -1;
+    return !watch.cancelled && rank(&l->attempt[k]) == 2;
+}
+
+/* In the calling thread, while it waits: is all of it to end? */
+static int look_up(void *ctx) { return tell(ctx, 0); }
+
+static int workers(const ladder *l)
+{
+    const rg_settings *s = l->settings;
+    if (s->memory || l->problem->drawn->N > MOST_CREASES_AT_ONCE) return 1; /* somebody's allocator may not be for two threads */
+    if (s->threads) return s->threads > 1 ? 2 : 1;
+    return sysconf(_SC_NPROCESSORS_ONLN) > 1 ? 2 : 1;
+}
+
+static void keep(rg_search *q, const ladder *l, int32_t k)
+{
+    const rung *r = &LADDER[l->job[k].rung];
+    const cut cuts = cut_of(l, r);
+    const int may_leave = l->settings->triangulate == RG_TRIANGULATE_AUTO;
+    q->best = l->attempt[k];
+    memset(&l->attempt[k], 0, sizeof *l->attempt);
+    q->job = l->job[k].rung;
+    q->group = l->job[k].group;
+    q->rung = r->name;
+    q->direction = r->backwards ? "backward" : "forward";
+    q->compliance = r->relaxation.compliance;
+    q->triangulation = cuts ? "all" : "none";
+    q->why_triangulated = !may_leave ? "asked for" : cuts ? "stops short without added creases" : "folds without added creases";
+    if (cuts == AS_DRAWN && q->best.outcome == RG_STOPPED && may_leave && !l->triangles)
+        q->why_triangulated = "added creases get it no further";
+    snprintf(q->strategy, sizeof q->strategy, "%s%s", r->name, r->backwards ? ", unfolded from its end" : "");
+}
+
+static rg_status climb(rg_search *q, ladder *l, rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(l->settings->memory);
+    int32_t done, best = -1;
+    rg_race_rules rules = {l->jobs, workers(l), run_job, look_up, l};
+    l->attempt = rg_mem_array(&mem, (size_t)l->jobs, sizeof *l->attempt);
+    if (!l->attempt) return RG_ENOMEM;
+    const int32_t winner = rg_race_run(&rules, &done);
+    if (l->status == RG_OK) {
+        const int32_t counted = done ? done : l->jobs; /* ended: what there is */
+        for (int32_t j = 0; j < counted; j++) {
+            if (!l->attempt[j].mem.resize) continue;
+            rg_cost_add(&q->cost, &l->attempt[j].cost);
+            q->work += l->attempt[j].work;
+            q->tries++;
+            if (winner < 0 && (best < 0 || is_better(&l->attempt[j], &l->attempt[best]))) best = j;
+        }
+        if (winner >= 0) best = winner;
+        if (best >= 0 && (!q->best.mem.resize || is_better(&l->attempt[best], &q->best))) {
+            rg_attempt_free(&q->best);
+            keep(q, l, best);
+        }
+    } else {
+        *why = l->why;
+    }
+    for (int32_t j = 0; j < l->jobs; j++) rg_attempt_free(&l->attempt[j]);
+    rg_mem_free(&mem, l->attempt);
+    l->attempt = NULL;
+    return l->status;
+}
+
+/* ------------------------------------------------------------------------------------------------ retraction ---- */
+
+/* One more try like the one that is kept; takes its place where it folds and is better. *folds: whether it did. */
+static rg_status retry(rg_search *q, ladder *l, const rung *r, const rg_relaxation *how, const unsigned char *which,
+                       int is_fewer, int *folds, rg_diag *why)
+{
+    rg_attempt t;
+    rg_watch watch = {.progress = tell, .ctx = l};
+    const rg_status s = try_rung(l, r, &l->group[q->group], how, which, &watch, &t, why);
+    if (s != RG_OK) return s;
+    rg_cost_add(&q->cost, &t.cost);
+    q->work += t.work;
+    q->tries++;
+    *folds = rank(&t) == 2 && (is_fewer ? t.mesh.added < q->best.mesh.added && t.moved <= LITTLE_MORE * q->best.moved
+                                        : t.moved < q->best.moved);
+    if (*folds) {
+        rg_attempt_free(&q->best);
+        q->best = t;
+    } else {
+        rg_attempt_free(&t);
+    }
+    return RG_OK;
+}
+
+/* The pattern should give way no more than it has to: half as readily, while that still folds and moves it less. */
+static rg_status stiffen(rg_search *q, ladder *l, const rung *r, rg_relaxation *how, rg_diag *why)
+{
+    rg_status s = RG_OK;
+    int folds = how->compliance > 0;
+    for (int32_t n = 0; s == RG_OK && folds && n < LESS_COMPLIANCE[l->settings->effort] && !l->watch->cancelled; n++) {
+        rg_relaxation less = *how;
+        less.compliance /= 2;
+        s = retry(q, l, r, &less, NULL, 0, &folds, why);
+        if (s == RG_OK && folds) *how = less;
+    }
+    q->compliance = how->compliance;
+    return s;
+}
+
+/* No more creases should be added than have to be. First those of the facets that bend, or for a straight motion those at the
+ * vertices that blocked it as drawn; then without those that bend least, half of them at once or, where that does not fold or
+ * moves the pattern more, half as many. */
+static rg_status prune(rg_search *q, ladder *l, const rung *r, const rg_relaxation *how, const int32_t *vertex,
+                       int32_t vertices, rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(l->settings->memory);
+    const int32_t tries = (r->straight ? FEWER_STRAIGHT : FEWER_CUTS)[l->settings->effort];
+    rg_cuts cuts;
+    rg_status s = rg_cuts_init(&cuts, &mem, l->problem->drawn, &l->group[q->group], &q->best);
+    int32_t fewer = cuts.bends;
+    if (s == RG_OK && r->straight) rg_cuts_around(&cuts, vertex, vertices);
+    else if (s == RG_OK) rg_cuts_bending(&cuts, HARDLY_BENT);
+    for (int32_t k = 0; s == RG_OK && k < tries && fewer > 0 && !l->watch->cancelled; k++) {
+        int folds = 0;
+        if (k) rg_cuts_all_but(&cuts, fewer);
+        if (cuts.cut > 0 && cuts.cut < cuts.bends) s = retry(q, l, r, how, cuts.which, 1, &folds, why);
+        if (s == RG_OK && folds) {
+            q->triangulation = "some";
+            q->why_triangulated = "stops short without added creases; facets that hardly bend stay whole";
+            rg_cuts_measure(&cuts, &q->best);
+        }
+        const int32_t half = cuts.bends / 2;
+        fewer = k == 0 || (folds && fewer > half) ? half : folds ? fewer : fewer / 2;
+    }
+    rg_cuts_free(&cuts);
+    return s;
+}
+
+static rg_status retract(rg_search *q, ladder *l, const int32_t *vertex, int32_t vertices, rg_diag *why)
+{
+    const rung *r = &LADDER[q->job];
+    rg_relaxation how = relaxation_of(l, r);
+    rg_status s = stiffen(q, l, r, &how, why);
+    if (s == RG_OK && q->best.mesh.added > l->problem->drawn->added && l->settings->triangulate == RG_TRIANGULATE_AUTO)
+        s = prune(q, l, r, &how, vertex, vertices, why);
+    return s;
+}
+
+/* -------------------------------------------------------------------------------------------------- all of it ---- */
+
+/* Does the pattern say of every crease where it ends? One that does not is not moved: where it ends is open. */
+static int end_is_definite(const rg_problem *p)
+{
+    for (int32_t i = 0; i < p->drawn->N - p->drawn->added; i++)
+        if (isnan(p->to ? p->to[i] : p->drawn->target[p->drawn->crease_edge[i]])) return 0;
+    return 1;
+}
+
+/* Who asks for triangles gets them: groups under which a facet has to stay whole are no answer then. */
+static rg_status leaves_whole(const rg_mesh *drawn, const rg_symmetry *G, int *whole)
+{
+    rg_mesh m;
+    const rg_status status = rg_triangulate_orbits(drawn, G, NULL, 0, &m);
+    *whole = 0;
+    if (status != RG_OK) return status;
+    for (int32_t f = 0; f < m.nf; f++) *whole |= m.facet_start[f + 1] - m.facet_start[f] > 3;
+    rg_mesh_free(&m);
+    return RG_OK;
+}
+
+/* The symmetries to keep: the pattern's own, then parts of it, then none. Between two states there is none to keep. */
+static rg_status find_groups(ladder *l)
+{
+    const rg_settings *s = l->settings;
+    const rg_memory mem = rg_mem_default(s->memory);
+    rg_symmetry whole;
+    rg_subgroup list[MOST_GROUPS];
+    rg_status status = rg_symmetry_find(&whole, &mem, l->problem->drawn);
+    if (status != RG_OK) return status;
+    int32_t n = rg_symmetry_subgroups(&whole, list, MOST_GROUPS);
+    const int none = s->symmetry == RG_SYMMETRY_OFF || l->problem->from || l->problem->to;
+    if (none) n = 1;
+    if (none || list[n - 1].order > 1) list[n - 1] = (rg_subgroup){whole.turns, -1, 1};
+    for (int32_t k = 0; status == RG_OK && k < n; k++) {
+        rg_symmetry *G = &l->group[l->groups];
+        int skipped = 0;
+        status = rg_symmetry_part(G, &whole, list[k].every, list[k].mirror);
+        if (status == RG_OK && G->order > 1 && s->triangulate == RG_TRIANGULATE_ALL) status = leaves_whole(l->problem->drawn, G, &skipped);
+        if (status == RG_OK && !skipped) l->groups++;
+        else rg_symmetry_free(G);
+    }
+    rg_symmetry_free(&whole);
+    return status;
+}
+
+/* Rungs go group by group. The largest group and none get all of them, what lies between those that are tried at the least. */
+static void list_jobs(ladder *l)
+{
+    for (int32_t g = 0; g < l->groups; g++)
+        for (int32_t k = 0; k < RUNGS; k++) {
+            const rung *r = &LADDER[k];
+            const int between = g > 0 && g + 1 < l->groups;
+            if (!applies(l, r) || (between && r->from > RG_EFFORT_FAST)) continue;
+            if (r->straight && (r->how == AS_DRAWN || g > 0)) continue; /* as drawn: tried before, and once is enough */
+            l->job[l->jobs++] = (job){k, g};
+        }
+}
+
+/* Straight on as drawn folds most tessellations: nothing is tried beside it. *vertex: out, what blocked it. */
+static rg_status first_of_all(rg_search *q, ladder *l, int32_t **vertex, int32_t *vertices, rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(l->settings->memory);
+    const rg_relaxation none = {0, 0, 0};
+    rg_status s;
+    if (!applies(l, LADDER)) return RG_OK;
+    rg_watch watch = {.progress = tell, .ctx = l};
+    s = try_rung(l, LADDER, NULL, &none, NULL, &watch, &q->best, why);
+    if (s != RG_OK) return s;
+    rg_attempt first = q->best;
+    l->attempt = &first;
+    l->job[0] = (job){0, l->groups - 1};
+    keep(q, l, 0);
+    l->attempt = NULL;
+    q->tries = 1;
+    rg_cost_add(&q->cost, &q->best.cost);
+    *vertices = q->best.vertices;
+    *vertex = rg_mem_array(&mem, (size_t)*vertices, sizeof **vertex);
+    if (*vertex) memcpy(*vertex, q->best.vertex, (size_t)*vertices * sizeof **vertex);
+    return *vertex ? RG_OK : RG_ENOMEM;
+}
+
+rg_status rg_search_run(rg_search *q, const rg_problem *p, const rg_settings *s, rg_watch *watch, rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(s->memory);
+    int32_t *vertex = NULL, vertices = 0;
+    memset(q, 0, sizeof *q);
+    ladder *l = rg_mem_array(&mem, 1, sizeof *l);
+    if (!l) return RG_ENOMEM;
+    l->problem = p, l->settings = s, l->watch = watch;
+    l->triangles = 1;
+    l->moves = end_is_definite(p);
+    for (int32_t f = 0; f < p->drawn->nf; f++) l->triangles &= p->drawn->facet_start[f + 1] - p->drawn->facet_start[f] == 3;
+    rg_status status = find_groups(l);
+    if (status == RG_OK) status = first_of_all(q, l, &vertex, &vertices, why);
+    if (status == RG_OK && !(q->tries && rank(&q->best) == 2) && !watch->cancelled) {
+        list_jobs(l);
+        if (l->jobs > 0) status = climb(q, l, why);
+        else if (q->tries == 0) status = rg_fail(RG_EARG, why, 0, "with these settings there is nothing to try");
+    }
+    if (status == RG_OK && rank(&q->best) == 2 && !watch->cancelled) status = retract(q, l, vertex, vertices, why);
+    if (status == RG_OK && watch->cancelled && q->best.outcome == RG_STOPPED)
+        snprintf(q->best.reason, sizeof q->best.reason, "interrupted");
+    for (int32_t g = 0; g < l->groups; g++) rg_symmetry_free(&l->group[g]);
+    rg_mem_free(&mem, l);
+    rg_mem_free(&mem, vertex);
+    if (status != RG_OK) rg_attempt_free(&q->best);
+    return status;
+}

@@ -1,0 +1,39 @@
+/* search.h -- what is tried, in which order, until the pattern folds; and which attempt is kept.
+ * Paper    sections 3.1 to 3.4        Uses  attempt.h cuts.h race.h        Used by  motion.c states.c
+ *
+ * The ladder: as drawn; triangulated; relaxed, the pattern moving ever more readily, from flat or from the folded end. The
+ * lowest rung that folds wins; if none does, what came farthest is kept. Then the retraction: of what folds, the compliance of
+ * the pattern and the added creases are reduced while the motion still exists. One table and one loop for a pattern that folds
+ * from flat and for the way from one folded state to the next. */
+#ifndef RG_SEARCH_H
+#define RG_SEARCH_H
+
+#include "motion/attempt.h"
+
+/* A way to look for, on the creases as drawn. */
+typedef struct rg_problem {
+    const rg_mesh *drawn; /* borrowed */
+    const double *from;   /* [drawn->N] radians; NULL: flat */
+    const double *to;     /* [drawn->N] radians, NAN: none; NULL: the mesh's own targets */
+    int end_is_known;     /* non-zero: `to` closes, so that it may be looked for from there */
+} rg_problem;
+
+typedef struct rg_search {
+    rg_attempt best;
+    const char *triangulation, *why_triangulated;
+    char strategy[160];
+    const char *rung, *direction;
+    double compliance;
+    int32_t job, group;   /* which rung and which symmetry that was, for the retraction */
+    int32_t tries;        /* rungs up to the one that is kept, and retractions */
+    double work;          /* of all tries */
+    rg_cost cost;         /* of all tries */
+} rg_search;
+
+/* RG_OK also when no attempt folds. Owner: the caller, rg_attempt_free of `best`, whose frames are not read off yet. */
+rg_status rg_search_run(rg_search *q, const rg_problem *p, const rg_settings *s, rg_watch *watch, rg_diag *why);
+/* Is t what was asked for, with no crease past half a turn and none left behind? */
+int rg_search_is_folded(const rg_attempt *t);
+void rg_cost_add(rg_cost *sum, const rg_cost *c);
+
+#endif
