@@ -45,7 +45,7 @@ static void put_report(const task *t, int exit, const rg_report *r, FILE *out)
 {
     fprintf(out, "%s,", t->key);
     put_text(t->file, out);
-    fprintf(out, ",%d,%d,%s", (int)t->sheet, exit, r->outcome == RG_FOLDED ? "folded" : "stopped");
+    fprintf(out, ",%d,%d,%s", (int)t->sheet, exit, r->outcome == RG_FOLDED ? "folded" : r->outcome == RG_RESTS ? "rests" : "stopped");
     put_number(r->folded_percent, out);
     put_number(r->least_folded_percent, out);
     fprintf(out, ",%d,%d,%d,%d,", (int)r->pattern.creases, (int)r->pattern.interior_vertices, (int)r->pattern.closed_vertices, (int)r->added_creases);

@@ -27,7 +27,7 @@ static void summarize(const options *o, const char *name, const rg_motion *m)
     char files[4096], moved[120] = "";
     if (r->max_adjustment > SEEN)
         snprintf(moved, sizeof moved, ", with creases moved by up to %.2g %% of the sheet (--adjust off keeps them)", 100 * r->max_adjustment);
-    const char *what = r->outcome == RG_RESTS ? "rests, as undriven creases leave its end open," : r->contact == RG_CONTACT_CROSSES ? "folded, passing through itself" : "folded";
+    const char *what = r->outcome == RG_RESTS ? "rests, as undriven creases leave its end open" : r->contact == RG_CONTACT_CROSSES ? "folded, passing through itself" : "folded";
     printf("%s: %s, %.1f %%%s; %d frames in %.2f s\n", name, what, r->folded_percent, moved, (int)r->frame_count, r->seconds_total);
     verdict_files(o, "  written   ", files, sizeof files);
     if (files[0]) puts(files);
