@@ -103,7 +103,9 @@ static void compare(int32_t n, const rg_symbolic *S)
     for (int32_t s = 0; s < S->count; s++) {
         const int32_t wide = S->column[s + 1] - S->column[s], tall = S->start[s + 1] - S->start[s], *row = S->row + S->start[s];
         assert_true(wide > 0 && tall >= wide);
-        assert_int_equal(S->panel[s + 1] - S->panel[s], wide * tall);
+        assert_int_equal(S->panel[s + 1] - S->panel[s], wide * rg_symbolic_stride(S, s));
+        assert_in_range(rg_symbolic_stride(S, s), tall, tall + 3);
+        assert_int_equal(rg_symbolic_stride(S, s) % 4, 0);
         for (int32_t i = 0; i < wide; i++) assert_int_equal(row[i], S->column[s] + i);
         for (int32_t i = 1; i < tall; i++) assert_true(row[i] > row[i - 1]);
         assert_true(row[tall - 1] < n);

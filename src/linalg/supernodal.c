@@ -46,26 +46,31 @@ RG_WIDE static void multiply(int32_t m, int32_t n, int32_t k, const double *a, c
     }
 }
 
-/* Columns of a panel from `first` on, four or fewer, `tall` rows, their updates from before done: factored. */
+/* Columns of a panel from `first` on, four or fewer, their updates from before done: factored. tall: rows, and the distance of
+ * columns, a multiple of four; rows that are only there to make it one are zero and stay it. */
 RG_WIDE static int factor_columns(double *x, int32_t tall, int32_t first, int32_t last)
 {
     for (int32_t j = first; j < last; j++) {
         double *col = x + (size_t)j * (size_t)tall;
         const double pivot = col[j];
         if (!(pivot > 0)) return 0;
-        const double root = sqrt(pivot), inverse = 1 / root;
-        col[j] = root;
-        int32_t i = j + 1;
-        for (; i + 4 <= tall; i += 4) *(rg_quad_anywhere *)(col + i) *= inverse;
-        for (; i < tall; i++) col[i] *= inverse;
+        const double inverse = 1 / sqrt(pivot);
+        for (int32_t i = first; i < tall; i += 4) *(rg_quad_anywhere *)(col + i) *= inverse;
+        col[j] = inverse; /* which is all that the diagonal is asked for */
         for (int32_t l = j + 1; l < last; l++) {
             double *next = x + (size_t)l * (size_t)tall;
             const double f = col[l];
-            for (i = l; i + 4 <= tall; i += 4) *(rg_quad_anywhere *)(next + i) -= *(const rg_quad_anywhere *)(col + i) * f;
-            for (; i < tall; i++) next[i] -= col[i] * f;
+            for (int32_t i = first; i < tall; i += 4)
+                *(rg_quad_anywhere *)(next + i) -= *(const rg_quad_anywhere *)(col + i) * f;
         }
     }
     return 1;
+}
+
+/* col[m] -= u[m], m a multiple of four */
+RG_WIDE static void subtract(int32_t m, const double *u, double *col)
+{
+    for (int32_t i = 0; i < m; i += 4) *(rg_quad_anywhere *)(col + i) -= *(const rg_quad_anywhere *)(u + i);
 }
 
 static int factor_panel(double *x, int32_t tall, int32_t wide, double *update)
@@ -74,11 +79,8 @@ static int factor_panel(double *x, int32_t tall, int32_t wide, double *update)
         int32_t last = first + 4 < wide ? first + 4 : wide, m = tall - first, room = m + 4;
         if (first > 0) {
             multiply(m, last - first, first, x + first, x + first, tall, update, room);
-            for (int32_t j = first; j < last; j++) {
-                double *col = x + (size_t)j * (size_t)tall;
-                const double *u = update + (size_t)(j - first) * (size_t)room - first;
-                for (int32_t i = j; i < tall; i++) col[i] -= u[i];
-            }
+            for (int32_t j = first; j < last; j++)
+                subtract(m, update + (size_t)(j - first) * (size_t)room, x + (size_t)j * (size_t)tall + first);
         }
         if (!factor_columns(x, tall, first, last)) return 0;
     }
@@ -99,14 +101,15 @@ static void hang(rg_supernodal *L, int32_t d)
 static void take_from(rg_supernodal *L, int32_t s, int32_t d)
 {
     const int32_t tall = L->S.start[d + 1] - L->S.start[d], wide = L->S.column[d + 1] - L->S.column[d], from = L->done[d];
-    const int32_t *row = L->S.row + L->S.start[d] + from, rows = tall - from, s_tall = L->S.start[s + 1] - L->S.start[s];
+    const int32_t *row = L->S.row + L->S.start[d] + from, rows = tall - from;
+    const int32_t stride = rg_symbolic_stride(&L->S, d), s_stride = rg_symbolic_stride(&L->S, s);
     const double *x = L->x + L->S.panel[d] + from;
     int32_t n = 0;
     while (n < rows && row[n] < L->S.column[s + 1]) n++;
     const int32_t room = rows + 4;
-    multiply(rows, n, wide, x, x, tall, L->update, room);
+    multiply(rows, n, wide, x, x, stride, L->update, room);
     for (int32_t j = 0; j < n; j++) {
-        double *to = L->x + L->S.panel[s] + (size_t)(row[j] - L->S.column[s]) * (size_t)s_tall;
+        double *to = L->x + L->S.panel[s] + (size_t)(row[j] - L->S.column[s]) * (size_t)s_stride;
         const double *u = L->update + (size_t)j * (size_t)room;
         for (int32_t i = j; i < rows; i++) to[L->map[row[i]]] -= u[i];
     }
@@ -118,65 +121,80 @@ int rg_supernodal_factor(rg_supernodal *L, double beta)
     for (int32_t s = 0; s < L->S.count; s++) L->head[s] = -1;
     for (int32_t s = 0; s < L->S.count; s++) {
         const int32_t tall = L->S.start[s + 1] - L->S.start[s], wide = L->S.column[s + 1] - L->S.column[s];
-        const int32_t *row = L->S.row + L->S.start[s];
+        const int32_t *row = L->S.row + L->S.start[s], stride = rg_symbolic_stride(&L->S, s);
         double *x = L->x + L->S.panel[s];
         for (int32_t i = 0; i < tall; i++) L->map[row[i]] = i;
-        for (int32_t j = 0; j < wide; j++) x[(size_t)j * (size_t)tall + (size_t)j] += beta;
+        for (int32_t j = 0; j < wide; j++) x[(size_t)j * (size_t)stride + (size_t)j] += beta;
         for (int32_t d = L->head[s], then; d >= 0; d = then) {
             then = L->next[d];
             take_from(L, s, d);
             hang(L, d);
         }
-        if (!factor_panel(x, tall, wide, L->update)) return 0;
+        if (!factor_panel(x, stride, wide, L->update)) return 0;
         L->done[s] = wide;
         hang(L, s);
     }
     return 1;
 }
 
-/* u[m] -= n columns of x, `tall` apart, each times its b; n <= 4 */
+/* u[m] -= n columns of x, `tall` apart, each times its b; n <= 4, m a multiple of four */
 RG_WITHIN void subtract_columns(const double *x, int32_t tall, int32_t m, int32_t n, const double *b, double *u)
 {
-    int32_t i = 0;
+    const double b0 = b[0];
     if (n == 4) {
-        const double *x1 = x + tall, *x2 = x1 + tall, *x3 = x2 + tall, b0 = b[0], b1 = b[1], b2 = b[2], b3 = b[3];
-        for (; i + 4 <= m; i += 4)
+        const double *x1 = x + tall, *x2 = x1 + tall, *x3 = x2 + tall, b1 = b[1], b2 = b[2], b3 = b[3];
+        for (int32_t i = 0; i < m; i += 4)
             *(rg_quad_anywhere *)(u + i) -= (*(const rg_quad_anywhere *)(x + i) * b0 + *(const rg_quad_anywhere *)(x1 + i) * b1) +
                                             (*(const rg_quad_anywhere *)(x2 + i) * b2 + *(const rg_quad_anywhere *)(x3 + i) * b3);
-        for (; i < m; i++) u[i] -= (x[i] * b0 + x1[i] * b1) + (x2[i] * b2 + x3[i] * b3);
-        return;
-    }
-    for (int32_t j = 0; j < n; j++, x += tall)
-        for (i = 0; i < m; i++) u[i] -= x[i] * b[j];
+    } else if (n == 3) {
+        const double *x1 = x + tall, *x2 = x1 + tall, b1 = b[1], b2 = b[2];
+        for (int32_t i = 0; i < m; i += 4)
+            *(rg_quad_anywhere *)(u + i) -= (*(const rg_quad_anywhere *)(x + i) * b0 + *(const rg_quad_anywhere *)(x1 + i) * b1) +
+                                            *(const rg_quad_anywhere *)(x2 + i) * b2;
+    } else if (n == 2) {
+        const double *x1 = x + tall, b1 = b[1];
+        for (int32_t i = 0; i < m; i += 4)
+            *(rg_quad_anywhere *)(u + i) -= *(const rg_quad_anywhere *)(x + i) * b0 + *(const rg_quad_anywhere *)(x1 + i) * b1;
+    } else
+        for (int32_t i = 0; i < m; i += 4) *(rg_quad_anywhere *)(u + i) -= *(const rg_quad_anywhere *)(x + i) * b0;
 }
 
-/* b[n] -= the n columns of x, `tall` apart, each times u[m]; n <= 4 */
+RG_WITHIN double sum_of(const rg_quad *s) { return ((*s)[0] + (*s)[1]) + ((*s)[2] + (*s)[3]); }
+
+/* b[n] -= the n columns of x, `tall` apart, each times u[m]; n <= 4, m a multiple of four */
 RG_WITHIN void subtract_products(const double *x, int32_t tall, int32_t m, int32_t n, const double *u, double *b)
 {
+    rg_quad s0 = {0}, s1 = {0}, s2 = {0}, s3 = {0};
     if (n == 4) {
         const double *x1 = x + tall, *x2 = x1 + tall, *x3 = x2 + tall;
-        rg_quad s0 = {0}, s1 = {0}, s2 = {0}, s3 = {0};
-        int32_t i = 0;
-        for (; i + 4 <= m; i += 4) {
+        for (int32_t i = 0; i < m; i += 4) {
             const rg_quad v = *(const rg_quad_anywhere *)(u + i);
             s0 += *(const rg_quad_anywhere *)(x + i) * v;
             s1 += *(const rg_quad_anywhere *)(x1 + i) * v;
             s2 += *(const rg_quad_anywhere *)(x2 + i) * v;
             s3 += *(const rg_quad_anywhere *)(x3 + i) * v;
         }
-        double t0 = 0, t1 = 0, t2 = 0, t3 = 0;
-        for (; i < m; i++) t0 += x[i] * u[i], t1 += x1[i] * u[i], t2 += x2[i] * u[i], t3 += x3[i] * u[i];
-        b[0] -= ((s0[0] + s0[1]) + (s0[2] + s0[3])) + t0;
-        b[1] -= ((s1[0] + s1[1]) + (s1[2] + s1[3])) + t1;
-        b[2] -= ((s2[0] + s2[1]) + (s2[2] + s2[3])) + t2;
-        b[3] -= ((s3[0] + s3[1]) + (s3[2] + s3[3])) + t3;
-        return;
-    }
-    for (int32_t j = 0; j < n; j++, x += tall) {
-        double t = 0;
-        for (int32_t i = 0; i < m; i++) t += x[i] * u[i];
-        b[j] -= t;
-    }
+        b[3] -= sum_of(&s3);
+    } else if (n == 3) {
+        const double *x1 = x + tall, *x2 = x1 + tall;
+        for (int32_t i = 0; i < m; i += 4) {
+            const rg_quad v = *(const rg_quad_anywhere *)(u + i);
+            s0 += *(const rg_quad_anywhere *)(x + i) * v;
+            s1 += *(const rg_quad_anywhere *)(x1 + i) * v;
+            s2 += *(const rg_quad_anywhere *)(x2 + i) * v;
+        }
+    } else if (n == 2) {
+        const double *x1 = x + tall;
+        for (int32_t i = 0; i < m; i += 4) {
+            const rg_quad v = *(const rg_quad_anywhere *)(u + i);
+            s0 += *(const rg_quad_anywhere *)(x + i) * v;
+            s1 += *(const rg_quad_anywhere *)(x1 + i) * v;
+        }
+    } else
+        for (int32_t i = 0; i < m; i += 4) s0 += *(const rg_quad_anywhere *)(x + i) * *(const rg_quad_anywhere *)(u + i);
+    b[0] -= sum_of(&s0);
+    if (n > 1) b[1] -= sum_of(&s1);
+    if (n > 2) b[2] -= sum_of(&s2);
 }
 
 /* L y = b within a panel: u[tall] is b at the panel's own rows, 0 below; out, y and what goes off the rows below. */
@@ -188,10 +206,10 @@ RG_WIDE static void solve_panel(const double *x, int32_t tall, int32_t wide, dou
         double *own = u + first;
         for (int32_t j = 0; j < n; j++) {
             const double *col = block + (size_t)j * (size_t)tall;
-            own[j] /= col[j];
-            for (int32_t i = j + 1; i < n; i++) own[i] -= col[i] * own[j];
+            own[j] *= col[j];
+            for (int32_t i = j + 1; i < 4; i++) own[i] -= col[i] * own[j]; /* with a rest of four, rows below too */
         }
-        subtract_columns(block + n, tall, tall - first - n, n, own, own + n);
+        subtract_columns(block + 4, tall, tall - first - 4, n, own, own + 4);
     }
 }
 
@@ -202,11 +220,11 @@ RG_WIDE static void solve_panel_t(const double *x, int32_t tall, int32_t wide, d
         const int32_t n = wide - first < 4 ? wide - first : 4;
         const double *block = x + (size_t)first * (size_t)tall + first;
         double *own = u + first;
-        subtract_products(block + n, tall, tall - first - n, n, own + n, own);
+        subtract_products(block + 4, tall, tall - first - 4, n, own + 4, own);
         for (int32_t j = n - 1; j >= 0; j--) {
             const double *col = block + (size_t)j * (size_t)tall;
-            for (int32_t i = j + 1; i < n; i++) own[j] -= col[i] * own[i];
-            own[j] /= col[j];
+            for (int32_t i = j + 1; i < 4; i++) own[j] -= col[i] * own[i];
+            own[j] *= col[j];
         }
     }
 }
@@ -217,21 +235,24 @@ void rg_supernodal_solve(rg_supernodal *L, double *b)
     for (int32_t i = 0; i < L->S.n; i++) y[L->S.place[i]] = b[i];
     for (int32_t s = 0; s < L->S.count; s++) {
         const int32_t tall = L->S.start[s + 1] - L->S.start[s], wide = L->S.column[s + 1] - L->S.column[s];
+        const int32_t stride = rg_symbolic_stride(&L->S, s);
         const int32_t *row = L->S.row + L->S.start[s];
         double *own = y + L->S.column[s];
         memcpy(u, own, (size_t)wide * sizeof *u);
-        memset(u + wide, 0, (size_t)(tall - wide) * sizeof *u);
-        solve_panel(L->x + L->S.panel[s], tall, wide, u);
+        memset(u + wide, 0, (size_t)(stride - wide) * sizeof *u);
+        solve_panel(L->x + L->S.panel[s], stride, wide, u);
         memcpy(own, u, (size_t)wide * sizeof *u);
         for (int32_t i = wide; i < tall; i++) y[row[i]] += u[i];
     }
     for (int32_t s = L->S.count - 1; s >= 0; s--) {
         const int32_t tall = L->S.start[s + 1] - L->S.start[s], wide = L->S.column[s + 1] - L->S.column[s];
+        const int32_t stride = rg_symbolic_stride(&L->S, s);
         const int32_t *row = L->S.row + L->S.start[s];
         double *own = y + L->S.column[s];
         memcpy(u, own, (size_t)wide * sizeof *u);
         for (int32_t i = wide; i < tall; i++) u[i] = y[row[i]];
-        solve_panel_t(L->x + L->S.panel[s], tall, wide, u);
+        for (int32_t i = tall; i < stride; i++) u[i] = 0;
+        solve_panel_t(L->x + L->S.panel[s], stride, wide, u);
         memcpy(own, u, (size_t)wide * sizeof *u);
     }
     for (int32_t i = 0; i < L->S.n; i++) b[i] = y[L->S.place[i]];
@@ -252,7 +273,7 @@ int32_t rg_supernodal_slot(const rg_supernodal *L, int32_t i, int32_t j)
         if (L->S.row[middle] <= r) low = middle;
         else high = middle;
     }
-    return L->S.panel[s] + (c - L->S.column[s]) * (L->S.start[s + 1] - L->S.start[s]) + (low - L->S.start[s]);
+    return L->S.panel[s] + (c - L->S.column[s]) * rg_symbolic_stride(&L->S, s) + (low - L->S.start[s]);
 }
 
 /* The room that `multiply` needs at the most. */

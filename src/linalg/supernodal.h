@@ -12,7 +12,7 @@
 
 typedef struct rg_supernodal {
     rg_symbolic S;
-    double *x;                         /* in: A, by rg_supernodal_slot; out: L */
+    double *x;                         /* in: A, by rg_supernodal_slot; out: L, its diagonal inverted */
     int32_t *head, *next, *done, *map; /* scratch of factor */
     double *update, *b;
 } rg_supernodal;

@@ -297,7 +297,7 @@ static rg_status make_panels(const work *w, const elimination *e, rg_symbolic *S
         S->start[s] = (int32_t)rows;
         S->panel[s] = (int32_t)numbers;
         rows += tall[k];
-        numbers += (int64_t)tall[k] * wide[k];
+        numbers += (int64_t)((tall[k] + 3) & ~3) * wide[k];
         if (rows > INT32_MAX || numbers > INT32_MAX - RG_SYMBOLIC_PAD) return RG_ENOMEM;
         for (int32_t j = k; j < k + wide[k]; j++) S->of[j] = s;
     }

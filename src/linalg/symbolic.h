@@ -12,7 +12,7 @@
 
 #include "base/memory.h"
 
-/* Numbers are read four or eight at a time, also behind the last row of a panel, where they are of no consequence. */
+/* Numbers are read four or eight at a time, also behind the last panel, where they are of no consequence. */
 enum { RG_SYMBOLIC_PAD = 8 };
 
 typedef struct rg_symbolic {
@@ -23,9 +23,15 @@ typedef struct rg_symbolic {
     int32_t *column;        /* [count + 1] first column of each supernode */
     int32_t *start;         /* [count + 1] into row: its rows, its own columns first */
     int32_t *row;           /* rising */
-    int32_t *panel;         /* [count + 1] where its numbers start, column by column, if they are kept in one array */
+    int32_t *panel;         /* [count + 1] where its numbers start, column by column, rg_symbolic_stride apart, in one array */
     int32_t *of;            /* [n] supernode of a column */
 } rg_symbolic;
+
+/* Rows of a supernode, and so many more that fours come out even. */
+static inline int32_t rg_symbolic_stride(const rg_symbolic *S, int32_t supernode)
+{
+    return (S->start[supernode + 1] - S->start[supernode] + 3) & ~3;
+}
 
 /* The pattern of A, n x n: the rows of each column, of one triangle or of both, none twice in a column.
  * RG_ENOMEM, also where L has more numbers than an int32_t counts. Owner: the caller, rg_symbolic_free. The same pattern gives
