@@ -25,4 +25,35 @@ typedef int64_t rg_quad_int __attribute__((vector_size(32)));
 /* A part of such a function: it must be compiled with it. Quads are not passed by value, which has no settled way. */
 #define RG_WITHIN static inline __attribute__((always_inline))
 
+/* a . b, in eight sums that are added up at the end: one sum waits for itself at each product. */
+static inline double rg_lanes_dot(int32_t n, const double *a, const double *b)
+{
+    rg_quad s = {0}, t = {0};
+    int32_t i = 0;
+    for (; i + 8 <= n; i += 8) {
+        s += *(const rg_quad_anywhere *)(a + i) * *(const rg_quad_anywhere *)(b + i);
+        t += *(const rg_quad_anywhere *)(a + i + 4) * *(const rg_quad_anywhere *)(b + i + 4);
+    }
+    s += t;
+    double sum = (s[0] + s[1]) + (s[2] + s[3]);
+    for (; i < n; i++) sum += a[i] * b[i];
+    return sum;
+}
+
+/* y <- y + a x */
+static inline void rg_lanes_add(int32_t n, double a, const double *x, double *y)
+{
+    int32_t i = 0;
+    for (; i + 4 <= n; i += 4) *(rg_quad_anywhere *)(y + i) += a * *(const rg_quad_anywhere *)(x + i);
+    for (; i < n; i++) y[i] += a * x[i];
+}
+
+/* y <- x + a y */
+static inline void rg_lanes_add_to(int32_t n, double a, const double *x, double *y)
+{
+    int32_t i = 0;
+    for (; i + 4 <= n; i += 4) *(rg_quad_anywhere *)(y + i) = *(const rg_quad_anywhere *)(x + i) + a * *(rg_quad_anywhere *)(y + i);
+    for (; i < n; i++) y[i] = x[i] + a * y[i];
+}
+
 #endif

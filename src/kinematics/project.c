@@ -1,4 +1,5 @@
 #include "kinematics/project.h"
+#include "base/lanes.h"
 
 #include <string.h>
 
@@ -63,13 +64,6 @@ void rg_project_renew_near(rg_project *P)
     P->stale = P->factored;
 }
 
-static double dot(int32_t n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (int32_t i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
-}
-
 /* With more equations than creases it is the exception that a step can be taken at all: n is in the row space of B but for
  * beta, and 1 - v.u below is all rounding. By columns that case is like any other. */
 static int by_columns(const rg_project *P)
@@ -88,19 +82,19 @@ static void pinv_held(void *project, const double *r, double *z)
     if (by_columns(P)) {
         rg_sparse_mul_t(&P->scale.B, r, z);
         rg_cholesky_solve(&P->cholesky, z);
-        double c = dot(N, P->held, z) / P->left;
+        double c = rg_lanes_dot(N, P->held, z) / P->left;
         for (int32_t i = 0; i < N; i++) z[i] -= c * P->q[i];
         return;
     }
     rg_cholesky_apply(&P->cholesky, r, y);
     if (P->held) {
-        double c = dot(3 * M, P->u, r) / P->left;
-        for (int32_t i = 0; i < 3 * M; i++) y[i] += c * P->u[i];
+        double c = rg_lanes_dot(3 * M, P->u, r) / P->left;
+        rg_lanes_add(3 * M, c, P->u, y);
     }
     rg_sparse_mul_t(&P->scale.B, y, z);
     if (!P->held) return;
-    double along = dot(N, P->held, z);
-    for (int32_t i = 0; i < N; i++) z[i] -= along * P->held[i];
+    double along = rg_lanes_dot(N, P->held, z);
+    rg_lanes_add(N, -along, P->held, z);
 }
 
 static void hold_on(rg_project *P, const double *hold)
@@ -111,12 +105,12 @@ static void hold_on(rg_project *P, const double *hold)
     if (by_columns(P)) {
         memcpy(P->q, hold, (size_t)P->scale.B.N * sizeof *hold);
         rg_cholesky_solve(&P->cholesky, P->q);
-        P->left = dot(P->scale.B.N, hold, P->q);
+        P->left = rg_lanes_dot(P->scale.B.N, hold, P->q);
         return;
     }
     rg_sparse_mul(&P->cholesky.B, hold, P->y);
     rg_cholesky_apply(&P->cholesky, P->y, P->u);
-    P->left = fmax(1 - dot(3 * P->scale.B.M, P->y, P->u), LEAST_LEFT);
+    P->left = fmax(1 - rg_lanes_dot(3 * P->scale.B.M, P->y, P->u), LEAST_LEFT);
 }
 
 static rg_status factor(rg_project *P, const double *hold)

@@ -1,4 +1,5 @@
 #include "linalg/cg.h"
+#include "base/lanes.h"
 
 #include <string.h>
 
@@ -41,13 +42,6 @@ void rg_cg_work_free(rg_cg_work *w)
     memset(w, 0, sizeof *w);
 }
 
-static double dot(int32_t n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (int32_t i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
-}
-
 /* r = b - C x */
 static void residual(const rg_sparse *C, const double *b, const double *x, double *r)
 {
@@ -60,7 +54,7 @@ static void mul_t_held(const rg_sparse *C, const double *hold, const double *y, 
 {
     rg_sparse_mul_t(C, y, x);
     if (!hold) return;
-    double along = dot(C->N, hold, x);
+    double along = rg_lanes_dot(C->N, hold, x);
     for (int32_t i = 0; i < C->N; i++) x[i] -= along * hold[i];
 }
 
@@ -71,14 +65,14 @@ void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double 
     double *r = k->r, *z = k->z, *u = k->u, *q = k->q, *w = k->w, *s = k->s, *p = k->p;
 
     P(ctx, b, z);
-    const double target = tol * sqrt(dot(m, b, z));
+    const double target = tol * sqrt(rg_lanes_dot(m, b, z));
     mul_t_held(C, hold, z, s);
-    const double all = sqrt(dot(n, s, s));
+    const double all = sqrt(rg_lanes_dot(n, s, s));
 
     mul_t_held(C, hold, y, x);
     residual(C, b, x, r);
     P(ctx, r, u);
-    if (!(dot(m, r, u) < dot(m, b, z))) { /* the start is no better than none */
+    if (!(rg_lanes_dot(m, r, u) < rg_lanes_dot(m, b, z))) { /* the start is no better than none */
         memset(y, 0, (size_t)m * sizeof *y);
         memset(x, 0, (size_t)n * sizeof *x);
         memcpy(r, b, (size_t)m * sizeof *r);
@@ -91,8 +85,8 @@ void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double 
     double gamma = 0;
     for (;;) {
         mul_t_held(C, hold, z, s);
-        double old = gamma, left = sqrt(fmax(dot(m, r, z), 0));
-        gamma = dot(n, s, s);
+        double old = gamma, left = sqrt(fmax(rg_lanes_dot(m, r, z), 0));
+        gamma = rg_lanes_dot(n, s, s);
         if (left <= target) {
             rep->stop = RG_CG_CONVERGED;
             break;
@@ -107,7 +101,7 @@ void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double 
         for (int32_t i = 0; i < m; i++) q[i] = z[i] + beta * q[i]; /* p = C^T q */
         rg_sparse_mul(C, p, w);
         P(ctx, w, u);
-        double curvature = dot(m, w, u);
+        double curvature = rg_lanes_dot(m, w, u);
         if (!(curvature > 0)) {
             rep->stop = RG_CG_BREAKDOWN;
             break;
@@ -123,12 +117,15 @@ void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double 
     }
     mul_t_held(C, hold, y, x);
     residual(C, b, x, r);
-    rep->b_norm = sqrt(dot(m, b, b));
-    rep->residual = sqrt(dot(m, r, r));
+    rep->b_norm = sqrt(rg_lanes_dot(m, b, b));
+    rep->residual = sqrt(rg_lanes_dot(m, r, r));
 }
 
 /* So many steps in a row none of which is shorter than half the shortest before: that is rounding. */
 static const int32_t STALLED = 6;
+/* Where each step is shorter than the one before by as much again, the next would be shorter than what is asked for by this factor
+ * at the least: it is not looked at. */
+static const double UNSEEN = 10;
 /* A step this much shorter than the first, against a residual that is out of reach, may have lost its direction. */
 static const double ROUNDED = 1e-5;
 
@@ -137,14 +134,14 @@ void rg_cg_refine(const rg_sparse *B, rg_apply_pinv *G, void *ctx, const double 
 {
     const int32_t m = 3 * B->M, n = B->N;
     double *r = k->r, *w = k->w, *u = k->u, *z = k->s, *p = k->p;
-    double curvature = 0, shortest = INFINITY, first = 0, target = absolute;
+    double curvature = 0, shortest = INFINITY, first = 0, before = 0, target = absolute;
     int32_t since = 0;
 
     residual(B, b, x, r);
     rep->stop = RG_CG_MAX_ITERATIONS;
     for (rep->iterations = 0;; rep->iterations++) {
         G(ctx, r, z);
-        double length = sqrt(dot(n, z, z));
+        double length = sqrt(rg_lanes_dot(n, z, z));
         if (rep->iterations == 0) first = length, target = fmax(absolute, relative * length);
         if (length <= 0.5 * shortest) shortest = length, since = 0;
         else since++;
@@ -156,19 +153,25 @@ void rg_cg_refine(const rg_sparse *B, rg_apply_pinv *G, void *ctx, const double 
         }
         if (rep->iterations >= max_iterations) break;
         rg_sparse_mul(B, z, u);
-        double beta = rep->iterations ? -dot(m, u, w) / curvature : 0;
-        for (int32_t i = 0; i < n; i++) p[i] = z[i] + beta * p[i];
-        for (int32_t i = 0; i < m; i++) w[i] = u[i] + beta * w[i]; /* w = B p */
-        curvature = dot(m, w, w);
-        double gain = dot(m, r, w), alpha = gain / curvature;
+        double beta = rep->iterations ? -rg_lanes_dot(m, u, w) / curvature : 0;
+        rg_lanes_add_to(n, beta, z, p);
+        rg_lanes_add_to(m, beta, u, w); /* w = B p */
+        curvature = rg_lanes_dot(m, w, w);
+        double gain = rg_lanes_dot(m, r, w), alpha = gain / curvature;
         if (!(curvature > 0 && gain > 0)) { /* rounding, if the steps have become short */
             rep->stop = length <= ROUNDED * first ? RG_CG_LEAST_SQUARES : RG_CG_BREAKDOWN;
             break;
         }
-        for (int32_t i = 0; i < n; i++) x[i] += alpha * p[i];
-        for (int32_t i = 0; i < m; i++) r[i] -= alpha * w[i];
+        rg_lanes_add(n, alpha, p, x);
+        rg_lanes_add(m, -alpha, w, r);
+        if (before > 0 && UNSEEN * length * (length / before) <= target) {
+            rep->iterations++;
+            rep->stop = RG_CG_CONVERGED;
+            break;
+        }
+        before = length;
     }
     residual(B, b, x, r);
-    rep->b_norm = sqrt(dot(m, b, b));
-    rep->residual = sqrt(dot(m, r, r));
+    rep->b_norm = sqrt(rg_lanes_dot(m, b, b));
+    rep->residual = sqrt(rg_lanes_dot(m, r, r));
 }

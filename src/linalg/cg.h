@@ -55,8 +55,9 @@ typedef void rg_apply_pinv(void *ctx, const double *r, double *z);
 /* Least squares again, min ||b - B x||, from a G that is nearly the pseudo-inverse of B: G r is the step that would end
  * it, and where it does not, the next step is made conjugate to it (B p orthogonal to the B p before: conjugate gradients
  * where G B is symmetric, conjugate residuals where it is nearly so).
- * It stops on the length of that step, in radians, not on a residual: where a sheet is over-constrained some of the
- * residual, as small as rounding, is out of reach, and whoever chases it freezes the sheet.
+ * It stops on the length of that step or, where steps become shorter regularly, of what the next one would be, in radians,
+ * not on a residual: where a sheet is over-constrained some of the residual, as small as rounding, is out of reach, and
+ * whoever chases it freezes the sheet.
  *   x[N]      in  where to start, out  the solution: x and the start differ in the range of G
  *   relative  stop at this part of the first step's length
  *   absolute  stop at this length

@@ -1,4 +1,5 @@
 #include "linalg/step.h"
+#include "base/lanes.h"
 
 #include <string.h>
 
@@ -136,13 +137,6 @@ void rg_step_mul_t(const rg_step *A, const double *y, double *x)
     }
 }
 
-static double dot(int32_t n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (int32_t i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
-}
-
 static void precondition(rg_step *A, const double *r, double *z)
 {
     memcpy(z, r, (size_t)A->rows * sizeof *z);
@@ -153,19 +147,19 @@ static void precondition(rg_step *A, const double *r, double *z)
 static int iterate(rg_step *A)
 {
     const int32_t m = A->rows;
-    double gamma = dot(m, A->r, A->z);
+    double gamma = rg_lanes_dot(m, A->r, A->z);
     const double target = TOLERANCE * TOLERANCE * gamma;
     for (int32_t n = 0; n < MOST_ITERATIONS && gamma > target; n++) {
         rg_step_mul_t(A, A->p, A->t);
         rg_step_mul(A, A->t, A->q);
-        const double curvature = dot(m, A->p, A->q);
+        const double curvature = rg_lanes_dot(m, A->p, A->q);
         if (!(curvature > OUT_OF_REACH * gamma)) return n > 0; /* nothing left to move, or NaN */
         const double alpha = gamma / curvature;
         for (int32_t i = 0; i < m; i++) A->y[i] += alpha * A->p[i];
         for (int32_t i = 0; i < m; i++) A->r[i] -= alpha * A->q[i];
         precondition(A, A->r, A->z);
         const double old = gamma;
-        gamma = dot(m, A->r, A->z);
+        gamma = rg_lanes_dot(m, A->r, A->z);
         for (int32_t i = 0; i < m; i++) A->p[i] = A->z[i] + gamma / old * A->p[i];
         A->iterations++;
     }

@@ -108,10 +108,15 @@ static void take_from(rg_supernodal *L, int32_t s, int32_t d)
     while (n < rows && row[n] < L->S.column[s + 1]) n++;
     const int32_t room = rows + 4;
     multiply(rows, n, wide, x, x, stride, L->update, room);
+    int32_t *place = L->place;
+    for (int32_t i = 0; i < rows; i++) place[i] = L->map[row[i]];
+    const int in_one_piece = place[rows - 1] - place[0] == rows - 1;
     for (int32_t j = 0; j < n; j++) {
         double *to = L->x + L->S.panel[s] + (size_t)(row[j] - L->S.column[s]) * (size_t)s_stride;
         const double *u = L->update + (size_t)j * (size_t)room;
-        for (int32_t i = j; i < rows; i++) to[L->map[row[i]]] -= u[i];
+        if (in_one_piece) rg_lanes_add(rows - j, -1, u + j, to + place[j]);
+        else
+            for (int32_t i = j; i < rows; i++) to[place[i]] -= u[i];
     }
     L->done[d] += n;
 }
@@ -303,9 +308,10 @@ rg_status rg_supernodal_init(rg_supernodal *L, const rg_memory *mem, int32_t n, 
     L->next = rg_mem_array(mem, count, sizeof *L->next);
     L->done = rg_mem_array(mem, count, sizeof *L->done);
     L->map = rg_mem_array(mem, (size_t)n, sizeof *L->map);
+    L->place = rg_mem_array(mem, (size_t)n, sizeof *L->place);
     L->b = rg_mem_array(mem, (size_t)n, sizeof *L->b);
     L->update = rg_mem_array(mem, room_for_updates(&L->S) + RG_SYMBOLIC_PAD, sizeof *L->update);
-    if (L->x && L->head && L->next && L->done && L->map && L->b && L->update) return RG_OK;
+    if (L->x && L->head && L->next && L->done && L->map && L->place && L->b && L->update) return RG_OK;
     rg_supernodal_free(L);
     return RG_ENOMEM;
 }
@@ -313,8 +319,8 @@ rg_status rg_supernodal_init(rg_supernodal *L, const rg_memory *mem, int32_t n, 
 void rg_supernodal_free(rg_supernodal *L)
 {
     if (!L->S.mem.resize) return;
-    void *all[] = {L->x, L->head, L->next, L->done, L->map, L->update, L->b};
-    for (int i = 0; i < 7; i++) rg_mem_free(&L->S.mem, all[i]);
+    void *all[] = {L->x, L->head, L->next, L->done, L->map, L->place, L->update, L->b};
+    for (int i = 0; i < 8; i++) rg_mem_free(&L->S.mem, all[i]);
     rg_symbolic_free(&L->S);
     memset(L, 0, sizeof *L);
 }

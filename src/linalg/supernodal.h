@@ -13,7 +13,7 @@
 typedef struct rg_supernodal {
     rg_symbolic S;
     double *x;                         /* in: A, by rg_supernodal_slot; out: L, its diagonal inverted */
-    int32_t *head, *next, *done, *map; /* scratch of factor */
+    int32_t *head, *next, *done, *map, *place; /* scratch of factor */
     double *update, *b;
 } rg_supernodal;
 
