@@ -166,6 +166,31 @@ static void known_depths(void **state)
     near(depth(a, b, NULL), 0.5 / sqrt(4.5), 1e-12);
 }
 
+/* About a common corner, turned anyhow: they cross over a stretch from the corner on if an edge of one goes through the other. */
+static void stretches_about_a_corner(void **state)
+{
+    (void)state;
+    unsigned seed = 17;
+    int crossing = 0;
+    for (int k = 0; k < 4000; k++) {
+        triangle a, b;
+        rg_vec3 x[2][3];
+        random_triangle(&seed, a);
+        random_triangle(&seed, b);
+        memcpy(b[k % 3], a[k / 3 % 3], sizeof(point)); /* whichever of their corners it is */
+        memcpy(x[0], a, sizeof a);
+        memcpy(x[1], b, sizeof b);
+        const rg_plate A = {3, x[0], rg_depth_normal(x[0], 3)}, B = {3, x[1], rg_depth_normal(x[1], 3)};
+        const double stretch = rg_depth_stretch(&A, &B), other = rg_depth_stretch(&B, &A);
+        near(stretch, other, 1e-9);
+        if (depth(a, b, NULL) > 1e-6) {
+            assert_true(stretch > 1e-6);
+            crossing++;
+        }
+    }
+    assert_true(crossing > 300);
+}
+
 /* ------------------------------------------------------------------------------------------------------ sheets ---- */
 
 /* A strip of facets between slanted creases: any fold angles close, as there is no vertex inside. */
@@ -690,6 +715,7 @@ int main(void)
         cmocka_unit_test(random_pairs),
         cmocka_unit_test(degenerate_pairs),
         cmocka_unit_test(known_depths),
+        cmocka_unit_test(stretches_about_a_corner),
         cmocka_unit_test(strips_cross_as_their_pairs_do),
         cmocka_unit_test(notches_are_open),
         cmocka_unit_test(miura_shows_its_front),
