@@ -51,6 +51,16 @@ static inline void all_alike(const rg_mesh *m, double t, double *rho, void *ctx)
     for (int32_t i = 0; i < m->N; i++) rho[i] = t * RG_PI * mountain_or_valley(m, i);
 }
 
+/* Crease after crease, so that what lies flat stays so for many frames: creases[i] moves in part i of the time. */
+static inline void one_by_one(const rg_mesh *m, double t, double *rho, void *ctx)
+{
+    (void)ctx;
+    for (int32_t i = 0; i < m->N; i++) {
+        const double x = m->X[m->edge[m->crease_edge[i]][0]].x; /* creases at 1, 2, 3 */
+        rho[i] = RG_PI * mountain_or_valley(m, i) * fmin(1, fmax(0, 3 * t - (x - 1)));
+    }
+}
+
 /* A strip along x of panels that are width[i] wide, joined by creases of the assignments given. */
 static inline rg_lines strip(int panels, const double *width, const char *assignment, double height)
 {

@@ -9,6 +9,7 @@
 #include "near.h"
 #include "counted.h"
 #include "motions.h"
+#include "photo.h"
 #include "render/camera.h"
 #include "render/canvas.h"
 #include "render/frames.h"
@@ -111,16 +112,6 @@ static void strips_are_piled_as_paper_is(void **state)
         check_strip(3, roll, "MM", from_the_end, 2 * frames[i] + 1, "120");
         check_strip(5, roll, "VVVV", from_the_end, 4 * frames[i] + 1, "02431");
         check_strip(6, roll, "VVMVV", from_the_end, 5 * frames[i] + 1, "045321");
-    }
-}
-
-/* Crease after crease, so that what lies flat stays so for many frames: creases[i] moves in part i of the time. */
-static void one_by_one(const rg_mesh *m, double t, double *rho, void *ctx)
-{
-    (void)ctx;
-    for (int32_t i = 0; i < m->N; i++) {
-        const double x = m->X[m->edge[m->crease_edge[i]][0]].x; /* creases at 1, 2, 3 */
-        rho[i] = RG_PI * mountain_or_valley(m, i) * fmin(1, fmax(0, 3 * t - (x - 1)));
     }
 }
 
@@ -243,69 +234,6 @@ static void a_circle_of_flaps_is_cut(void **state)
 
 /* ---------------------------------------------------------------------------------------------- pictures ---- */
 
-typedef struct photo {
-    rg_picture picture;
-    rg_place place; /* on the stage */
-    rg_camera camera;
-    unsigned char *rgb;
-} photo;
-
-/* Also without OpenGL pictures are made. */
-static photo take(const rg_motion *m, int32_t frame, rg_picture picture)
-{
-    photo p = {.picture = picture};
-    rg_triangles t;
-    rg_stage stage;
-    rg_render *r = NULL;
-    rg_diag why = {0, ""};
-    rg_vec3 *x = calloc((size_t)m->mesh.nv, sizeof *x);
-    rg_camera *camera = calloc((size_t)m->report.frame_count, sizeof *camera);
-    p.rgb = calloc((size_t)picture.width * (size_t)picture.height, 3);
-    assert_true(x && p.rgb && camera);
-    assert_int_equal(rg_triangles_init(NULL, &m->mesh, &t), RG_OK);
-    assert_int_equal(rg_stage_init(&m->mem, m, &picture, &stage), RG_OK);
-    if (rg_camera_follow(&stage, &picture, camera, &why) != RG_OK) fail_msg("%s", why.text);
-    if (rg_render_create(NULL, &m->mesh, &t, &picture, NULL, &r, &why) != RG_OK) fail_msg("%s", why.text);
-    assert_int_equal(rg_motion_place(m, frame, x), RG_OK);
-    rg_stage_put(&stage, frame, x, m->mesh.nv);
-    const rg_shot shot = {x, NULL, &camera[frame], NULL};
-    rg_render_frame(r, &shot, p.rgb);
-    p.place = stage.place[frame];
-    p.camera = camera[frame];
-    rg_render_destroy(r);
-    rg_triangles_free(&t);
-    rg_stage_free(&stage);
-    free(x);
-    free(camera);
-    return p;
-}
-
-static const unsigned char *pixel(const photo *p, int x, int y) { return p->rgb + 3 * ((size_t)y * (size_t)p->picture.width + (size_t)x); }
-
-static int is_background(const photo *p, int x, int y) { return memcmp(pixel(p, x, y), p->picture.background, 3) == 0; }
-
-static rg_picture plain(int32_t width, int32_t height)
-{
-    rg_picture p = rg_picture_default();
-    p.width = width;
-    p.height = height;
-    p.lines = RG_LINES_NONE;
-    p.shadow = 0;
-    p.aimed = 1;
-    return p;
-}
-
-/* A pinhole camera, written down anew: along the axis, the picture's plane is where a unit is c->scale pixels. */
-static rg_vec2 seen(const photo *p, rg_vec3 at)
-{
-    const rg_camera *c = &p->camera;
-    const rg_vec3 x = rg_vec3_add(rg_mat3_mul_vec(p->place.R, at), p->place.t);
-    const double d[3] = {x.x - c->eye.x, x.y - c->eye.y, x.z - c->eye.z};
-    const double away = -(d[0] * c->back.x + d[1] * c->back.y + d[2] * c->back.z);
-    return (rg_vec2){c->scale * (d[0] * c->right.x + d[1] * c->right.y + d[2] * c->right.z) / away,
-                     c->scale * (d[0] * c->up.x + d[1] * c->up.y + d[2] * c->up.z) / away};
-}
-
 /* A flat sheet covers as many pixels as its corners span, partly covered ones by their part; also over several tiles. */
 static void covered_area_is_the_projected_one(void **state)
 {
@@ -320,7 +248,7 @@ static void covered_area_is_the_projected_one(void **state)
         rg_picture picture = plain(size[i][0], size[i][1]);
         picture.azimuth = view[i][0] * RG_DEG;
         picture.elevation = view[i][1] * RG_DEG;
-        photo p = take(m, 0, picture);
+        photo p = take(m, 0, picture, NULL);
         const rg_vec2 at[] = {seen(&p, (rg_vec3){0, 0, 0}), seen(&p, (rg_vec3){2.05, 0, 0}),
                               seen(&p, (rg_vec3){2.05, 1.37, 0}), seen(&p, (rg_vec3){0, 1.37, 0})};
         const double area = 0.5 * fabs(rg_vec2_turn(at[0], at[1], at[2]) + rg_vec2_turn(at[0], at[2], at[3]));
@@ -361,7 +289,7 @@ static void each_side_has_its_colour(void **state)
     for (int way = -1; way <= 1; way += 2) {
         rg_picture picture = plain(160, 120);
         picture.elevation = way * 70 * RG_DEG;
-        photo p = take(m, 0, picture);
+        photo p = take(m, 0, picture, NULL);
         assert_true(shows(&p, 80, 60, way > 0 ? picture.front : picture.back));
         assert_false(shows(&p, 80, 60, way > 0 ? picture.back : picture.front));
         free(p.rgb);
@@ -377,7 +305,7 @@ static void each_side_has_its_colour(void **state)
     picture.elevation = 20 * RG_DEG;
     for (int turn = 0; turn < 2; turn++) {
         picture.azimuth = turn * RG_PI;
-        photo p = take(m, 0, picture);
+        photo p = take(m, 0, picture, NULL);
         for (int y = 0; y < 150; y++)
             for (int x = 0; x < 200; x++) {
                 fronts += shows(&p, x, y, picture.front);
@@ -429,7 +357,7 @@ static void check_film(const rg_motion *m, const char *name, int32_t every)
     photo before = {.rgb = NULL};
     double least = INFINITY, area = 0, off = 0;
     for (int32_t k = last % every; k <= last; k += every) {
-        photo p = take(m, k, picture);
+        photo p = take(m, k, picture, NULL);
         const covered c = covered_by(&p);
         const double w = picture.width, h = picture.height;
         if (!(c.left > 0.02 * w && c.right < 0.98 * w && c.top > 0.02 * h && c.bottom < 0.98 * h))
@@ -546,7 +474,7 @@ static void symmetry_is_seen(void **state)
     for (int32_t k = 0; k < 9; k += 2) {
         rg_picture picture = plain(200, 150);
         picture.aimed = 0;
-        photo p = take(m, k, picture);
+        photo p = take(m, k, picture, NULL);
         int paper = 0, differ = 0;
         for (int y = 0; y < 150; y++)
             for (int x = 0; x < 100; x++) {
@@ -584,7 +512,7 @@ static void creases_are_drawn_where_they_are_seen(void **state)
     picture.height = 960;
     picture.shadow = 0;
     int red, blue;
-    photo p = take(m, 0, picture);
+    photo p = take(m, 0, picture, NULL);
     count_inks(&p, &red, &blue);
     const rg_vec2 a = seen(&p, (rg_vec3){1, 0, 0}), b = seen(&p, (rg_vec3){1, 2, 0});
     const double length = rg_vec2_length(rg_vec2_sub(a, b));
@@ -592,7 +520,7 @@ static void creases_are_drawn_where_they_are_seen(void **state)
     assert_true(blue > 0.5 * length && blue < 3 * length);
     free(p.rgb);
     picture.lines = RG_LINES_NONE;
-    p = take(m, 0, picture);
+    p = take(m, 0, picture, NULL);
     count_inks(&p, &red, &blue);
     assert_int_equal(red + blue, 0);
     free(p.rgb);
@@ -604,19 +532,19 @@ static void creases_are_drawn_where_they_are_seen(void **state)
     m = motion_by(&h, 1, all_alike, NULL);
     for (int32_t i = 0; i < m->mesh.N; i++) m->rho[i] = mountain_or_valley(&m->mesh, i) > 0 ? 178 * RG_DEG : -1e-3;
     picture.lines = RG_LINES_CREASES;
-    p = take(m, 0, picture);
+    p = take(m, 0, picture, NULL);
     const rg_vec3 front = p.place.R.c[2]; /* of the first panel, which is the fixed one */
     free(p.rgb);
     picture.aimed = 1;
     picture.azimuth = atan2(front.y, front.x);
     picture.elevation = asin(front.z);
-    p = take(m, 0, picture);
+    p = take(m, 0, picture, NULL);
     count_inks(&p, &red, &blue);
     assert_true(red > 100);
     free(p.rgb);
     picture.azimuth += RG_PI;
     picture.elevation = -picture.elevation;
-    p = take(m, 0, picture);
+    p = take(m, 0, picture, NULL);
     count_inks(&p, &red, &blue);
     assert_int_equal(red, 0);
     assert_true(blue > 100);
@@ -632,7 +560,7 @@ static void pictures_repeat(void **state)
     rg_motion *m = motion_by(&l, 5, miura_folds, &alpha);
     rg_picture picture = plain(333, 222);
     picture.lines = RG_LINES_CREASES;
-    photo a = take(m, 3, picture), b = take(m, 3, picture);
+    photo a = take(m, 3, picture, NULL), b = take(m, 3, picture, NULL);
     assert_memory_equal(a.rgb, b.rgb, 3 * 333 * 222);
     free(a.rgb);
     free(b.rgb);
