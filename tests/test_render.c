@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "near.h"
+#include "corpus.h"
 #include "counted.h"
 #include "motions.h"
 #include "photo.h"
@@ -421,6 +422,17 @@ static void the_sheet_is_in_the_middle_and_fills_the_picture(void **state)
     assert_true(films >= 15);
 }
 
+static void the_same_of_real_patterns(void **state)
+{
+    (void)state;
+    static const char *const names[] = {
+        "cp/crane.cp", "fold/017-jorge-tato-coaster.fold", "fold/035-tachioripa-kamehameha.fold", "fold/windmill.fold", "opx/square-fish.opx",
+        "foldability/002-traditional-kabuto.fold", "foldability/058-ku-color-change-pinwheel-1.fold", "foldability/074-miuraoripa-miura-ori.fold",
+        "foldability/114-kei-kirby.fold", "opx/2x2isoarea.opx"};
+    char path[500];
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) film_of(corpus(names[i], path, sizeof path), 8);
+}
+
 /* The frames lie as near to each other as turning can bring them: then the positions of one and the next have no moment about their
  * middle, sum of weight * a x b = 0. And they are the frames: distances are those of the motion. */
 static void the_stage_turns_as_little_as_it_can(void **state)
@@ -667,6 +679,7 @@ int main(void)
         cmocka_unit_test(covered_area_is_the_projected_one),
         cmocka_unit_test(each_side_has_its_colour),
         cmocka_unit_test(the_sheet_is_in_the_middle_and_fills_the_picture),
+        cmocka_unit_test(the_same_of_real_patterns),
         cmocka_unit_test(the_stage_turns_as_little_as_it_can),
         cmocka_unit_test(symmetry_is_seen),
         cmocka_unit_test(creases_are_drawn_where_they_are_seen),
