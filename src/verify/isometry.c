@@ -303,14 +303,22 @@ static void check_closed(const rg_record *r, int32_t k, const wheels *w, rg_faul
 
 static double side_of(char assignment) { return assignment == 'V' ? 1 : assignment == 'M' ? -1 : 0; }
 
-/* Mean over what is aimed at of 100 |angle| / |aim|. */
-static double percent_of(const rg_record *r, int32_t k)
+/* Which way it goes: 1, or -1 with mountains and valleys exchanged, as for --to -100. */
+static double way_of(const rg_record *r)
+{
+    double sum = 0;
+    for (int32_t e = 0; e < r->ne; e++) sum += r->target[e] * angles_of(r, r->frames - 1)[e];
+    return sum < 0 ? -1 : 1;
+}
+
+/* Mean over what is aimed at of 100 angle / aim, each at most 100. */
+static double percent_of(const rg_record *r, int32_t k, double as)
 {
     double sum = 0;
     int32_t n = 0;
     for (int32_t e = 0; e < r->ne; e++) {
         if (r->target[e] == 0) continue;
-        sum += 100 * fabs(angles_of(r, k)[e] / r->target[e]);
+        sum += fmin(100, 100 * as * angles_of(r, k)[e] / r->target[e]);
         n++;
     }
     return n ? sum / n : NAN;
@@ -328,8 +336,9 @@ static int is_flat(const rg_record *r, int32_t k)
 static void check_path(const rg_record *r, rg_faults *all, rg_isometry *found)
 {
     const int begins_flat = is_flat(r, 0);
+    const double as = way_of(r);
     for (int32_t k = 0; k < r->frames; k++) {
-        const double percent = percent_of(r, k);
+        const double percent = percent_of(r, k, as);
         if (begins_flat && !isnan(r->percent[k]) && !isnan(percent) && !(fabs(percent - r->percent[k]) <= PERCENT))
             rg_faults_add(all, k, -1, -1, "is %.6g %% folded by its angles, not %.6g %%", percent, r->percent[k]);
         if (k == 0) continue;
@@ -345,13 +354,10 @@ static void check_path(const rg_record *r, rg_faults *all, rg_isometry *found)
     }
 }
 
-/* Mountains are mountains and valleys valleys at the end, or all exchanged, as for --to -100; on the way it is told. */
+/* Mountains are mountains and valleys valleys at the end, or all exchanged; on the way it is told. */
 static void check_assignments(const rg_record *r, rg_faults *all, rg_isometry *found)
 {
-    double sum = 0;
-    const double *end = angles_of(r, r->frames - 1);
-    for (int32_t e = 0; e < r->ne; e++) sum += r->added[e] ? 0 : side_of(r->assignment[e]) * end[e];
-    const double as = sum < 0 ? -1 : 1;
+    const double *end = angles_of(r, r->frames - 1), as = way_of(r);
     for (int32_t e = 0; e < r->ne; e++) {
         const double side = r->added[e] ? 0 : as * side_of(r->assignment[e]);
         for (int32_t k = 0; k < r->frames && side != 0; k++) found->wrong = larger(found->wrong, -side * angles_of(r, k)[e]);
