@@ -46,7 +46,7 @@ static rg_status bytes(rg_json *j, const book *b, const char *key, const unsigne
 static rg_status points(rg_json *j, const book *b, const char *key, const rg_vec2 *X)
 {
     unsigned char *to = b->bytes;
-    for (int32_t v = 0; v < b->mesh->nv; v++) to = rg_bytes_f32(rg_bytes_f32(to, X[v].x), X[v].y);
+    for (int32_t v = 0; v < b->mesh->nv; v++) to = rg_bytes_f32(rg_bytes_f32(to, X[v].x - b->middle.x), X[v].y - b->middle.y);
     return bytes(j, b, key, to);
 }
 
@@ -110,16 +110,15 @@ static rg_status one_frame(rg_json *j, book *b, int32_t k)
 static void told(rg_json *j, const rg_motion *m, const rg_tint_scale *t)
 {
     const rg_report *r = &m->report;
-    char text[sizeof r->reason + 120], words[80];
-    size_t n = 0;
-    *text = 0;
-    if (r->outcome == RG_STOPPED) {
-        const int first = (int)strcspn(r->reason, ";"); /* what follows is for those who look into it */
-        n = (size_t)snprintf(text, sizeof text, "Stopped short at %.1f %%: %.*s. ", r->folded_percent, first, r->reason);
-    }
-    rg_tint_words(t, words, sizeof words);
-    if (*words && n < sizeof text) snprintf(text + n, sizeof text - n, "Colours: %s.", words);
+    const int first = (int)strcspn(r->reason, ";"); /* what follows is for those who look into it */
+    char stopped[sizeof r->reason + 60] = "", crosses[80] = "", colours[80], text[sizeof stopped + 200];
+    if (r->outcome == RG_STOPPED) snprintf(stopped, sizeof stopped, "Stopped short at %.1f %%: %.*s. ", r->folded_percent, first, r->reason);
+    if (r->contact == RG_CONTACT_CROSSES)
+        snprintf(crosses, sizeof crosses, "It passes through itself from %.1f %% on. ", r->first_contact_percent);
+    rg_tint_words(t, colours, sizeof colours);
+    snprintf(text, sizeof text, "%s%s%s%s%s", stopped, crosses, *colours ? "Colours: " : "", colours, *colours ? "." : "");
     rg_json_string(j, "told", text);
+    rg_json_number(j, "crosses", r->contact == RG_CONTACT_CROSSES ? r->first_contact_percent : NAN); /* null: nowhere */
 }
 
 static void looks(rg_json *j, const book *b, const rg_picture *p)
@@ -191,7 +190,7 @@ static rg_status book_init(book *b, const rg_motion *m, const rg_picture *p)
 {
     const rg_memory *mem = &m->mem;
     const size_t nf = (size_t)m->mesh.nf, nv = (size_t)m->mesh.nv;
-    *b = (book){.m = m, .mesh = &m->mesh, .rigid = m->space == NULL, .middle = rg_motion_middle(m)};
+    *b = (book){.m = m, .mesh = &m->mesh, .rigid = m->space == NULL, .middle = rg_motion_middle(m), .tint = rg_tint_of(m, p->colour)};
     for (int32_t k = 0; k < m->report.frame_count; k++)
         b->rigid &= memcmp(rg_motion_pattern(m, k), m->mesh.X, nv * sizeof *m->mesh.X) == 0;
     rg_status s = rg_triangles_init(mem, &m->mesh, &b->t);
