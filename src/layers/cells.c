@@ -222,6 +222,8 @@ rg_status rg_cells_init(rg_cells *c, const rg_memory *mem, const rg_mesh *m, con
             of_facet[g].high = (rg_vec2){fmax(of_facet[g].high.x, b.high.x), fmax(of_facet[g].high.y, b.high.y)};
         }
     }
+    list *lists[] = {&along, &across, &over}; /* arrays, also where nothing is in them */
+    for (int i = 0; s == RG_OK && i < 3; i++) s = rg_mem_grow(mem, (void **)&lists[i]->item, &lists[i]->room, 1, sizeof *along.item);
     if (s == RG_OK) s = walk_segments(c, m, f, of_facet, &along, &across);
     if (s == RG_OK) s = walk_cells(c, m, f, of_facet, &over);
     c->along = along.item, c->across = across.item, c->over = over.item;

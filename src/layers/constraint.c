@@ -126,6 +126,7 @@ static int is_same(const rg_constraint_case *p, const rg_constraint_case *q)
 static void drop_doubles(rg_constraints *k)
 {
     int32_t n = 0;
+    if (k->count == 0) return;
     qsort(k->item, (size_t)k->count, sizeof *k->item, by_facets);
     for (int32_t i = 0; i < k->count; i++)
         if (n == 0 || !is_same(&k->item[n - 1], &k->item[i])) k->item[n++] = k->item[i];

@@ -336,17 +336,18 @@ static void flat_folding(const rg_layers *l, FILE *out)
     rg_layers_info i;
     if (!l) return;
     rg_layers_get_info(l, &i);
-    fprintf(out, "layers      ");
+    fprintf(out, "folded flat ");
     switch (i.state) {
     case RG_LAYERS_VALID:
-        fprintf(out, "folds flat in %s %s of %d facets", i.count, strcmp(i.count, "1") == 0 ? "order" : "orders", (int)i.facets);
+        fprintf(out, "%s %s of its %d %s", i.count, strcmp(i.count, "1") == 0 ? "layer order" : "layer orders", (int)i.facets,
+                plural(i.facets, "facet", "facets"));
         for (int32_t k = 0; i.parts > 1 && k < i.parts; k++)
             fprintf(out, "%s%.0f", k ? " x " : ": ", (double)rg_layers_part(l, k));
         fputc('\n', out);
         break;
-    case RG_LAYERS_NONE: fprintf(out, "no flat folding: %s\n", i.reason); break;
+    case RG_LAYERS_NONE: fprintf(out, "no layer order: %s\n", i.reason); break;
     case RG_LAYERS_UNSOLVED: fprintf(out, "not solved: %s\n", i.reason); break;
-    case RG_LAYERS_NOT_FLAT: fprintf(out, "its end is not flat: %s\n", i.reason); break;
+    case RG_LAYERS_NOT_FLAT: fprintf(out, "not meant to be: %s\n", i.reason); break;
     }
 }
 
