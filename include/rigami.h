@@ -125,6 +125,7 @@ typedef struct rg_settings {
     int32_t fixed_facet;          /* facet that stays where it is; -1: the one nearest the centre */
     const char *const *kind;      /* what lines of a drawing are, "KEY=KIND" each: KEY a colour, layer, name or dash, KIND border, */
     int32_t kinds;                /* cut, mountain, valley, unassigned, aux or none; the last that fits counts; borrowed; none */
+    double unit;                  /* metres in a unit of the file, where that does not say it or says it wrongly; 0: as it says */
     int32_t sheet;                /* of a drawing with several sheets, the one to take, from 1, in the order of the file; 0: there is one */
 } rg_settings;
 
@@ -204,7 +205,7 @@ typedef void (*rg_warning)(void *ctx, const rg_diag *warning);
 
 /* One crease pattern file to another: every line and its assignment, titles, fold angles, as far as the format holds them; what
  * it does not hold is told to `warn` (may be NULL). "-" is standard input and output. `to`: the format of `out`, AUTO: by its
- * extension; .opx, .cp, .fold and .svg are written. Lines stay where they are to 1e-9 of the size, unless s->merge is other
+ * extension; .opx, .cp, .fold, .svg and .dxf are written. Lines stay where they are to 1e-9 of the size, unless s->merge is other
  * than the default. s: also memory, format, file_frame, flip, targets. RG_EREAD, RG_EFORMAT: of `in`; RG_EARG: no format that
  * is written; RG_EWRITE: of `out`, which is written whole or not at all. */
 RG_API rg_status rg_convert(const char *in, const char *out, rg_format to, const rg_settings *s, rg_warning warn, void *ctx,
@@ -440,6 +441,7 @@ typedef struct rg_picture {
     rg_colouring colour;             /* what the colours of facets tell; paper */
     double fps;                      /* of animations: frames a second, 0.01 ... 1000; 30 */
     double hold;                     /* seconds for which an animation stands still at its end, 0 ... 60; 1 */
+    double thickness;                /* of the paper in models to print (.stl), in units of the file; 0: none, a surface; 0 */
     rg_loop loop;                    /* of animations: there and back for ever, forwards for ever, or once; back */
 } rg_picture;
 

@@ -724,7 +724,12 @@ static void patterns_are_converted(void **state)
     assert_string_equal(one, slurp("straight.cp", two));
     assert_int_equal(lines_in(one), 8 + 4); /* four sides, cut by four creases */
     says(ends(2, run("convert", "good.opx")), "rigami: ", "-o");
-    says(ends(2, run("convert", "good.opx", "-o", "lost.dxf")), "rigami: ", "dxf");
+    ends(0, run("convert", "good.opx", "-o", "chain.dxf", "-q"));
+    json_t *cut = json_loads(ends(0, run("info", "--json", "chain.dxf"))->out, 0, NULL);
+    assert_int_equal(json_integer_value(json_object_get(cut, "mountains")), 3);
+    assert_int_equal(json_integer_value(json_object_get(cut, "valleys")), 1);
+    json_decref(cut);
+    says(ends(2, run("convert", "good.opx", "-o", "lost.ori")), "rigami: ", "ori");
     says(ends(2, run("convert", "good.opx", "-o", "lost.pdf")), "rigami: ", "");
     says(ends(2, run("convert", "good.opx", "-o", "lost.cp", "--as", "pdf")), "rigami: --as: ", "pdf");
     says(ends(2, run("convert", "missing.opx", "-o", "lost.cp")), "rigami: missing.opx: ", strerror(ENOENT));

@@ -368,6 +368,47 @@ static double f32(const char *bytes)
 
 static rg_vec3 f32_vector(const char *bytes) { return (rg_vec3){f32(bytes), f32(bytes + 4), f32(bytes + 8)}; }
 
+/* With a thickness, the surface is closed: every side of a triangle is that of one other, the other way round; and it holds the
+ * sheet's area times the thickness, but for what is inside and outside of folds, which cancels. */
+static void stl_with_a_thickness_is_a_solid(void **state)
+{
+    (void)state;
+    rg_motion *m = sample(0);
+    rg_picture p = rg_picture_default();
+    char path[300];
+    rg_diag why;
+    p.thickness = 0.01 * m->mesh.size;
+    assert_int_equal(rg_motion_write(m, written_path("x.stl", path), &p, &why), RG_OK);
+    size_t n;
+    char *bytes = written_read("x.stl", &n);
+    const uint32_t triangles = u32(bytes + 80);
+    assert_int_equal(n, 84 + 50 * (size_t)triangles);
+    double volume = 0, area = 0;
+    for (uint32_t i = 0; i < triangles; i++) {
+        const rg_vec3 a = f32_vector(bytes + 84 + 50 * i + 12), b = f32_vector(bytes + 84 + 50 * i + 24), c = f32_vector(bytes + 84 + 50 * i + 36);
+        volume += rg_vec3_dot(a, rg_vec3_cross(b, c)) / 6;
+        for (int k = 0; k < 3; k++) {
+            const char *from = bytes + 84 + 50 * i + 12 + 12 * k, *to = bytes + 84 + 50 * i + 12 + 12 * ((k + 1) % 3);
+            int there = 0, back = 0;
+            for (uint32_t j = 0; j < triangles; j++)
+                for (int q = 0; q < 3; q++) {
+                    const char *u = bytes + 84 + 50 * j + 12 + 12 * q, *v = bytes + 84 + 50 * j + 12 + 12 * ((q + 1) % 3);
+                    there += memcmp(u, from, 12) == 0 && memcmp(v, to, 12) == 0;
+                    back += memcmp(u, to, 12) == 0 && memcmp(v, from, 12) == 0;
+                }
+            assert_int_equal(there, 1);
+            assert_int_equal(back, 1);
+        }
+    }
+    for (int32_t f = 0; f < m->mesh.nf; f++)
+        for (int32_t j = m->mesh.facet_start[f] + 1; j + 1 < m->mesh.facet_start[f + 1]; j++)
+            area += rg_vec2_turn(m->mesh.X[m->mesh.facet_vertex[m->mesh.facet_start[f]]], m->mesh.X[m->mesh.facet_vertex[j]],
+                                 m->mesh.X[m->mesh.facet_vertex[j + 1]]) / 2;
+    near(volume, area * p.thickness, 0.02 * area * p.thickness);
+    free(bytes);
+    rg_motion_destroy(m);
+}
+
 /* An L-shaped facet, so that cutting it at a wrong corner would show in the area. */
 static void stl_has_the_area_of_the_sheet(void **state)
 {
@@ -762,7 +803,7 @@ static void page_poses_facets(void **state)
 
 /* ------------------------------------------------------------------------------------- paths and failures ---- */
 
-static const char *const FORMS[] = {"x.csv", "x.fold", "x.obj", "x.stl", "x.svg", "x.glb", "x.gltf", "x.html"};
+static const char *const FORMS[] = {"x.csv", "x.fold", "x.obj", "x.stl", "x.svg", "x.glb", "x.gltf", "x.html", "x.dxf"};
 enum { FORM_COUNT = sizeof FORMS / sizeof *FORMS };
 
 static void paths_are_checked(void **state)
@@ -878,7 +919,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fold_keeps_lengths_and_angles), cmocka_unit_test(fold_shows_the_adjusted_pattern),
         cmocka_unit_test(fold_has_added_creases),        cmocka_unit_test(csv_is_a_table),
-        cmocka_unit_test(obj_is_one_frame_or_each),      cmocka_unit_test(stl_has_the_area_of_the_sheet),
+        cmocka_unit_test(obj_is_one_frame_or_each),      cmocka_unit_test(stl_with_a_thickness_is_a_solid), cmocka_unit_test(stl_has_the_area_of_the_sheet),
         cmocka_unit_test(gltf_turns_facets),             cmocka_unit_test(gltf_morphs_an_adjusted_sheet),
         cmocka_unit_test(svg_marks_what_locks),          cmocka_unit_test(svg_draws_what_was_added_and_moved),
         cmocka_unit_test(page_poses_facets),             cmocka_unit_test(paths_are_checked),

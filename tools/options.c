@@ -48,6 +48,9 @@ static const char *const loops[] = {[RG_LOOP_BACK] = "back", [RG_LOOP_FORWARD] =
 static const char *const contacts[] = {[RG_CONTACT_AVOID] = "avoid", [RG_CONTACT_REPORT] = "report",
                                        [RG_CONTACT_IGNORE] = "ignore", NULL};
 
+static const char *const units[] = {"file", "mm", "cm", "m", "in", "pt", NULL};
+static const double metres[] = {0, 1e-3, 0.01, 1, 0.0254, 0.0254 / 72}; /* by place in `units` */
+
 #define AT(field) offsetof(options, field)
 #define READS (FOR_FOLD | FOR_INFO | FOR_CONVERT | FOR_CHART | FOR_VERIFY)
 #define EVERY (READS | FOR_GEN | FOR_DRAW)
@@ -88,7 +91,7 @@ static const rule rules[] = {
     {READS, "from", 0, "FORMAT", CHOICE, AT(format), 0, 0, 1, formats,
      "the input's format; auto: by content, then by name (auto):"},
     {FOR_CONVERT, "as", 0, "FORMAT", CHOICE, AT(as), 0, 0, 1, formats,
-     "the output's format; auto: by its name; dxf is read only (auto):"},
+     "the output's format; auto: by its name; ori is read only (auto):"},
     {FOR_FOLD, "frame", 0, "K[-L]", FRAMES, 0, NOTHING,
      "FOLD files: the frame to read, 0 is the key frame (the first crease pattern); several, such as 1-4, 1,3 or all, are states of one sheet"},
     {FOR_INFO | FOR_CONVERT | FOR_CHART, "frame", 0, "K", WHOLE, AT(settings.file_frame), 0, INT32_MAX, 1, NULL,
@@ -118,6 +121,10 @@ static const rule rules[] = {
     {PICTURES, "caption", 0, NULL, SWITCH, AT(picture.caption), 1, 0, 1, NULL, "pictures: title and percent at their lower edge"},
     {PICTURES, "image", 0, "FILE", TEXT, AT(picture.image), NOTHING, "pictures: a PNG printed on the paper's front"},
     {PICTURES, "colour", 0, "BY", CHOICE, AT(colour), 0, 0, 1, colourings, "pictures: what the colours of facets tell (paper):"},
+    {PICTURES, "thickness", 0, "T", REAL, AT(picture.thickness), 0, 1e9, 1, NULL,
+     ".stl: plates so thick, in units of the file, joined at the creases: one closed solid to print (0: a surface)"},
+    {READS | FOR_DRAW, "unit", 0, "UNIT", CHOICE, AT(unit), 0, 0, 1, units,
+     "what a unit of the file is, where it does not say so; models, drawings and cutters' files come out in that size (file):"},
     {PICTURES, "fps", 0, "N", REAL, AT(picture.fps), 0.01, 1000, 1, NULL, "animations: frames a second (30)"},
     {PICTURES, "loop", 0, "HOW", CHOICE, AT(loop), 0, 0, 1, loops,
      "animations: there and back, forward over and over, or once (back):"},
@@ -468,6 +475,7 @@ static int only_animations(const options *o)
 static void settle(options *o)
 {
     o->settings.format = (rg_format)o->format;
+    o->settings.unit = metres[o->unit];
     o->settings.method = (rg_method)o->method;
     o->settings.solver = (rg_solver)o->solver;
     o->settings.triangulate = (rg_triangulation)o->triangulate;

@@ -28,6 +28,7 @@ typedef struct options {
     int help, version;                                    /* asked for: nothing after it was looked at */
     int format, method, solver, triangulate, symmetry, pace, effort, contact; /* places in the lists of names; in `settings` at the end */
     int colour, loop;                                     /* the same, of pictures */
+    int unit;                                             /* place in a list of names too; in `settings` at the end */
     int as;                                               /* of convert: the output's format, the same */
 } options;
 

@@ -25,7 +25,7 @@ static const char fold_notes[] =
     "  x.glb x.gltf                 one animated model\n"
     "  x.fold                       FOLD 1.2, the motion in file_frames\n"
     "  x.csv                        fold angles in degrees, a row a frame, a column a crease\n"
-    "  x.svg                        the crease pattern as folded\n"
+    "  x.svg x.dxf                  the crease pattern as folded; dxf: a layer a kind, for cutters\n"
     "  x.html                       a page to turn, fold and unfold it, all in one file\n"
     "Without -o it folds and says how it went. Several IN are states of one sheet: the motion goes from\n"
     "the first, folded, through all of them.\n\n" STATUSES;
@@ -37,7 +37,7 @@ static const command commands[] = {
      "said of it; 2 when not.\n",
      cmd_info},
     {"convert", FOR_CONVERT, "IN -o OUT", 1, 1, "Converts a crease pattern from one format to another.",
-     "IN is .opx, .cp, .fold, .svg or .dxf, - standard input; OUT is .opx, .cp, .fold or .svg. What\n"
+     "IN is .opx, .cp, .fold, .svg, .dxf or .ori, - standard input; OUT is any of these but .ori. What\n"
      "OUT cannot hold is told. Lines stay where they are to 1e-9 of the sheet, unless --merge asks\n"
      "for joining ends. Exit status: 0 when it was written; 2 when IN cannot be read; 3 when OUT\n"
      "cannot be written.\n",

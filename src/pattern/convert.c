@@ -5,6 +5,7 @@
 #include "pattern/planar.h"
 #include "read/read.h"
 #include "save/cp.h"
+#include "save/dxf.h"
 #include "save/fold.h"
 #include "save/opx.h"
 #include "save/svg.h"
@@ -42,7 +43,7 @@ static rg_status warn_of_losses(rg_lines *l, rg_format to, const char *name)
     if (s == RG_OK && to != RG_FORMAT_FOLD) s = lose(l, first[2], targets, name, "such fold angles");
     const int texts = (l->title != NULL) + (l->author != NULL) + (l->memo != NULL);
     const int more = (l->editor != NULL) + (l->reference != NULL);
-    if (s == RG_OK && to == RG_FORMAT_CP) s = lose(l, 0, texts + more, name, "title, author and other texts");
+    if (s == RG_OK && (to == RG_FORMAT_CP || to == RG_FORMAT_DXF)) s = lose(l, 0, texts + more, name, "title, author and other texts");
     if (s == RG_OK && to == RG_FORMAT_SVG) s = lose(l, 0, more, name, "editor and reference");
     return s;
 }
@@ -297,6 +298,7 @@ static rg_status write(rg_lines *l, rg_format to, const rg_settings *s, const ch
     case RG_FORMAT_OPX: return rg_opx_write(l, path, why);
     case RG_FORMAT_CP: return rg_cp_write(l, path, why);
     case RG_FORMAT_SVG: return rg_svg_write(l, path, why);
+    case RG_FORMAT_DXF: return rg_dxf_write(l, path, why);
     default: return write_fold(l, s, path, why);
     }
 }
@@ -305,9 +307,9 @@ rg_status rg_convert(const char *in, const char *out, rg_format to, const rg_set
                      rg_diag *why)
 {
     if (to == RG_FORMAT_AUTO) to = rg_read_extension(out);
-    if (to != RG_FORMAT_OPX && to != RG_FORMAT_CP && to != RG_FORMAT_FOLD && to != RG_FORMAT_SVG)
+    if (to != RG_FORMAT_OPX && to != RG_FORMAT_CP && to != RG_FORMAT_FOLD && to != RG_FORMAT_SVG && to != RG_FORMAT_DXF)
         return rg_fail(RG_EARG, why, 0, strcmp(out, "-") == 0 ? "%s: standard output has no name to tell the format by"
-                                                              : "%s: crease patterns are written as .opx, .cp, .fold or .svg", out);
+                                                              : "%s: crease patterns are written as .opx, .cp, .fold, .svg or .dxf", out);
     if (!(s->merge >= 0 && s->merge < 0.1))
         return rg_fail(RG_EARG, why, 0, "the merge tolerance is not between 0 and 0.1 of the sheet");
     rg_lines l;

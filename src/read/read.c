@@ -181,6 +181,7 @@ rg_status rg_read_bytes(const void *bytes, size_t size, const char *path, const 
     default: return rg_fail(RG_EARG, why, 0, "there is no such format");
     }
     if (status == RG_OK) status = rg_kinds_warn_unused(s, out);
+    if (status == RG_OK && s->unit > 0) out->metres = s->unit;
     if (status == RG_OK && s->flip && format != RG_FORMAT_FOLD) out->y_down = !out->y_down;
     if (status == RG_ENOMEM) return rg_fail(status, why, 0, "out of memory");
     for (int32_t i = 0; status == RG_OK && s->flip && format != RG_FORMAT_FOLD && i < out->count; i++) {

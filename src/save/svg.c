@@ -4,7 +4,7 @@
 #include "base/utf8.h"
 
 /* Parts of the drawing's size. */
-static const double MARGIN = 0.05, STROKE = 0.002;
+static const double MARGIN = 0.05, STROKE = 0.002, DASH = 0.01;
 
 static const char *colour(char assignment)
 {
@@ -41,9 +41,20 @@ static void attribute(FILE *out, const char *name, double x)
     fprintf(out, " %s=\"%s\"", name, rg_number_print(text, x));
 }
 
-static void draw(FILE *out, const rg_line *l)
+/* Mountains dash dot, valleys dashes, as folders draw them: so that they can be told apart without colours. */
+static void dashes(FILE *out, char assignment, double size)
+{
+    const double d = DASH * size;
+    char a[RG_NUMBER_ROOM], b[RG_NUMBER_ROOM], c[RG_NUMBER_ROOM];
+    rg_number_print(a, 2 * d), rg_number_print(b, d), rg_number_print(c, d / 4);
+    if (assignment == RG_MOUNTAIN) fprintf(out, " stroke-dasharray=\"%s %s %s %s\"", a, b, c, b);
+    if (assignment == RG_VALLEY) fprintf(out, " stroke-dasharray=\"%s %s\"", a, b);
+}
+
+static void draw(FILE *out, const rg_line *l, double size)
 {
     fprintf(out, "<line stroke=\"%s\"", colour(l->assignment));
+    dashes(out, l->assignment, size);
     if (isfinite(l->target) && (l->assignment == RG_MOUNTAIN || l->assignment == RG_VALLEY))
         attribute(out, "opacity", fabs(l->target) / RG_PI);
     attribute(out, "x1", l->a.x);
@@ -53,7 +64,8 @@ static void draw(FILE *out, const rg_line *l)
     fputs("/>\n", out);
 }
 
-static void open_drawing(FILE *out, const rg_lines *l)
+/* Returns the drawing's size. */
+static double open_drawing(FILE *out, const rg_lines *l)
 {
     rg_vec2 low = {0, 0}, high = low;
     for (int32_t i = 0; i < 2 * l->count; i++) {
@@ -64,6 +76,10 @@ static void open_drawing(FILE *out, const rg_lines *l)
     const double size = fmax(high.x - low.x, high.y - low.y), margin = MARGIN * size;
     char a[RG_NUMBER_ROOM], b[RG_NUMBER_ROOM], c[RG_NUMBER_ROOM], d[RG_NUMBER_ROOM];
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"", out);
+    if (l->metres > 0) { /* as large on paper as the file says */
+        fprintf(out, " width=\"%smm\"", rg_number_print(a, 1000 * l->metres * (high.x - low.x + 2 * margin)));
+        fprintf(out, " height=\"%smm\"", rg_number_print(a, 1000 * l->metres * (high.y - low.y + 2 * margin)));
+    }
     fprintf(out, " viewBox=\"%s %s %s %s\">\n",
             rg_number_print(a, low.x - margin), rg_number_print(b, -high.y - margin),
             rg_number_print(c, high.x - low.x + 2 * margin), rg_number_print(d, high.y - low.y + 2 * margin));
@@ -73,6 +89,7 @@ static void open_drawing(FILE *out, const rg_lines *l)
     fputs("<g fill=\"none\" stroke-linecap=\"round\"", out);
     attribute(out, "stroke-width", STROKE * size);
     fputs(">\n", out);
+    return size;
 }
 
 rg_status rg_svg_write(const rg_lines *l, const char *path, rg_diag *why)
@@ -80,8 +97,8 @@ rg_status rg_svg_write(const rg_lines *l, const char *path, rg_diag *why)
     rg_file f;
     rg_status s = rg_file_begin(&f, &l->mem, path, why);
     if (s != RG_OK) return s;
-    open_drawing(f.stream, l);
-    for (int32_t i = 0; i < l->count; i++) draw(f.stream, &l->line[i]);
+    const double size = open_drawing(f.stream, l);
+    for (int32_t i = 0; i < l->count; i++) draw(f.stream, &l->line[i], size);
     fputs("</g>\n</svg>\n", f.stream);
     return rg_file_commit(&f, why);
 }

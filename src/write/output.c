@@ -3,6 +3,7 @@
 #include "base/status.h"
 #include "render/camera.h"
 #include "write/csv.h"
+#include "write/dxffile.h"
 #include "write/film.h"
 #include "write/foldfile.h"
 #include "write/gltf.h"
@@ -22,6 +23,7 @@ typedef struct form {
 } form;
 
 static const form FORMS[] = {
+    {".dxf", 0, rg_dxffile_write},
     {".csv", 0, rg_csv_write},      {".fold", 0, rg_foldfile_write},  {".glb", 0, rg_gltf_write_binary},
     {".gltf", 0, rg_gltf_write},    {".html", 0, rg_html_write},      {".obj", 1, rg_obj_write},
     {".stl", 1, rg_stl_write},      {".svg", 0, rg_svgfile_write},
@@ -45,7 +47,7 @@ static rg_status find_form(const char *path, const form **found, rg_diag *why)
     if (strcmp(path, "-") == 0)
         return rg_fail(RG_EARG, why, 0, "standard output has no extension that says what to write: name a file");
     return rg_fail(RG_EARG, why, 0, "%.80s: no such form of output; there are DIR/ NAME-%%04d.png .png .gif .apng .mp4 "
-                   ".webm .obj .stl .glb .gltf .fold .csv .svg .html", path);
+                   ".webm .obj .stl .glb .gltf .fold .csv .svg .dxf .html", path);
 }
 
 rg_status rg_output_check(const char *path, rg_diag *why)

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Of the sheet's size. */
-static const double MARGIN = 0.03, LINE = 0.0025, RING = 0.012, DISC = 0.007;
+static const double MARGIN = 0.03, LINE = 0.0025, RING = 0.012, DISC = 0.007, DASH = 0.01;
 static const double PIXELS = 800;
 
 static void escaped(const char *text, FILE *out)
@@ -83,8 +83,9 @@ static void head(const rg_motion *m, FILE *out)
     const double scale = PIXELS / fmax(width, height);
     char a[RG_NUMBER_ROOM], b[RG_NUMBER_ROOM], c[RG_NUMBER_ROOM], d[RG_NUMBER_ROOM];
     fputs("<svg xmlns=\"http://www.w3.org/2000/svg\"", out);
-    attribute("width", scale * width, out);
-    attribute("height", scale * height, out);
+    const double unit = r->pattern.unit; /* as large on paper as the file says, else as fits a screen */
+    fprintf(out, " width=\"%s%s\"", rg_number_print(a, unit > 0 ? 1000 * unit * width : scale * width), unit > 0 ? "mm" : "");
+    fprintf(out, " height=\"%s%s\"", rg_number_print(a, unit > 0 ? 1000 * unit * height : scale * height), unit > 0 ? "mm" : "");
     fprintf(out, " viewBox=\"%s %s %s %s\">\n<title>", rg_number_print(a, low.x - margin),
             rg_number_print(b, -high.y - margin), rg_number_print(c, width), rg_number_print(d, height));
     escaped(m->title && *m->title ? m->title : "crease pattern", out);
@@ -93,6 +94,15 @@ static void head(const rg_motion *m, FILE *out)
     if (*r->reason) fputs(": ", out);
     escaped(r->reason, out);
     fputs("</desc>\n", out);
+}
+
+/* Mountains dash dot, valleys dashes, as folders draw them. */
+static void dashes(char assignment, double size, FILE *out)
+{
+    char a[RG_NUMBER_ROOM], b[RG_NUMBER_ROOM], c[RG_NUMBER_ROOM];
+    rg_number_print(a, 2 * DASH * size), rg_number_print(b, DASH * size), rg_number_print(c, DASH * size / 4);
+    if (assignment == RG_MOUNTAIN) fprintf(out, " stroke-dasharray=\"%s %s %s %s\"", a, b, c, b);
+    if (assignment == RG_VALLEY) fprintf(out, " stroke-dasharray=\"%s %s\"", a, b);
 }
 
 static void lines(const rg_motion *m, const rg_vec2 *X, FILE *out)
@@ -106,7 +116,9 @@ static void lines(const rg_motion *m, const rg_vec2 *X, FILE *out)
     attribute("stroke-width", LINE * mesh->size, out);
     fputs(">\n", out);
     for (size_t k = 0; k < sizeof kind / sizeof *kind; k++) {
-        fprintf(out, "<g id=\"%s\" stroke=\"%s\">\n", kind[k].id, kind[k].colour);
+        fprintf(out, "<g id=\"%s\" stroke=\"%s\"", kind[k].id, kind[k].colour);
+        dashes(kind[k].assignment, mesh->size, out);
+        fputs(">\n", out);
         for (int32_t e = 0; e < mesh->ne; e++) {
             if (mesh->assignment[e] != kind[k].assignment) continue;
             const rg_vec2 a = X[mesh->edge[e][0]], b = X[mesh->edge[e][1]];
