@@ -10,6 +10,7 @@
 #include "near.h"
 #include "counted.h"
 #include "motions.h"
+#include "write/png.h"
 #include "written.h"
 
 #include <jansson.h>
@@ -631,6 +632,62 @@ static void gltf_turns_facets(void **state)
     check_gltf(0);
 }
 
+/* The front has the picture's file for a texture, each corner its place in the pattern's box, the picture's top at +y; the back has none.
+ * What is no picture is named, and nothing is written. */
+static void check_print(int adjusted)
+{
+    rg_motion *m = sample(adjusted);
+    const rg_mesh *mesh = &m->mesh;
+    static const unsigned char rgb[12] = {200, 10, 10, 10, 200, 10, 10, 10, 200, 90, 90, 90};
+    char path[300], image[300];
+    rg_picture p = rg_picture_default();
+    rg_diag why = {0, ""};
+    FILE *f = fopen(written_path("print.png", image), "wb");
+    assert_non_null(f);
+    assert_int_equal(rg_png_write(f, 2, 2, rgb, NULL), RG_OK);
+    fclose(f);
+    p.image = image;
+    if (rg_motion_write(m, written_path("x.glb", path), &p, &why) != RG_OK) fail_msg("%s", why.text);
+    model g = read_glb("x.glb");
+    size_t size;
+    char *file = written_read("print.png", &size);
+    const json_t *view = json_array_get(get(g.json, "bufferViews"), (size_t)integer(json_array_get(get(g.json, "images"), 0), "bufferView"));
+    assert_int_equal(integer(view, "byteLength"), size);
+    assert_memory_equal(g.bytes + integer(view, "byteOffset"), file, size);
+    rg_vec2 low = mesh->X[0], high = mesh->X[0];
+    for (int32_t v = 1; v < mesh->nv; v++) {
+        low = (rg_vec2){fmin(low.x, mesh->X[v].x), fmin(low.y, mesh->X[v].y)};
+        high = (rg_vec2){fmax(high.x, mesh->X[v].x), fmax(high.y, mesh->X[v].y)};
+    }
+    for (int32_t i = 0; i < (adjusted ? 1 : mesh->nf); i++) {
+        const json_t *both = get(json_array_get(get(g.json, "meshes"), (size_t)i), "primitives");
+        const int32_t print = integer(get(json_array_get(both, 0), "attributes"), "TEXCOORD_0");
+        assert_null(json_object_get(get(json_array_get(both, 1), "attributes"), "TEXCOORD_0"));
+        const int32_t from = adjusted ? 0 : mesh->facet_start[i], n = adjusted ? mesh->nv : mesh->facet_start[i + 1] - from;
+        for (int32_t k = 0; k < n; k++) {
+            const rg_vec2 x = mesh->X[adjusted ? k : mesh->facet_vertex[from + k]];
+            const char *at = element(&g, print, (size_t)k);
+            near(low.x + f32(at) * (high.x - low.x), x.x, 1e-6 * mesh->size);
+            near(high.y - f32(at + 4) * (high.y - low.y), x.y, 1e-6 * mesh->size);
+        }
+    }
+    p.image = "patterns/bird.opx";
+    assert_int_equal(rg_motion_write(m, written_path("none.glb", path), &p, &why), RG_EREAD);
+    assert_non_null(strstr(why.text, "patterns/bird.opx"));
+    assert_int_not_equal(access(path, F_OK), 0);
+    free(file);
+    json_decref(g.json);
+    free(g.bytes);
+    rg_motion_destroy(m);
+}
+
+static void gltf_has_what_is_printed(void **state)
+{
+    (void)state;
+    check_print(0);
+    check_print(1);
+}
+
 static void gltf_morphs_an_adjusted_sheet(void **state)
 {
     (void)state;
@@ -922,6 +979,7 @@ int main(void)
         cmocka_unit_test(obj_is_one_frame_or_each),      cmocka_unit_test(stl_with_a_thickness_is_a_solid), cmocka_unit_test(stl_has_the_area_of_the_sheet),
         cmocka_unit_test(gltf_turns_facets),             cmocka_unit_test(gltf_morphs_an_adjusted_sheet),
         cmocka_unit_test(svg_marks_what_locks),          cmocka_unit_test(svg_draws_what_was_added_and_moved),
+        cmocka_unit_test(gltf_has_what_is_printed),
         cmocka_unit_test(page_poses_facets),             cmocka_unit_test(paths_are_checked),
         cmocka_unit_test(good_files_survive),            cmocka_unit_test(memory_may_fail_anywhere),
         cmocka_unit_test(bytes_are_repeated)};

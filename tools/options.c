@@ -119,7 +119,7 @@ static const rule rules[] = {
      "pictures: how much light passes a facet, in percent (0)"},
     {PICTURES, "no-shadow", 0, NULL, SWITCH, AT(picture.shadow), 0, 0, 1, NULL, "pictures: no shadow on the floor"},
     {PICTURES, "caption", 0, NULL, SWITCH, AT(picture.caption), 1, 0, 1, NULL, "pictures: title and percent at their lower edge"},
-    {PICTURES, "image", 0, "FILE", TEXT, AT(picture.image), NOTHING, "pictures: a PNG printed on the paper's front"},
+    {PICTURES, "image", 0, "FILE", TEXT, AT(picture.image), NOTHING, "pictures, .html, .glb, .gltf: a PNG printed on the paper's front"},
     {PICTURES, "colour", 0, "BY", CHOICE, AT(colour), 0, 0, 1, colourings, "pictures: what the colours of facets tell (paper):"},
     {PICTURES, "thickness", 0, "T", REAL, AT(picture.thickness), 0, 1e9, 1, NULL,
      ".stl: plates so thick, in units of the file, joined at the creases: one closed solid to print (0: a surface)"},

@@ -4,6 +4,7 @@
 #include "base/json.h"
 #include "pose/turn.h"
 #include "render/triangles.h"
+#include "write/png.h"
 
 #include <string.h>
 
@@ -11,8 +12,9 @@ enum { FLOAT = 5126, UINT = 5125, VERTICES = 34962, INDICES = 34963 };
 enum { FRONT, BACK };
 static const double ROUGHNESS = 0.9;
 
-/* Parts of the buffer. What moves is turns and shifts of facets, or displacements of vertices and their weights. */
-enum { POSITIONS, NORMALS, TRIANGLES, TIMES, TURNS, SHIFTS, PARTS, DISPLACEMENTS = TURNS, WEIGHTS = SHIFTS };
+/* Parts of the buffer. What moves is turns and shifts of facets, or displacements of vertices and their weights. The last two are there
+ * where a picture is printed on the front: where it is on the paper, and its file. */
+enum { POSITIONS, NORMALS, TRIANGLES, TIMES, TURNS, SHIFTS, PRINT, IMAGE, PARTS, DISPLACEMENTS = TURNS, WEIGHTS = SHIFTS };
 
 typedef struct model {
     const rg_motion *m;
@@ -31,6 +33,9 @@ typedef struct model {
     int32_t *normals_of;     /* [most + 1] accessor of that many normals to the front, to the back: the next; 0: none */
     int32_t most;            /* corners of a facet */
     int32_t accessors;
+    unsigned char *image;    /* the picture's file; NULL: none */
+    size_t image_bytes;
+    int32_t print;           /* accessor of places in the picture: of the first facet, or of all vertices */
 } model;
 
 /* ------------------------------------------------------------------------------------------------ bytes ---- */
@@ -46,8 +51,10 @@ static void lay_out(model *g)
 {
     const size_t nf = (size_t)g->mesh->nf, nv = (size_t)g->mesh->nv, nt = (size_t)g->t.start[nf], frames = (size_t)g->frames;
     const size_t size_of_facets[PARTS] = {12 * (size_t)g->mesh->facet_start[nf], 24 * (size_t)g->most, 24 * nt, 4 * frames,
-                                          16 * nf * frames, 12 * nf * frames};
-    const size_t size_of_morphs[PARTS] = {12 * nv, 0, 24 * nt, 4 * frames, 12 * nv * (frames - 1), 4 * (frames - 1) * frames};
+                                          16 * nf * frames, 12 * nf * frames, g->image ? 8 * (size_t)g->mesh->facet_start[nf] : 0,
+                                          (g->image_bytes + 3) / 4 * 4};
+    const size_t size_of_morphs[PARTS] = {12 * nv, 0, 24 * nt, 4 * frames, 12 * nv * (frames - 1), 4 * (frames - 1) * frames,
+                                          g->image ? 8 * nv : 0, (g->image_bytes + 3) / 4 * 4};
     for (int k = 0; k < PARTS; k++)
         g->start[k + 1] = g->start[k] + (g->morphs ? size_of_morphs[k] : size_of_facets[k]);
 }
@@ -144,11 +151,29 @@ static rg_status displacements(model *g)
     return s;
 }
 
+/* The pattern's box is stretched over the picture, whose first row is its upper one. */
+static void places(model *g)
+{
+    const rg_mesh *mesh = g->mesh;
+    unsigned char *to = g->bytes + g->start[PRINT];
+    rg_vec2 low = mesh->X[0], high = mesh->X[0];
+    for (int32_t v = 1; v < mesh->nv; v++) {
+        low = (rg_vec2){fmin(low.x, mesh->X[v].x), fmin(low.y, mesh->X[v].y)};
+        high = (rg_vec2){fmax(high.x, mesh->X[v].x), fmax(high.y, mesh->X[v].y)};
+    }
+    for (int32_t i = 0; i < (g->morphs ? mesh->nv : mesh->facet_start[mesh->nf]); i++) {
+        const rg_vec2 x = mesh->X[g->morphs ? i : mesh->facet_vertex[i]];
+        to = rg_bytes_f32(rg_bytes_f32(to, (x.x - low.x) / (high.x - low.x)), (high.y - x.y) / (high.y - low.y));
+    }
+    memcpy(g->bytes + g->start[IMAGE], g->image, g->image_bytes);
+}
+
 static rg_status fill(model *g)
 {
     unsigned char *time = g->bytes + g->start[TIMES];
     for (int32_t k = 0; k < g->frames; k++) time = rg_bytes_f32(time, k / g->p->fps);
     triangles(g);
+    if (g->image) places(g);
     if (g->morphs) return displacements(g);
     centres(g);
     facet_meshes(g);
@@ -159,7 +184,7 @@ static rg_status fill(model *g)
 static void model_free(model *g)
 {
     const rg_memory *mem = &g->m->mem;
-    void *block[] = {g->bytes, g->centre, g->place, g->x, g->last, g->last_turn, g->last_shift, g->normals_of};
+    void *block[] = {g->bytes, g->centre, g->place, g->x, g->last, g->last_turn, g->last_shift, g->normals_of, g->image};
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(mem, block[i]);
     rg_triangles_free(&g->t);
 }
@@ -174,6 +199,7 @@ static rg_status model_init(model *g, const rg_motion *m, const rg_picture *p)
         g->morphs |= memcmp(rg_motion_pattern(m, k), m->mesh.X, nv * sizeof *m->mesh.X) != 0;
     for (int32_t f = 0; f < m->mesh.nf; f++) g->most = corners(g->mesh, f) > g->most ? corners(g->mesh, f) : g->most;
     rg_status s = rg_triangles_init(mem, &m->mesh, &g->t);
+    if (s == RG_OK && p->image) s = rg_png_load(mem, p->image, &g->image, &g->image_bytes, NULL);
     if (s != RG_OK) return s;
     lay_out(g);
     if (g->start[PARTS] > UINT32_MAX / 2) return RG_EARG;
@@ -203,10 +229,10 @@ static float float_at(const unsigned char *at)
 /* Only parts that are there have a buffer view, in their order. */
 static int view_of(const model *g, int part) { return part - (g->morphs && part > NORMALS); }
 
-/* n elements of 1, 3 or 4 numbers each; `bounds`: say the least and the largest, as the format asks for in places. */
+/* n elements of 1 to 4 numbers each; `bounds`: say the least and the largest, as the format asks for in places. */
 static void accessor(rg_json *j, model *g, int part, size_t offset, size_t n, int width, int component, int bounds)
 {
-    static const char *const type[] = {"", "SCALAR", "", "VEC3", "VEC4"};
+    static const char *const type[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
     const unsigned char *at = g->bytes + g->start[part] + offset;
     rg_json_open_line(j, NULL, '{');
     rg_json_integer(j, "bufferView", view_of(g, part));
@@ -266,9 +292,18 @@ static void morph_accessors(rg_json *j, model *g)
     for (size_t k = 0; k < frames - 1; k++) accessor(j, g, DISPLACEMENTS, 12 * nv * k, nv, 3, FLOAT, 1);
 }
 
+/* After all others, so that their numbers are the same with and without. */
+static void print_accessors(rg_json *j, model *g)
+{
+    g->print = g->accessors;
+    if (g->morphs) accessor(j, g, PRINT, 0, (size_t)g->mesh->nv, 2, FLOAT, 0);
+    for (int32_t f = 0; f < (g->morphs ? 0 : g->mesh->nf); f++)
+        accessor(j, g, PRINT, 8 * (size_t)g->mesh->facet_start[f], (size_t)corners(g->mesh, f), 2, FLOAT, 0);
+}
+
 static void views(rg_json *j, const model *g)
 {
-    static const int target[PARTS] = {VERTICES, VERTICES, INDICES, 0, 0, 0};
+    static const int target[PARTS] = {VERTICES, VERTICES, INDICES, 0, 0, 0, VERTICES, 0};
     rg_json_open(j, "bufferViews", '[');
     for (int k = 0; k < PARTS; k++) {
         const int vertices = target[k] == VERTICES || (g->morphs && k == DISPLACEMENTS);
@@ -276,8 +311,8 @@ static void views(rg_json *j, const model *g)
         rg_json_open_line(j, NULL, '{');
         rg_json_integer(j, "buffer", 0);
         rg_json_integer(j, "byteOffset", (int64_t)g->start[k]);
-        rg_json_integer(j, "byteLength", (int64_t)(g->start[k + 1] - g->start[k]));
-        if (vertices) rg_json_integer(j, "byteStride", 12);
+        rg_json_integer(j, "byteLength", k == IMAGE ? (int64_t)g->image_bytes : (int64_t)(g->start[k + 1] - g->start[k]));
+        if (vertices) rg_json_integer(j, "byteStride", k == PRINT ? 8 : 12);
         if (vertices || target[k]) rg_json_integer(j, "target", vertices ? VERTICES : target[k]);
         rg_json_close(j);
     }
@@ -291,24 +326,47 @@ static double linear(unsigned char c)
     return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
 }
 
-static void material(rg_json *j, const char *name, const unsigned char c[3])
+static void material(rg_json *j, const char *name, const unsigned char c[3], int printed)
 {
     rg_json_open(j, NULL, '{');
     rg_json_string(j, "name", name);
     rg_json_open_line(j, "pbrMetallicRoughness", '{');
-    rg_json_numbers(j, "baseColorFactor", (const double[]){linear(c[0]), linear(c[1]), linear(c[2]), 1}, 4);
+    if (printed) {
+        rg_json_open(j, "baseColorTexture", '{');
+        rg_json_integer(j, "index", 0);
+        rg_json_close(j);
+    } else {
+        rg_json_numbers(j, "baseColorFactor", (const double[]){linear(c[0]), linear(c[1]), linear(c[2]), 1}, 4);
+    }
     rg_json_number(j, "metallicFactor", 0);
     rg_json_number(j, "roughnessFactor", ROUGHNESS);
     rg_json_close(j);
     rg_json_close(j);
 }
 
-static void primitive(rg_json *j, const model *g, int side, int32_t position, int32_t normal, int32_t indices)
+static void picture(rg_json *j, const model *g)
+{
+    rg_json_open_line(j, "images", '[');
+    rg_json_open(j, NULL, '{');
+    rg_json_integer(j, "bufferView", view_of(g, IMAGE));
+    rg_json_string(j, "mimeType", "image/png");
+    rg_json_close(j);
+    rg_json_close(j);
+    rg_json_open_line(j, "textures", '[');
+    rg_json_open(j, NULL, '{');
+    rg_json_integer(j, "source", 0);
+    rg_json_close(j);
+    rg_json_close(j);
+}
+
+/* print: accessor of places in the picture, -1: none. */
+static void primitive(rg_json *j, const model *g, int side, int32_t position, int32_t normal, int32_t indices, int32_t print)
 {
     rg_json_open_line(j, NULL, '{');
     rg_json_open(j, "attributes", '{');
     rg_json_integer(j, "POSITION", position);
     if (!g->morphs) rg_json_integer(j, "NORMAL", normal);
+    if (print >= 0) rg_json_integer(j, "TEXCOORD_0", print);
     rg_json_close(j);
     rg_json_integer(j, "indices", indices);
     rg_json_integer(j, "material", side);
@@ -331,8 +389,9 @@ static void meshes(rg_json *j, const model *g)
         rg_json_open(j, NULL, '{');
         rg_json_open(j, "primitives", '[');
         for (int side = FRONT; side <= BACK; side++) {
-            if (g->morphs) primitive(j, g, side, MORPH_POSITION, 0, MORPH_FRONT + side);
-            else primitive(j, g, side, accessor_of(f), g->normals_of[corners(g->mesh, f)] + side, accessor_of(f) + 1 + side);
+            const int32_t print = g->image && side == FRONT ? g->print + f : -1;
+            if (g->morphs) primitive(j, g, side, MORPH_POSITION, 0, MORPH_FRONT + side, print);
+            else primitive(j, g, side, accessor_of(f), g->normals_of[corners(g->mesh, f)] + side, accessor_of(f) + 1 + side, print);
         }
         rg_json_close(j);
         rg_json_close(j);
@@ -436,14 +495,16 @@ static size_t describe(model *g, const char *uri, FILE *out)
     rg_json_close(j);
     rg_json_close(j);
     rg_json_open(j, "materials", '[');
-    material(j, "front", g->p->front);
-    material(j, "back", g->p->back);
+    material(j, "front", g->p->front, g->image != NULL);
+    material(j, "back", g->p->back, 0);
     rg_json_close(j);
+    if (g->image) picture(j, g);
     rg_json_open(j, "accessors", '[');
     g->accessors = 0;
     accessor(j, g, TIMES, 0, (size_t)g->frames, 1, FLOAT, 1);
     if (g->morphs) morph_accessors(j, g);
     else facet_accessors(j, g);
+    if (g->image) print_accessors(j, g);
     rg_json_close(j);
     meshes(j, g);
     nodes(j, g);

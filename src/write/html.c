@@ -145,30 +145,20 @@ static void looks(rg_json *j, const book *b, const rg_picture *p)
     rg_json_close(j);
 }
 
-/* The printed image as it is in its file, once it is known to be one. */
 static rg_status image(rg_json *j, const book *b, const rg_picture *p)
 {
-    unsigned char *rgba = NULL;
-    int32_t width, height;
-    if (!p->image) return RG_OK;
-    rg_status s = rg_png_read(&b->m->mem, p->image, &width, &height, &rgba, NULL);
-    rg_mem_free(&b->m->mem, rgba);
-    FILE *f = s == RG_OK ? fopen(p->image, "rb") : NULL;
+    const rg_memory *mem = &b->m->mem;
     unsigned char *all = NULL;
-    size_t room = 0, n = 0, got = 1;
-    if (s == RG_OK && !f) s = RG_EREAD;
-    while (s == RG_OK && got > 0) {
-        s = rg_mem_grow(&b->m->mem, (void **)&all, &room, n + 4096, 1);
-        if (s == RG_OK) n += got = fread(all + n, 1, room - n, f);
-    }
-    if (s == RG_OK && ferror(f)) s = RG_EREAD;
-    if (f) fclose(f);
-    char *text = s == RG_OK ? rg_base64_text(&b->m->mem, "", all, n) : NULL;
+    size_t n = 0;
+    if (!p->image) return RG_OK;
+    const rg_status s = rg_png_load(mem, p->image, &all, &n, NULL);
+    if (s != RG_OK) return s;
+    char *text = rg_base64_text(mem, "", all, n);
     if (text) rg_json_string(j, "image", text);
-    else if (s == RG_OK) s = RG_ENOMEM;
-    rg_mem_free(&b->m->mem, text);
-    rg_mem_free(&b->m->mem, all);
-    return s;
+    rg_mem_free(mem, all);
+    if (!text) return RG_ENOMEM;
+    rg_mem_free(mem, text);
+    return RG_OK;
 }
 
 static rg_status data(book *b, const rg_picture *p, FILE *out)

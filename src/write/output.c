@@ -10,6 +10,7 @@
 #include "write/html.h"
 #include "write/numbered.h"
 #include "write/obj.h"
+#include "write/png.h"
 #include "write/stl.h"
 #include "write/svgfile.h"
 
@@ -81,6 +82,17 @@ static rg_status write_each(const rg_motion *m, const form *f, const rg_numbered
     return s;
 }
 
+/* What is to be printed is looked at before anything is written, so that it is named where it is no picture. */
+static rg_status check_image(const rg_motion *m, const char *path, rg_diag *why)
+{
+    unsigned char *bytes = NULL;
+    size_t n = 0;
+    rg_diag found = {0, ""};
+    const rg_status s = rg_png_load(&m->mem, path, &bytes, &n, &found);
+    rg_mem_free(&m->mem, bytes);
+    return s == RG_OK ? s : rg_fail(s, why, 0, "%.100s: %s", path, found.text);
+}
+
 rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_picture *picture, rg_diag *why)
 {
     const rg_picture usual = rg_picture_default(), *p = picture ? picture : &usual;
@@ -89,6 +101,7 @@ rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_picture
     if (rg_film_is_form(path)) return rg_film_write(m, path, p, why);
     rg_status s = find_form(path, &f, why);
     if (s == RG_OK) s = rg_camera_check(p, why); /* models and pages have its colours, view and pace */
+    if (s == RG_OK && p->image) s = check_image(m, p->image, why);
     if (s != RG_OK) return s;
     return rg_numbered_find(path, &n) ? write_each(m, f, &n, p, why)
                                       : write_one(m, f, m->report.frame_count - 1, p, path, why);

@@ -122,3 +122,26 @@ rg_status rg_png_read(const rg_memory *mem, const char *path, int32_t *width, in
     else *rgba = pixels;
     return s;
 }
+
+rg_status rg_png_load(const rg_memory *mem, const char *path, unsigned char **bytes, size_t *n, rg_diag *why)
+{
+    unsigned char *rgba = NULL, *all = NULL;
+    int32_t width, height;
+    rg_status s = rg_png_read(mem, path, &width, &height, &rgba, why);
+    if (s != RG_OK) return s;
+    rg_mem_free(mem, rgba);
+    FILE *file = fopen(path, "rb");
+    if (!file) return rg_fail(RG_EREAD, why, 0, "%s", strerror(errno));
+    enum { PIECE = 65536 };
+    size_t room = 0, used = 0;
+    for (size_t got = 1; s == RG_OK && got > 0; used += got) {
+        s = rg_mem_grow(mem, (void **)&all, &room, used + PIECE, 1);
+        got = s == RG_OK ? fread(all + used, 1, PIECE, file) : 0;
+    }
+    if (s == RG_ENOMEM) rg_fail(s, why, 0, "out of memory for the picture");
+    else if (ferror(file)) s = rg_fail(RG_EREAD, why, 0, "%s", strerror(errno));
+    fclose(file);
+    if (s != RG_OK) rg_mem_free(mem, all);
+    else *bytes = all, *n = used;
+    return s;
+}

@@ -17,4 +17,7 @@ rg_status rg_png_write(FILE *file, int32_t width, int32_t height, const unsigned
  * why->text says what; RG_ENOMEM. */
 rg_status rg_png_read(const rg_memory *mem, const char *path, int32_t *width, int32_t *height, unsigned char **rgba, rg_diag *why);
 
+/* The file's own bytes, once it is known to be such a picture. bytes: out, owner: the caller, rg_mem_free. As above. */
+rg_status rg_png_load(const rg_memory *mem, const char *path, unsigned char **bytes, size_t *n, rg_diag *why);
+
 #endif
