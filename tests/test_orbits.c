@@ -25,6 +25,7 @@ static rg_motion *folded(const char *kind, int32_t n)
     rg_motion *m = NULL;
     rg_diag why;
     s.frames = 9;
+    s.contact = RG_CONTACT_REPORT; /* facets may pass through each other: what is looked for is symmetry */
     assert_int_equal(rg_generate_lines(kind, n, 0, 0, &mem, &l, NULL), RG_OK);
     rg_pattern *p = pattern_of(&l);
     if (rg_motion_create(p, &s, NULL, NULL, &m, &why) != RG_OK) fail_msg("%s", why.text);
@@ -77,9 +78,8 @@ static void agrees(const rg_motion *m, int32_t k, int kawasaki, unsigned *seed)
     const double all = rg_joint_assemble(&s.J, rg_motion_angles(m, k), u, NULL);
     below(all, 1e-8);
     near(some, all, 1e-8);
-    memset(s.J.r, 0, (size_t)rows * sizeof *s.J.r); /* what it does not close by is not what is looked at */
     rg_orbits_renew(&s.O, scale);
-    rg_orbits_solve(&s.O, z, x);
+    rg_orbits_solve(&s.O, z, NULL, x);
     rg_joint_renew(&s.J, scale);
     rg_step_mul(&s.J.A, z, should);
     rg_step_mul(&s.J.A, x, is);

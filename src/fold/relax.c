@@ -29,9 +29,13 @@ static const double LEAST_AREA = 0.1;
 /* A correction this much longer than the step it corrects, plus a little, has left the branch. At the free start, where
  * directions are right to first order only, more is allowed. */
 static const double FARTHEST_CORRECTION = 0.3, FARTHEST_AT_START = 0.7, LITTLE = 1e-3;
-/* Even corrections go on while each leaves at most this part of what was open: they converge quadratically until what is left is
- * what the drawing is uneven by. That is then closed plainly, with creases that give way this much less than the vertices:
- * those move by what the drawing is off, too little to be seen, while near flat creases would turn by its square root. */
+/* Where its image is closed, a vertex is open by no more than so many times what directions are off their images, a sum over its
+ * edges. If that is within tolerance, one vertex of each orbit tells all, and what is solved is one of each orbit; of other
+ * drawings, steps and corrections are averaged. */
+static const double OF_THE_DRAWING = 30;
+/* Even corrections go on while each leaves at most this part of what was open. Then creases give way this much less than
+ * vertices: what closing by the creases does not reach, or what a drawing is uneven by and is then closed vertex by vertex, takes
+ * ways of the pattern too small to be seen, while near flat creases would turn by its square root. */
 static const double STILL_CLOSES = 0.1, STIFF = 0.01;
 static const double LEAST_STEP = 1e-7, LEAST_H = 1e-4;
 /* A run that for so many steps betters neither the mean nor the least by so much is stuck. Of 650 runs that arrived 95 % took
@@ -144,9 +148,19 @@ rg_status rg_relax_init(rg_relax *F, const rg_mesh *m, const rg_settings *s, con
     return RG_OK;
 }
 
+rg_status rg_relax_keep(rg_relax *F, const rg_symmetry *G)
+{
+    F->symmetry = G;
+    F->by_orbits = OF_THE_DRAWING * G->off <= F->tol;
+    const rg_status s = F->by_orbits ? rg_orbits_init(&F->orbits, &F->J, G) : RG_OK;
+    if (s != RG_OK) F->symmetry = NULL;
+    return s;
+}
+
 void rg_relax_free(rg_relax *F)
 {
     if (!F->mem.resize) return;
+    rg_orbits_free(&F->orbits);
     rg_freedom_free(&F->freedom);
     rg_joint_free(&F->J);
     rg_adjust_free(&F->adjust);
@@ -158,7 +172,7 @@ void rg_relax_free(rg_relax *F)
 }
 
 /* A step, or a state before it is closed: what the symmetry leaves of it. Of steps that an even state allows the mean is allowed
- * as well. Closing is not averaged: a drawing is symmetric to its own rounding only, and would not close. */
+ * as well. */
 static void even_out(rg_relax *F, double *z)
 {
     if (!F->symmetry) return;
@@ -166,28 +180,48 @@ static void even_out(rg_relax *F, double *z)
     rg_freedom_mean(&F->freedom, F->symmetry, z + F->N, F->spare);
 }
 
-/* ---------------------------------------------------------------------------------------------- closing ---- */
+/* -------------------------------------------------- the constraint; evenly: one of each orbit, if that tells all ---- */
 
-static double assemble(rg_relax *F, const double *z, double *off)
+static double assemble(rg_relax *F, const double *z, int evenly, double *off)
 {
     F->assemblies++;
-    return rg_joint_assemble(&F->J, z, z + F->N, off);
+    return evenly && F->by_orbits ? rg_orbits_assemble(&F->orbits, z, z + F->N, off) : rg_joint_assemble(&F->J, z, z + F->N, off);
 }
 
-static void renew(rg_relax *F)
+static void renew(rg_relax *F, int evenly)
 {
+    const int by_orbits = evenly && F->by_orbits;
+    const rg_step *A = by_orbits ? &F->orbits.A : &F->J.A;
     /* A factorisation is worth its flops; filling and solving go with the entries. */
-    F->work += 1.5e-9 * F->J.A.L.S.flops + 6e-7 * F->J.A.start[F->J.A.columns];
-    rg_joint_renew(&F->J, F->scale);
+    F->work += 1.5e-9 * A->L.S.flops + 6e-7 * A->start[A->columns];
+    for (int32_t i = 0; evenly && i < F->N; i++) F->scale[i] = F->scale[F->symmetry->crease_orbit[i]];
+    if (by_orbits) rg_orbits_renew(&F->orbits, F->scale);
+    else rg_joint_renew(&F->J, F->scale);
 }
+
+/* x = A^+ (A y + r) in scaled unknowns; y, r NULL: nothing. eqs. (14), (15), (19) */
+static void solve(rg_relax *F, int evenly, const double *y, const double *r, double *x)
+{
+    double *b = F->J.A.q;
+    if (evenly && F->by_orbits) {
+        rg_orbits_solve(&F->orbits, y, r, x);
+        return;
+    }
+    if (y) rg_step_mul(&F->J.A, y, b);
+    for (int32_t i = 0; r && i < F->J.A.rows; i++) F->J.r[i] = r[i] + (y ? b[i] : 0);
+    for (int32_t i = 0; !r && i < F->J.A.rows; i++) F->J.r[i] = b[i];
+    rg_step_solve(&F->J.A, F->J.r, x);
+}
+
+/* ---------------------------------------------------------------------------------------------- closing ---- */
 
 /* Works off r and r' as assembled, to first order: eqs. (14), (19) with no wish. */
 static void correct_once(rg_relax *F, double *z, int evenly)
 {
-    renew(F);
-    rg_step_solve(&F->J.A, F->J.r, F->dz); /* eqs. (14), (15), (19) */
+    renew(F, evenly);
+    solve(F, evenly, NULL, F->J.r, F->dz);
     for (int32_t i = 0; i < F->n; i++) F->dz[i] *= F->scale[i];
-    if (evenly) even_out(F, F->dz);
+    if (evenly && !F->by_orbits) even_out(F, F->dz);
     for (int32_t i = 0; i < F->n; i++) z[i] -= F->dz[i];
 }
 
@@ -197,16 +231,14 @@ static void stiffen(rg_relax *F, double by)
 }
 
 /* F->t: what A leaves over of the slope of progress at z, F->g, in scaled unknowns; A is renewed. Returns how much that is. */
-static double project_slope(rg_relax *F, const double *z)
+static double project_slope(rg_relax *F, const double *z, int evenly)
 {
     double left = 0, all = 0;
     for (int32_t i = 0; i < F->n; i++) {
         const int counts = i < F->N && is_driven(F, i) && (z[i] - F->from[i]) * F->slope[i] < 1;
         F->g[i] = counts ? F->scale[i] * F->slope[i] / F->driven : 0;
     }
-    rg_step_mul(&F->J.A, F->g, F->J.A.q);
-    memcpy(F->J.r, F->J.A.q, (size_t)F->J.A.rows * sizeof *F->J.r);
-    rg_step_solve(&F->J.A, F->J.r, F->t);
+    solve(F, evenly, F->g, NULL, F->t);
     for (int32_t i = 0; i < F->n; i++) {
         F->t[i] = F->g[i] - F->t[i];
         left += F->t[i] * F->g[i];
@@ -220,31 +252,31 @@ static double project_slope(rg_relax *F, const double *z)
 static void correct_held(rg_relax *F, double s, double *z, int evenly)
 {
     double least, along = 0;
-    renew(F);
-    rg_step_solve(&F->J.A, F->J.r, F->dz);
-    const double left = project_slope(F, z);
+    renew(F, evenly);
+    solve(F, evenly, NULL, F->J.r, F->dz);
+    const double left = project_slope(F, z, evenly);
     for (int32_t i = 0; i < F->n; i++) along += F->g[i] * F->dz[i];
     const double by = left > 0 ? (s - progress(F, z, &least) + along) / left : 0;
     for (int32_t i = 0; i < F->n; i++) F->dz[i] = F->scale[i] * (by * F->t[i] - F->dz[i]);
-    if (evenly) even_out(F, F->dz);
+    if (evenly && !F->by_orbits) even_out(F, F->dz);
     for (int32_t i = 0; i < F->n; i++) z[i] += F->dz[i];
 }
 
-/* The same until it closes, s NAN: whatever becomes of progress. Zero: it does not close. As the mean of even steps is a step, so is
- * that of corrections; only what the drawing itself is uneven by is left to each vertex. */
+/* The same until it closes, s NAN: whatever becomes of progress. Zero: it does not close. What a drawing is uneven by is left to
+ * each vertex, where even corrections get no further. */
 static int correct(rg_relax *F, double *z, double s, int32_t most)
 {
     double before = INFINITY;
     int poor = 0, evenly = F->symmetry != NULL, closes = 0, stiff = 0;
     for (int32_t n = 0;; n++) {
         double off;
-        F->closure = assemble(F, z, &off);
+        F->closure = assemble(F, z, evenly, &off);
         closes = F->closure <= F->tol && off <= F->tol;
         if (closes || n >= most || !(F->closure <= 2.5)) break;
         if (evenly && F->closure > STILL_CLOSES * before) {
-            evenly = 0;
+            evenly = F->by_orbits;
+            if (!stiff && F->U > 0) stiffen(F, STIFF);
             stiff = F->U > 0;
-            if (stiff) stiffen(F, STIFF);
         }
         poor = F->closure > 0.7 * before && F->closure > 100 * F->tol ? poor + 1 : 0;
         if (poor >= 3) break;
@@ -261,13 +293,14 @@ static int correct(rg_relax *F, double *z, double s, int32_t most)
 static void polish(rg_relax *F, double *z, double *spare)
 {
     const double before = F->closure;
+    const int evenly = F->by_orbits;
     if (before <= CLOSE_ENOUGH * F->tol) return;
     memcpy(spare, z, (size_t)F->n * sizeof *z);
-    correct_once(F, z, 0);
-    F->closure = assemble(F, z, NULL);
+    correct_once(F, z, evenly);
+    F->closure = assemble(F, z, evenly, NULL);
     if (F->closure < before) return;
     memcpy(z, spare, (size_t)F->n * sizeof *z);
-    F->closure = assemble(F, z, NULL);
+    F->closure = assemble(F, z, evenly, NULL);
 }
 
 int rg_relax_close_on_pattern(rg_relax *F, double *rho)
@@ -275,13 +308,13 @@ int rg_relax_close_on_pattern(rg_relax *F, double *rho)
     double *z = F->trial;
     memcpy(z, rho, (size_t)F->N * sizeof *rho);
     memset(z + F->N, 0, (size_t)F->U * sizeof *z);
-    if (assemble(F, z, NULL) <= F->tol) return 1;
+    if (assemble(F, z, 0, NULL) <= F->tol) return 1;
     for (int32_t i = 0; i < F->N; i++) F->scale[i] = 1;
     for (int32_t i = F->N; i < F->n; i++) F->scale[i] *= FIXED;
     int closed = correct(F, z, NAN, CORRECTIONS);
     for (int32_t i = F->N; i < F->n; i++) F->scale[i] /= FIXED;
     memset(z + F->N, 0, (size_t)F->U * sizeof *z);
-    closed = closed && assemble(F, z, NULL) <= F->tol;
+    closed = closed && assemble(F, z, 0, NULL) <= F->tol;
     for (int32_t i = 0; i < F->N; i++) closed = closed && fabs(z[i] - rho[i]) <= END_OFF;
     if (closed) memcpy(rho, z, (size_t)F->N * sizeof *rho);
     return closed;
@@ -337,16 +370,14 @@ static int32_t hold_what_overfolds(rg_relax *F, const double *dz, double beyond)
 }
 
 /* wish - W A^T (A W A^T)^+ (A wish + r), the columns of A scaled by the root of W: eqs. (14), (19). */
-static void project(rg_relax *F)
+static void project(rg_relax *F, int evenly)
 {
     double *y = F->chord;
-    renew(F);
+    renew(F, evenly);
     for (int32_t i = 0; i < F->n; i++) y[i] = F->wish[i] / F->scale[i];
-    rg_step_mul(&F->J.A, y, F->J.A.q);
-    for (int32_t i = 0; i < F->J.A.rows; i++) F->J.r[i] += F->J.A.q[i];
-    rg_step_solve(&F->J.A, F->J.r, F->dz);
+    solve(F, evenly, y, F->J.r, F->dz);
     for (int32_t i = 0; i < F->n; i++) F->dz[i] = F->wish[i] - F->scale[i] * F->dz[i];
-    even_out(F, F->dz);
+    if (evenly) even_out(F, F->dz);
 }
 
 /* Largest change of a crease from a to b. */
@@ -381,19 +412,20 @@ static int goes_beyond(const rg_relax *F)
 void rg_relax_wish_and_step(rg_relax *F)
 {
     F->h = 1;
-    assemble(F, F->z, NULL);
+    assemble(F, F->z, 0, NULL);
     make_wish(F);
-    project(F);
+    project(F, 0);
 }
 
 static int advance(rg_relax *F)
 {
-    assemble(F, F->z, NULL);
+    const int evenly = F->symmetry != NULL;
+    assemble(F, F->z, evenly, NULL);
     make_wish(F);
     for (int32_t round = 0; round < ROUNDS; round++) {
         const int is_last = round + 1 == ROUNDS;
-        if (round) assemble(F, F->z, NULL);
-        project(F);
+        if (round) assemble(F, F->z, evenly, NULL);
+        project(F, evenly);
         if (!is_last && hold_what_overfolds(F, F->dz, BEYOND / 10)) continue;
         double longest = 0;
         memcpy(F->chord, F->dz, (size_t)F->n * sizeof *F->dz);
@@ -598,7 +630,7 @@ static int close_at(rg_relax *F, double s, double *z, double *best)
     for (int32_t i = 0; i < F->N; i++) F->scale[i] = 1;
     for (int32_t n = 0; n < CORRECTIONS_AT_END; n++) {
         put_back(F, z);
-        const double closure = assemble(F, z, &off);
+        const double closure = assemble(F, z, evenly, &off);
         if (!(closure <= 2.5)) break;
         if (off <= F->tol && (isnan(s) || fabs(progress(F, z, &least) - s) <= SAME_PROGRESS)) {
             const int no_better = closure <= F->tol && closure > 0.5 * least_closure;
@@ -608,7 +640,7 @@ static int close_at(rg_relax *F, double s, double *z, double *best)
             }
             if (closure <= CLOSE_ENOUGH * F->tol || no_better) break;
         }
-        if (evenly && closure > STILL_CLOSES * before) {
+        if (evenly && !F->by_orbits && closure > STILL_CLOSES * before) {
             evenly = 0;
             if (F->U > 0) stiffen(F, STIFF);
         }
@@ -649,5 +681,5 @@ double rg_relax_at(rg_relax *F, double s, double *z)
     /* A node, closed as it is; or the nearer one, where nothing between closes. */
     const int32_t at = s >= F->node_s[last] ? last : last > 0 && t >= 0.5 ? k + 1 : k;
     memcpy(z, F->node + (size_t)at * n, n * sizeof *z);
-    return assemble(F, z, NULL);
+    return assemble(F, z, 0, NULL);
 }

@@ -1,6 +1,6 @@
 /* relax.h -- the relaxed stepper: folding where fold angles alone cannot go, the creases roll through the sheet as well.
  * Paper    eqs. (14), (19) as one system; section 3.3; both penalties of section 4
- * Uses  joint.h adjust.h limit.h        Used by  attempt.c diagnose.c states.c
+ * Uses  orbits.h adjust.h limit.h        Used by  attempt.c diagnose.c states.c
  *
  * Unknowns z = (rho, u): fold angles, and the ways in which the vertices of the pattern may move. Every step projects a wish,
  *
@@ -16,7 +16,7 @@
 
 #include "fold/adjust.h"
 #include "fold/limit.h"
-#include "kinematics/joint.h"
+#include "kinematics/orbits.h"
 
 /* How readily what gives way. */
 typedef struct rg_relaxation {
@@ -35,7 +35,9 @@ typedef struct rg_relax {
     rg_joint J;
     rg_adjust adjust;
     rg_limit limit;
-    const rg_symmetry *symmetry; /* borrowed, on mesh; set after init: kept in every step; NULL: none */
+    const rg_symmetry *symmetry; /* borrowed, on mesh: kept in every step; NULL: none */
+    rg_orbits orbits;         /* of it, where the drawing is even to rounding: */
+    int by_orbits;            /* then steps and closing are solved for one of each orbit */
     rg_vec2 *spare;           /* [nv] scratch */
     double *from, *target;    /* [N] radians; equal: the crease stays where it is; target NAN: wishes nothing */
     double *slope;            /* [N] of progress: 1 / (driven way), 0 for creases that are not driven */
@@ -63,6 +65,8 @@ typedef struct rg_relax {
  * rg_relax_free. *F must stay where it is. */
 rg_status rg_relax_init(rg_relax *F, const rg_mesh *m, const rg_settings *s, const rg_relaxation *how, const double *from,
                         const double *target);
+/* Every step is to have the symmetry G, borrowed, on the mesh; before the first one. RG_ENOMEM. */
+rg_status rg_relax_keep(rg_relax *F, const rg_symmetry *G);
 void rg_relax_free(rg_relax *F);
 /* One step, of which F->s tells the progress. Allocates nothing. */
 void rg_relax_step(rg_relax *F);

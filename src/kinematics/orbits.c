@@ -265,17 +265,17 @@ static void scatter(const rg_orbits *O, const double *y, double *x)
     }
 }
 
-void rg_orbits_solve(rg_orbits *O, const double *z, double *x)
+void rg_orbits_solve(rg_orbits *O, const double *z, const double *r, double *x)
 {
     memset(O->b, 0, (size_t)O->A.rows * sizeof *O->b);
     if (z) {
         gather(O, z, O->y);
         rg_step_mul(&O->A, O->y, O->b);
     }
-    for (int32_t n = 0; n < O->count; n++) {
+    for (int32_t n = 0; r && n < O->count; n++) {
         const int32_t k = O->vertex[n];
-        for (int i = 0; i < 3; i++) O->b[3 * n + i] += O->J->r[3 * k + i];
-        if (O->kawasaki[n] >= 0) O->b[O->kawasaki[n]] += O->J->r[O->J->kawasaki[k]];
+        for (int i = 0; i < 3; i++) O->b[3 * n + i] += r[3 * k + i];
+        if (O->kawasaki[n] >= 0) O->b[O->kawasaki[n]] += r[O->J->kawasaki[k]];
     }
     rg_step_solve(&O->A, O->b, O->y); /* eqs. (14), (15), (19) */
     scatter(O, O->y, x);

@@ -37,7 +37,7 @@ void rg_orbits_free(rg_orbits *O);
 double rg_orbits_assemble(rg_orbits *O, const double *rho, const double *u, double *off);
 /* As rg_joint_renew; scale[N + U] is alike in an orbit. */
 void rg_orbits_renew(rg_orbits *O, const double *scale);
-/* x[N + U]: out, the least with A x = r, or A x = r + A z for z[N + U] not NULL, r as assembled. Allocates nothing. */
-void rg_orbits_solve(rg_orbits *O, const double *z, double *x);
+/* x[N + U]: out, the least with A x = A z + r. z[N + U], r of rg_joint's rows; NULL: nothing. Allocates nothing. */
+void rg_orbits_solve(rg_orbits *O, const double *z, const double *r, double *x);
 
 #endif

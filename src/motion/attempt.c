@@ -276,7 +276,7 @@ rg_status rg_attempt_relaxed(rg_attempt *t, rg_mesh *m, const rg_settings *setti
     if (s == RG_OK && G && G->order > 1) {
         t->symmetry = rg_mem_array(&t->mem, 1, sizeof *t->symmetry);
         s = t->symmetry ? rg_symmetry_on(t->symmetry, G, &t->mesh) : RG_ENOMEM;
-        t->relax->symmetry = t->symmetry;
+        if (s == RG_OK) s = rg_relax_keep(t->relax, t->symmetry);
     }
     rg_relax *F = t->relax;
     if (s == RG_OK) {
@@ -304,7 +304,9 @@ rg_status rg_attempt_relaxed(rg_attempt *t, rg_mesh *m, const rg_settings *setti
         t->work = F->work;
         t->method = "relaxed";
         t->solver = "cholesky";
-        t->cost = (rg_cost){F->steps, F->J.A.solves, F->J.A.iterations, F->J.A.factorizations, F->assemblies, 0};
+        const rg_step *A = &F->J.A, *by_orbits = &F->orbits.A;
+        t->cost = (rg_cost){F->steps, A->solves + by_orbits->solves, A->iterations + by_orbits->iterations,
+                            A->factorizations + by_orbits->factorizations, F->assemblies, 0};
     }
     if (s != RG_OK) {
         rg_attempt_free(t);
