@@ -155,7 +155,7 @@ static void ends_that_are_none(void **state)
 }
 
 /* Creases one after the other, from that end of the strip on. */
-static void one_by_one(const rg_mesh *m, double t, double *rho, void *ctx)
+static void from_one_end(const rg_mesh *m, double t, double *rho, void *ctx)
 {
     const int from_the_right = *(const int *)ctx;
     for (int32_t i = 0; i < m->N; i++) {
@@ -178,7 +178,7 @@ static void the_order_is_that_of_the_motion(void **state)
     for (int right = 0; right < 2; right++) {
         rg_diag why = {0, ""};
         rg_lines lines = strip(3, even, "VV", 2.385);
-        rg_motion *m = motion_by(&lines, 31, one_by_one, &right);
+        rg_motion *m = motion_by(&lines, 31, from_one_end, &right);
         assert_int_equal(rg_ending_find(m, &why), RG_OK);
         assert_string_equal(m->report.layer_orders, "2");
         const rg_layers *l = rg_ending_layers(m, 30);
