@@ -226,7 +226,7 @@ static void counts(const rg_pattern_info *i, int32_t ways, FILE *out)
     if (i->unassigned) fprintf(out, ", %d unassigned", (int)i->unassigned);
     if (i->flat) fprintf(out, ", %d flat", (int)i->flat);
     if (i->cuts) fprintf(out, ", %d %s", (int)i->cuts, plural(i->cuts, "slit", "slits"));
-    if (i->lost_creases) fprintf(out, "; %d more %s drawn and left out", (int)i->lost_creases, plural(i->lost_creases, "is", "are"));
+    if (i->lost_creases) fprintf(out, "; %d more %s drawn, left out or taken for border", (int)i->lost_creases, plural(i->lost_creases, "is", "are"));
     fputc('\n', out);
     if (ways >= 0) fprintf(out, "mobility    %d %s to move once it has left flat\n", (int)ways, plural(ways, "way", "ways"));
 }
