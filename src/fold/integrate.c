@@ -309,5 +309,6 @@ int rg_integrate_read_off(rg_fold *f, double s)
     f->closure = rg_constraint_closure(&f->K, f->trial, NULL);
     if (f->closure <= close_enough(f)) return 1;
     const int free = !f->one_way && f->mesh.N > 3 * f->mesh.M && p->node[first].has_t;
-    return rg_newton_close(f, s, CORRECTIONS, 0, free ? f->t : NULL);
+    if (free && rg_newton_close(f, s, 1, 0, f->t)) return 1;
+    return rg_newton_close(f, s, CORRECTIONS, 0, NULL);
 }

@@ -22,7 +22,7 @@ int rg_integrate_rk4(struct rg_fold *f, double ds);
  * Zero: the smooth way ends at the last node. */
 int rg_integrate_advance(struct rg_fold *f);
 /* f->trial = the path at progress s, closed to tolerance: read off the polynomial, which costs no solve, or, where that
- * is not close enough, corrected, and then a node of its own. Zero: not found. */
+ * is not close enough, corrected. The nodes stay as they are. Zero: not found. */
 int rg_integrate_read_off(struct rg_fold *f, double s);
 
 #endif

@@ -5,6 +5,8 @@
 
 /* Each correction gains this factor at the least where Newton's own rate does not gain more. */
 static const double SOLVE_TOLERANCE = 1e-5, NEAR_SOLVE_TOLERANCE = 1e-4;
+/* Where there is one correction only, what it leaves is looked at anyway: the factor is used once. */
+static const double ONCE = 1;
 /* Progress is held to this; a frame's percent is then exact to 1e-8. */
 static const double PROGRESS_TOLERANCE = 1e-10;
 /* A correction that leaves more than this part of the residual is not converging; three in a row end the attempt. */
@@ -41,7 +43,7 @@ static int correct_along(rg_fold *f, double off, double tol, const double *t)
 int rg_newton_close(rg_fold *f, double s, int32_t most_corrections, int near, const double *t)
 {
     const int32_t N = f->mesh.N;
-    const double tol = f->settings.tol, solve_tol = near ? NEAR_SOLVE_TOLERANCE : SOLVE_TOLERANCE;
+    const double tol = f->settings.tol, solve_tol = most_corrections == 1 ? ONCE : near ? NEAR_SOLVE_TOLERANCE : SOLVE_TOLERANCE;
     const double far = f->mesh.N <= 3 * f->mesh.M ? NEAR_OVERCONSTRAINED : NEAR;
     double before = INFINITY;
     int poor = 0;

@@ -145,6 +145,8 @@ static double run(const char *kind, int32_t n, rg_triangulation triangulate, dou
     s.frames = frames;
     s.adjust = 0;
     s.effort = RG_EFFORT_FAST;
+    s.contact = RG_CONTACT_IGNORE; /* rows are of folding alone, */
+    s.threads = 1;                 /* and of one try at a time */
     rg_pattern *p = generated(kind, n);
     double best = INFINITY, solving = INFINITY;
     rg_report r = {0};
