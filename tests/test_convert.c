@@ -421,9 +421,9 @@ static void files_are_whole_or_not_there(void **state)
     assert_int_equal(why.line, 2);
     assert_int_equal(rg_convert(at("none.cp"), at("old.fold"), RG_FORMAT_AUTO, &s, NULL, NULL, &why), RG_EREAD);
     assert_int_equal(rg_convert(at("good.cp"), at("no/old.fold"), RG_FORMAT_AUTO, &s, NULL, NULL, &why), RG_EWRITE);
-    assert_int_equal(rg_convert(at("good.cp"), at("old.dxf"), RG_FORMAT_AUTO, &s, NULL, NULL, &why), RG_EARG);
+    assert_int_equal(rg_convert(at("good.cp"), at("old.ori"), RG_FORMAT_AUTO, &s, NULL, NULL, &why), RG_EARG);
     assert_int_equal(rg_convert(at("good.cp"), at("old"), RG_FORMAT_AUTO, &s, NULL, NULL, &why), RG_EARG);
-    assert_non_null(strstr(why.text, ".opx, .cp, .fold or .svg"));
+    assert_non_null(strstr(why.text, ".opx, .cp, .fold, .svg or .dxf"));
     s.merge = NAN;
     assert_int_equal(rg_convert(at("good.cp"), at("old.fold"), RG_FORMAT_AUTO, &s, NULL, NULL, &why), RG_EARG);
     s = rg_settings_default();
