@@ -6,6 +6,9 @@
 /* How much staying as it is counts beside the fit, in parts of the sheet's own inertia: it decides only where the fit does not
  * care, as for a sheet that has become a line. */
 static const double STAY = 1e-6;
+/* So much of where the sheet lay when it was flat has a say too, shared out over the frames: what one half of it did alone does not leave
+ * the model aslant. */
+static const double UPRIGHT_PULL = 6;
 /* The rim is below the middle by more than that part of the sheet's size: then the sheet is put on its other side. */
 static const double FALLS = 0.01;
 /* Views that are tried: from where one sees the paper's face at first, and still sees it when it has come to stand. */
@@ -77,15 +80,16 @@ static rg_mat3 turn_of(const double q[4])
                       {2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z}}};
 }
 
-/* The rotation that takes x[], about its middle, nearest to `before`, whose middle is the origin. weight[nv]: sum 1. */
-static rg_place nearest(const double *weight, const rg_vec3 *x, const rg_vec3 *before, int32_t nv)
+/* The rotation that takes x[], about its middle, nearest to `before` and, `pull` times as much, to `flat`; their middles are the origin.
+ * weight[nv]: sum 1. */
+static rg_place nearest(const double *weight, const rg_vec3 *x, const rg_vec3 *before, const rg_vec3 *flat, double pull, int32_t nv)
 {
     rg_vec3 middle = {0, 0, 0};
     for (int32_t v = 0; v < nv; v++) middle = rg_vec3_axpy(weight[v], x[v], middle);
     double S[3][3] = {{0}}, inertia = 0;
     for (int32_t v = 0; v < nv; v++) {
         const rg_vec3 d = rg_vec3_sub(x[v], middle);
-        const double a[3] = {d.x, d.y, d.z}, b[3] = {before[v].x, before[v].y, before[v].z};
+        const double a[3] = {d.x, d.y, d.z}, b[3] = {before[v].x + pull * flat[v].x, before[v].y + pull * flat[v].y, before[v].z};
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++) S[i][j] += weight[v] * a[i] * b[j];
         inertia += weight[v] * rg_vec3_dot(d, d);
@@ -257,17 +261,18 @@ static void weigh(const rg_mesh *m, double *weight)
     for (int32_t v = 0; v < m->nv; v++) weight[v] /= sum;
 }
 
-static rg_status put_all(rg_stage *s, const double *weight, rg_vec3 *x, rg_vec3 *before, show *seen)
+static rg_status put_all(rg_stage *s, const double *weight, rg_vec3 *x, rg_vec3 *before, rg_vec3 *flat, show *seen)
 {
     const rg_motion *m = s->motion;
     const int32_t nv = m->mesh.nv, last = m->report.frame_count - 1;
     rg_vec3 middle = {0, 0, 0};
     for (int32_t v = 0; v < nv; v++) middle = rg_vec3_axpy(weight[v], (rg_vec3){m->mesh.X[v].x, m->mesh.X[v].y, 0}, middle);
     for (int32_t v = 0; v < nv; v++) before[v] = rg_vec3_sub((rg_vec3){m->mesh.X[v].x, m->mesh.X[v].y, 0}, middle);
+    memcpy(flat, before, (size_t)nv * sizeof *flat);
     for (int32_t k = 0; k <= last; k++) {
         const rg_status status = rg_motion_place(m, k, x);
         if (status != RG_OK) return status;
-        s->place[k] = nearest(weight, x, before, nv);
+        s->place[k] = nearest(weight, x, before, flat, UPRIGHT_PULL / (last + 1), nv);
         rg_stage_put(s, k, x, nv);
         look_at(&m->mesh, x, k == last, seen);
         memcpy(before, x, (size_t)nv * sizeof *x);
@@ -282,11 +287,11 @@ rg_status rg_stage_init(const rg_memory *mem, const rg_motion *m, const rg_pictu
     *s = (rg_stage){.mem = *mem, .motion = m, .azimuth = p->azimuth, .elevation = p->elevation};
     s->place = rg_mem_array(mem, (size_t)m->report.frame_count, sizeof *s->place);
     double *weight = rg_mem_array(mem, nv, sizeof *weight);
-    rg_vec3 *x = rg_mem_array(mem, 2 * nv, sizeof *x);
+    rg_vec3 *x = rg_mem_array(mem, 3 * nv, sizeof *x);
     rg_status status = s->place && weight && x ? RG_OK : RG_ENOMEM;
     if (status == RG_OK) {
         weigh(&m->mesh, weight);
-        status = put_all(s, weight, x, x + nv, &seen);
+        status = put_all(s, weight, x, x + nv, x + 2 * nv, &seen);
     }
     if (status == RG_OK && !p->aimed) status = choose_view(s, &seen, x);
     rg_mem_free(mem, weight);
