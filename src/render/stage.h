@@ -3,7 +3,7 @@
  *
  * A motion has one facet that stays where it is, so that all others seem to swing round it. On the stage it is the sheet as a whole
  * that stays: each frame is turned to lie as near as it can to the frame before (Horn, "Closed-form solution of absolute
- * orientation using unit quaternions", 1987), with its middle at the origin. What is alike stays so: a sheet that folds
+ * orientation using unit quaternions", 1987), and a little to where the sheet lay when it was flat, with its middle at the origin. What is alike stays so: a sheet that folds
  * symmetrically keeps its axis where it was. The camera then needs never turn. */
 #ifndef RG_STAGE_H
 #define RG_STAGE_H
