@@ -316,6 +316,16 @@ static void a_motion_is_drawn_again(void **state)
                "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"V\"]}");
     says(ends(2, run("draw", "flat.fold", "-o", "again.csv")), "rigami: flat.fold: ", "no frame has vertices_coords");
     says(ends(2, run("draw", "good.fold")), "rigami: ", "-o");
+    /* A sheet that stretches, as other programs' do: half of it turns by 30 degrees and gets longer; angles are those that it lies at. */
+    write_file("soft.fold", "{\"vertices_coords\":[[0,0],[1,0],[2,0],[2,1],[1,1],[0,1]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,4],[4,5],[5,0],[1,4]],"
+               "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"B\",\"B\",\"V\"],\"faces_vertices\":[[0,1,4,5],[1,2,3,4]],\"file_frames\":["
+               "{\"frame_inherit\":true,\"frame_parent\":0,\"vertices_coords\":[[0,0,0],[1,0,0],[2,0,0],[2,1,0],[1,1,0],[0,1,0]]},"
+               "{\"frame_inherit\":true,\"frame_parent\":0,\"vertices_coords\":[[-0.0392304845413264,0,0.6],[1,0,0],[2,0,0],[2,1,0],[1,1,0],"
+               "[-0.0392304845413264,1,0.6]]}]}");
+    ends(0, run("draw", "soft.fold", "-o", "again.csv", "-o", "again.stl", "-o", "first.stl"));
+    double angle;
+    assert_int_equal(sscanf(strstr(slurp("again.csv", first), "\n1,"), "\n1,100,%lf", &angle), 1);
+    near(angle, 30, 1e-9);
     const char *const made[] = {"first.stl", "again.stl", "again.csv", "again.html", "good.fold"};
     for (int i = 0; i < 5; i++) unlink(made[i]);
 }
