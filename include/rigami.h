@@ -279,16 +279,17 @@ typedef struct rg_step_info {
     double progress;    /* 0 ... 1: mean over the driven creases of rho / target */
     int32_t frame;      /* this step ended on that frame of settings.frames; -1: between frames */
     double closure;     /* largest rotation angle of F over the vertices, radians */
-    int32_t solves, iterations; /* of this step */
+    int32_t solves, iterations; /* of this step; 0 where it only goes to the next frame */
 } rg_step_info;
 
-/* Takes a copy of what it needs of the pattern. Creases that no vertex joins are systems of their own, in step frame by frame; one
- * that is held does not hold the others, and the fold is then RG_STOPPED at its last frame. RG_ESHEET: not one sheet without holes, why->text says where.
- * Owner: the caller, rg_fold_destroy. */
+/* Looks for a motion, as rg_motion_create does, and stands at its first frame: the search happens here, as what folds a pattern is known
+ * only when it has come to its end. A motion that stops short is no error: the last step says so. RG_ESHEET: not one sheet
+ * without holes, why->text says where; RG_ENOMEM. Owner: the caller, rg_fold_destroy. */
 RG_API rg_status rg_fold_create(const rg_pattern *p, const rg_settings *s, rg_fold **fold, rg_diag *why);
-/* One step of the time loop; allocates nothing. A run that cannot go on is no error: info->outcome is RG_STOPPED. */
+/* On to the next frame; allocates nothing. Frames and their bits are those of rg_motion_create with the same settings. After the last
+ * one it stays there, and info->frame is -1. */
 RG_API rg_status rg_fold_step(rg_fold *f, rg_step_info *info);
-/* Fold angles, radians, one per crease; borrowed until the next step. */
+/* Fold angles, radians, one per crease; borrowed until rg_fold_destroy. */
 RG_API const double *rg_fold_angles(const rg_fold *f, int32_t *creases);
 RG_API void rg_fold_destroy(rg_fold *f);
 
@@ -365,6 +366,11 @@ typedef int (*rg_progress)(void *ctx, double progress);
 /* Folds the pattern through all frames. RG_OK also when it stopped short: read rg_motion_report. */
 RG_API rg_status rg_motion_create(const rg_pattern *p, const rg_settings *s, rg_progress progress, void *ctx,
                                   rg_motion **motion, rg_diag *why);
+/* rg_fold_create, watched: `progress` is called during the search and may end it. */
+RG_API rg_status rg_fold_create_watched(const rg_pattern *p, const rg_settings *s, rg_progress progress, void *ctx, rg_fold **fold,
+                                        rg_diag *why);
+/* The motion that it walks through, with its report; borrowed until rg_fold_destroy. */
+RG_API const rg_motion *rg_fold_motion(const rg_fold *f);
 /* Walks through states of one sheet, each folded as its pattern says: from the first, folded, to the last. Creases are matched
  * by where they lie. Where the direct way to the next state is blocked, the sheet is unfolded to flat and folded anew. All
  * states are frames of the motion, whose percent is of the whole way; settings->to is 1 or -1. One state: rg_motion_create.

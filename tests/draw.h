@@ -3,6 +3,7 @@
 #define DRAW_H
 
 #include "pattern/pattern.h"
+#include "pattern/build.h"
 
 #include <stdlib.h>
 

@@ -2,13 +2,13 @@
 #ifndef FOLDING_H
 #define FOLDING_H
 
-#include "fold/fold.h"
+#include "fold/straight.h"
 
-static inline rg_fold *fold_of(const rg_pattern *p, const rg_settings *s)
+static inline rg_straight *fold_of(const rg_pattern *p, const rg_settings *s)
 {
-    rg_fold *f = NULL;
+    rg_straight *f = NULL;
     rg_diag why = {0, ""};
-    rg_status status = rg_fold_create(p, s, &f, &why);
+    rg_status status = rg_straight_create(p, s, &f, &why);
     if (status == RG_EABSENT) {
         print_message("SKIPPED: %s\n", why.text);
         skip();
@@ -18,9 +18,9 @@ static inline rg_fold *fold_of(const rg_pattern *p, const rg_settings *s)
 }
 
 /* Steps on to the next frame; zero: there is none. */
-static inline int next_frame(rg_fold *f, rg_step_info *i)
+static inline int next_frame(rg_straight *f, rg_step_info *i)
 {
-    do assert_int_equal(rg_fold_step(f, i), RG_OK);
+    do assert_int_equal(rg_straight_step(f, i), RG_OK);
     while (i->frame < 0 && i->outcome == RG_RUNNING);
     return i->frame >= 0;
 }
@@ -32,10 +32,10 @@ static inline void starves_cleanly(const rg_pattern *p, rg_settings s)
         counted c = {left, 0, 0};
         const rg_memory mem = {counted_resize, &c};
         s.memory = &mem;
-        rg_fold *f = NULL;
+        rg_straight *f = NULL;
         rg_diag why = {0, ""};
-        const rg_status status = rg_fold_create(p, &s, &f, &why);
-        rg_fold_destroy(f);
+        const rg_status status = rg_straight_create(p, &s, &f, &why);
+        rg_straight_destroy(f);
         assert_int_equal(c.out, 0);
         if (status == RG_OK) break;
         assert_int_equal(status, RG_ENOMEM);

@@ -226,9 +226,9 @@ static inline void run_twice(rg_pattern *p, rg_method method, cell *c)
     for (int i = 0; i < 3; i++) rg_motion_destroy(m[i]);
 }
 
-/* ---------------------------------------------------------------------------- from and to where rg_fold is ---- */
+/* ---------------------------------------------------------------------------- from and to where rg_straight is ---- */
 
-static inline double largest_angle(const rg_fold *f)
+static inline double largest_angle(const rg_straight *f)
 {
     double far = 0;
     for (int32_t i = 0; i < f->mesh.N; i++) far = fmax(far, fabs(f->rho[i]));
@@ -236,7 +236,7 @@ static inline double largest_angle(const rg_fold *f)
 }
 
 /* What a state of f's adds to the cell. */
-static inline void look(cell *c, rg_fold *f)
+static inline void look(cell *c, rg_straight *f)
 {
     const double closure = rg_constraint_closure(&f->K, f->rho, NULL);
     if (!(closure <= c->closure)) c->closure = closure;
@@ -244,13 +244,13 @@ static inline void look(cell *c, rg_fold *f)
     if (isnan(closure)) c->percent = NAN;
 }
 
-static inline rg_fold *fold_of(const rg_pattern *p, rg_method method, int32_t frames)
+static inline rg_straight *fold_of(const rg_pattern *p, rg_method method, int32_t frames)
 {
     rg_settings s = column(method, RG_TRIANGULATE_NONE);
-    rg_fold *f = NULL;
+    rg_straight *f = NULL;
     rg_diag why = {0, ""};
     s.frames = frames;
-    if (rg_fold_create(p, &s, &f, &why) != RG_OK) {
+    if (rg_straight_create(p, &s, &f, &why) != RG_OK) {
         fprintf(stderr, "%s\n", why.text);
         exit(1);
     }
@@ -258,11 +258,11 @@ static inline rg_fold *fold_of(const rg_pattern *p, rg_method method, int32_t fr
 }
 
 /* On from where f is. Non-zero: to its end. */
-static inline int run_on(rg_fold *f, cell *c)
+static inline int run_on(rg_straight *f, cell *c)
 {
     rg_step_info info = {0};
     while (info.outcome == RG_RUNNING) {
-        rg_fold_step(f, &info);
+        rg_straight_step(f, &info);
         if (info.frame >= 0) look(c, f);
     }
     return info.outcome == RG_FOLDED;
@@ -271,7 +271,7 @@ static inline int run_on(rg_fold *f, cell *c)
 /* Starts not at flat but 1e-6 rad from it, on the exact path; frames against the closed form. */
 static inline void run_near_flat(rg_pattern *p, rg_method method, cell *c)
 {
-    rg_fold *f = fold_of(p, method, 60);
+    rg_straight *f = fold_of(p, method, 60);
     rg_exact x;
     const double begun = rg_seconds(), s0 = 1e-6 / RG_PI;
     double *truth = calloc((size_t)f->mesh.N, sizeof *truth);
@@ -289,10 +289,10 @@ static inline void run_near_flat(rg_pattern *p, rg_method method, cell *c)
     }
     rg_step_info info = {0};
     while (info.outcome == RG_RUNNING) {
-        rg_fold_step(f, &info);
+        rg_straight_step(f, &info);
         if (info.frame < 0) continue;
         look(c, f);
-        rg_exact_at(&x, &f->drive, rg_fold_frame_progress(f, info.frame), truth);
+        rg_exact_at(&x, &f->drive, rg_straight_frame_progress(f, info.frame), truth);
         if (isnan(c->off)) c->off = 0;
         for (int32_t i = 0; i < f->mesh.N; i++) c->off = fmax(c->off, fabs(f->rho[i] - truth[i]));
     }
@@ -303,11 +303,11 @@ static inline void run_near_flat(rg_pattern *p, rg_method method, cell *c)
     snprintf(c->note, sizeof c->note, "off the closed form by %.1e rad", c->off);
     free(truth);
     rg_exact_free(&x);
-    rg_fold_destroy(f);
+    rg_straight_destroy(f);
 }
 
 /* One step back from f->rho by ds, by the method's formula. Zero: it does not close. */
-static inline int step_back(rg_fold *f, double ds)
+static inline int step_back(rg_straight *f, double ds)
 {
     const int32_t N = f->mesh.N;
     const double s = f->s - ds;
@@ -321,7 +321,7 @@ static inline int step_back(rg_fold *f, double ds)
     } else if (!(rg_integrate_tangent(f, f->rho, f->s, 0, f->t) > 0)) {
         return 0;
     }
-    if (f->settings.method != RG_METHOD_EULER && s <= 0) { /* as rg_fold lands on the folded state if that is straight ahead */
+    if (f->settings.method != RG_METHOD_EULER && s <= 0) { /* as rg_straight lands on the folded state if that is straight ahead */
         double missed = 0, left = 0;
         for (int32_t i = 0; i < N; i++) {
             missed += (f->rho[i] - f->s * f->t[i]) * (f->rho[i] - f->s * f->t[i]);
@@ -353,7 +353,7 @@ static inline int step_back(rg_fold *f, double ds)
 
 /* From folded to flat: by the method's own steps, or, for those that have none backwards, as the program goes between
  * states. mid[N]: out, half way, where that is passed. Non-zero: flat was reached; f->rho is what it is there. */
-static inline int go_back(rg_fold *f, int steps, double *mid, cell *c)
+static inline int go_back(rg_straight *f, int steps, double *mid, cell *c)
 {
     if (f->settings.method == RG_METHOD_ADAPTIVE) {
         rg_attempt t;
@@ -390,7 +390,7 @@ static inline void cycle(rg_pattern *p, rg_method method, int cycles, cell *c)
 {
     const double begun = rg_seconds();
     const int steps = 24;
-    rg_fold *f = fold_of(p, method, steps + 1);
+    rg_straight *f = fold_of(p, method, steps + 1);
     const size_t bytes = (size_t)f->mesh.N * sizeof(double);
     double *mid = calloc(1, bytes), *first = calloc(1, bytes);
     double flat = 0;
@@ -398,9 +398,9 @@ static inline void cycle(rg_pattern *p, rg_method method, int cycles, cell *c)
     c->off = 0;
     for (; good && n < cycles; n++) {
         if (n > 0) { /* from the flat state that came back, whatever it is */
-            rg_fold *next = fold_of(p, method, steps + 1);
+            rg_straight *next = fold_of(p, method, steps + 1);
             memcpy(next->rho, f->rho, bytes);
-            rg_fold_destroy(f);
+            rg_straight_destroy(f);
             f = next;
         }
         if (!run_on(f, c)) break;
@@ -417,7 +417,7 @@ static inline void cycle(rg_pattern *p, rg_method method, int cycles, cell *c)
     snprintf(c->note, sizeof c->note, "%d of %d there and back; flat to %.0e rad; half way the same to %.0e rad", n, cycles, flat, c->off);
     free(mid);
     free(first);
-    rg_fold_destroy(f);
+    rg_straight_destroy(f);
 }
 
 static inline void run_back(rg_pattern *p, rg_method method, cell *c) { cycle(p, method, 1, c); }

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "counted.h"
+#include "fold/straight.h"
 #include "near.h"
 #include "rigami.h"
 
@@ -131,10 +132,10 @@ static rg_status create_fold(void *ctx, counted *c, rg_diag *why)
     rg_memory mem = {counted_resize, c};
     rg_settings s = with(j, &mem);
     rg_pattern *p = pattern_of(j);
-    rg_fold *f = NULL;
-    rg_status status = rg_fold_create(p, &s, &f, why);
+    rg_straight *f = NULL;
+    rg_status status = rg_straight_create(p, &s, &f, why);
     assert_int_equal(f != NULL, status == RG_OK);
-    rg_fold_destroy(f);
+    rg_straight_destroy(f);
     rg_pattern_destroy(p);
     return status;
 }
@@ -220,10 +221,10 @@ static void folds(void **state)
     for (int i = 0; i < 4; i++) {
         j.settings.solver = solvers[i];
         rg_pattern *p = pattern_of(&j);
-        rg_fold *f = NULL;
+        rg_straight *f = NULL;
         rg_diag why;
-        const rg_status s = rg_fold_create(p, &j.settings, &f, &why);
-        rg_fold_destroy(f);
+        const rg_status s = rg_straight_create(p, &j.settings, &f, &why);
+        rg_straight_destroy(f);
         rg_pattern_destroy(p);
         if (s == RG_EABSENT) {
             print_message("SKIPPED: built with GPL=0, without one of the solvers\n");
@@ -279,7 +280,7 @@ static void stepping_asks_for_nothing(void **state)
                 counted c = {1000000000, 0, 0};
                 rg_memory mem = {counted_resize, &c};
                 rg_settings s = with(&j, &mem);
-                rg_fold *f = NULL;
+                rg_straight *f = NULL;
                 rg_step_info info = {0};
                 rg_diag why = {0, ""};
                 s.method = methods[i];
@@ -287,7 +288,7 @@ static void stepping_asks_for_nothing(void **state)
                 s.frames = 6;
                 s.triangulate = locked ? RG_TRIANGULATE_ALL : RG_TRIANGULATE_NONE;
                 rg_pattern *p = pattern_of(&j);
-                const rg_status status = rg_fold_create(p, &s, &f, &why);
+                const rg_status status = rg_straight_create(p, &s, &f, &why);
                 rg_pattern_destroy(p); /* the fold has taken what it needs */
                 free(j.text);
                 if (status == RG_EABSENT) {
@@ -299,14 +300,14 @@ static void stepping_asks_for_nothing(void **state)
                 c.left = 0;
                 int steps = 0;
                 for (; info.outcome == RG_RUNNING && steps < 3000; steps++) {
-                    assert_int_equal(rg_fold_step(f, &info), RG_OK);
+                    assert_int_equal(rg_straight_step(f, &info), RG_OK);
                     assert_int_equal(c.asked, asked);
                 }
                 assert_int_equal(c.out, out);
                 assert_true(steps > 1);
                 assert_true(info.outcome != RG_RUNNING);
                 folded += info.outcome == RG_FOLDED;
-                rg_fold_destroy(f);
+                rg_straight_destroy(f);
                 assert_int_equal(c.out, 0);
             }
     assert_true(folded > 0);

@@ -61,7 +61,7 @@ static void each_folds_as_if_alone(void **state)
         s.method = (rg_method)method;
         s.frames = 23;
         rg_pattern *p = strip_pattern(&all), *q[3];
-        rg_fold *f = fold_of(p, &s), *g[3];
+        rg_straight *f = fold_of(p, &s), *g[3];
         for (int k = 0; k < 3; k++) g[k] = fold_of(q[k] = strip_pattern(&alone[k]), &s);
         assert_int_equal(f->apart.parts, 3);
         for (int32_t frame = 0; frame < s.frames; frame++) {
@@ -83,10 +83,10 @@ static void each_folds_as_if_alone(void **state)
             assert_int_equal(seen, f->mesh.N);
         }
         assert_int_equal(f->outcome, RG_FOLDED);
-        rg_fold_destroy(f);
+        rg_straight_destroy(f);
         rg_pattern_destroy(p);
         for (int k = 0; k < 3; k++) {
-            rg_fold_destroy(g[k]);
+            rg_straight_destroy(g[k]);
             rg_pattern_destroy(q[k]);
         }
     }
@@ -99,7 +99,7 @@ static void one_that_is_held_does_not_hold_the_others(void **state)
     const strip both = {{3, 11}, {30, 30}, {NEVER_FOLDS, FOLDS}, 7};
     rg_settings s = rg_settings_default();
     rg_pattern *p = strip_pattern(&both);
-    rg_fold *f = fold_of(p, &s);
+    rg_straight *f = fold_of(p, &s);
     int32_t frames = 0, last = -1;
     for (rg_step_info i; next_frame(f, &i); frames++) last = i.frame;
     assert_int_equal(f->outcome, RG_STOPPED);
@@ -112,7 +112,7 @@ static void one_that_is_held_does_not_hold_the_others(void **state)
         if (held) assert_true(fabs(f->rho[i]) < RG_PI - 0.1);
         else near(f->rho[i], f->drive.target[i], 1e-9);
     }
-    rg_fold_destroy(f);
+    rg_straight_destroy(f);
     rg_pattern_destroy(p);
 }
 
@@ -123,15 +123,15 @@ static void what_does_not_move_is_not_solved(void **state)
     const strip one = {{0, 11}, {0, 30}, {NULL, FOLDS}, 0}, both = {{3, 11}, {30, 30}, {"FFFF", FOLDS}, 0};
     rg_settings s = rg_settings_default();
     rg_pattern *p = strip_pattern(&one), *q = strip_pattern(&both);
-    rg_fold *f = fold_of(p, &s), *g = fold_of(q, &s);
+    rg_straight *f = fold_of(p, &s), *g = fold_of(q, &s);
     for (rg_step_info i; next_frame(f, &i) && f->outcome == RG_RUNNING;) {}
     for (rg_step_info i; next_frame(g, &i) && g->outcome == RG_RUNNING;) {}
     assert_int_equal(g->outcome, RG_FOLDED);
-    assert_true(rg_fold_cost(f).solves > 0);
-    assert_int_equal(rg_fold_cost(g).solves, rg_fold_cost(f).solves);
-    assert_int_equal(rg_fold_cost(g).assemblies, rg_fold_cost(f).assemblies);
-    rg_fold_destroy(f);
-    rg_fold_destroy(g);
+    assert_true(rg_straight_cost(f).solves > 0);
+    assert_int_equal(rg_straight_cost(g).solves, rg_straight_cost(f).solves);
+    assert_int_equal(rg_straight_cost(g).assemblies, rg_straight_cost(f).assemblies);
+    rg_straight_destroy(f);
+    rg_straight_destroy(g);
     rg_pattern_destroy(p);
     rg_pattern_destroy(q);
 }
@@ -151,7 +151,7 @@ static void components_are_the_classes_of_reach(void **state)
         }
         rg_settings s = rg_settings_default();
         rg_pattern *p = pattern_with(&l, &s);
-        rg_fold *f = fold_of(p, &s);
+        rg_straight *f = fold_of(p, &s);
         const rg_mesh *m = &f->mesh;
         int reach[16][16] = {{0}}, classes = 0;
         int32_t part[16];
@@ -172,7 +172,7 @@ static void components_are_the_classes_of_reach(void **state)
         assert_int_equal(rg_components_find(m, part), classes);
         for (int i = 0; i < m->N; i++)
             for (int j = 0; j < m->N; j++) assert_int_equal(part[i] == part[j], reach[i][j]);
-        rg_fold_destroy(f);
+        rg_straight_destroy(f);
         rg_pattern_destroy(p);
     }
 }
@@ -185,12 +185,12 @@ static void added_creases_stay_with_their_limits(void **state)
     rg_settings s = rg_settings_default();
     s.triangulate = RG_TRIANGULATE_ALL;
     rg_pattern *p = strip_pattern(&pleats);
-    rg_fold *f = fold_of(p, &s);
+    rg_straight *f = fold_of(p, &s);
     assert_int_equal(f->mesh.N, 3);
     assert_int_equal(f->apart.parts, 0);
     for (rg_step_info i; next_frame(f, &i) && f->outcome == RG_RUNNING;) {}
     assert_int_equal(f->outcome, RG_FOLDED);
-    rg_fold_destroy(f);
+    rg_straight_destroy(f);
     rg_pattern_destroy(p);
 }
 

@@ -10,6 +10,7 @@
 #include "near.h"
 
 #include "draw.h"
+#include "pattern/build.h"
 #include "mesh/mesh.h"
 #include "pattern/source.h"
 

@@ -10,6 +10,7 @@
 #include "near.h"
 
 #include "draw.h"
+#include "pattern/build.h"
 #include "pattern/faces.h"
 #include "pattern/planar.h"
 #include "pattern/points.h"

@@ -1,4 +1,5 @@
 #include "chart/order.h"
+#include "fold/apart.h"
 #include "base/clock.h"
 #include "fold/integrate.h"
 
@@ -28,7 +29,7 @@ double rg_slope_of(int32_t n, const double *x, const double *y)
 }
 
 /* A fold that stands at a frame of the reference and is to go to progress s_end. */
-static rg_status stand(rg_fold **f, const rg_mesh *m, const rg_settings *settings, const rg_reference *ref, int32_t from,
+static rg_status stand(rg_straight **f, const rg_mesh *m, const rg_settings *settings, const rg_reference *ref, int32_t from,
                        double s_end, rg_method method, rg_diag *why)
 {
     rg_settings s = *settings;
@@ -39,14 +40,14 @@ static rg_status stand(rg_fold **f, const rg_mesh *m, const rg_settings *setting
     s.frames = 2;
     s.tol = CLOSED;
     rg_status status = rg_mesh_copy(m, &copy);
-    if (status == RG_OK) status = rg_fold_from_mesh(&copy, &s, f, why);
+    if (status == RG_OK) status = rg_straight_from_mesh(&copy, &s, f, why);
     if (status != RG_OK) return status;
     const rg_apart *a = &(*f)->apart;
     const double *rho = ref->frames.rho + (size_t)from * (size_t)m->N;
-    rg_fold *const *system;
+    rg_straight *const *system;
     (*f)->frame = 1;
-    for (int32_t p = 0, n = rg_fold_systems(*f, &system); p < n; p++) {
-        rg_fold *g = system[p];
+    for (int32_t p = 0, n = rg_straight_systems(*f, &system); p < n; p++) {
+        rg_straight *g = system[p];
         for (int32_t i = 0; i < g->mesh.N; i++) g->rho[i] = rho[a->parts ? a->crease[a->start[p] + i] : i];
         g->s = unit * from;
         g->steps = 2;
@@ -56,7 +57,7 @@ static rg_status stand(rg_fold **f, const rg_mesh *m, const rg_settings *setting
 }
 
 /* One step of the formula alone, from rho; k: room for the stages. Zero: no direction. */
-static int open_step(rg_fold *f, rg_method method, double h)
+static int open_step(rg_straight *f, rg_method method, double h)
 {
     const int32_t N = f->mesh.N;
     double *rho = f->rho, *at = f->trial, *k1 = f->t, **k = f->k;
@@ -74,11 +75,11 @@ static int open_step(rg_fold *f, rg_method method, double h)
 }
 
 /* The whole stretch in n steps. Zero: not reached. */
-static int go(rg_fold *f, rg_method method, int open, int32_t n)
+static int go(rg_straight *f, rg_method method, int open, int32_t n)
 {
-    rg_fold *const *system;
-    for (int32_t p = rg_fold_systems(f, &system); p-- > 0;) {
-        rg_fold *g = system[p];
+    rg_straight *const *system;
+    for (int32_t p = rg_straight_systems(f, &system); p-- > 0;) {
+        rg_straight *g = system[p];
         rg_step_info info = {0};
         const double h = (g->s_end - g->s) / n;
         if (g->drive.count == 0) continue;
@@ -87,7 +88,7 @@ static int go(rg_fold *f, rg_method method, int open, int32_t n)
         g->settings.step = method == RG_METHOD_EULER ? h * RG_PI : RG_PI;
         while (!open && info.outcome == RG_RUNNING && info.frame < 1) {
             g->ds = h * (1 + 1e-9); /* that n of them are enough */
-            rg_fold_step(g, &info);
+            rg_straight_step(g, &info);
         }
         if (!open && info.frame != 1) return 0;
     }
@@ -118,7 +119,7 @@ static rg_status measure(rg_slope *slope, rg_method method, int open, const rg_m
     rg_status status = RG_OK;
     memset(slope, 0, sizeof *slope);
     for (int32_t p = 0; p < RG_ORDER_POINTS && status == RG_OK; p++) {
-        rg_fold *f = NULL;
+        rg_straight *f = NULL;
         status = stand(&f, m, s, ref, from, s_end, method, why);
         if (status == RG_OK) {
             double far = go(f, method, open, FIRST_STEPS << p) ? 0 : INFINITY;
@@ -126,7 +127,7 @@ static rg_status measure(rg_slope *slope, rg_method method, int open, const rg_m
                 if (!(fabs(f->rho[i] - goal[i]) <= far)) far = fabs(f->rho[i] - goal[i]);
             slope->error[slope->points++] = far;
         }
-        rg_fold_destroy(f);
+        rg_straight_destroy(f);
         if (rg_seconds() - begun > PATIENCE) break;
     }
     fit(slope);

@@ -48,7 +48,7 @@ double rg_frames_distance(const rg_frames *a, const rg_frames *b)
 }
 
 /* What one system's counters say, in its own products with C: two multiplications and additions a number of C. */
-static double passes_of_one(const rg_fold *f, double pass)
+static double passes_of_one(const rg_straight *f, double pass)
 {
     double sum = ASSEMBLY_PASSES * (double)f->assemblies + 2 * (double)f->P.solves + 2 * (double)f->P.iterations;
     if (f->P.solver == RG_SOLVER_CHOLESKY)
@@ -62,11 +62,11 @@ static double passes_of_one(const rg_fold *f, double pass)
 }
 
 /* In products with the C of all. */
-static double passes(const rg_fold *f)
+static double passes(const rg_straight *f)
 {
-    rg_fold *const *system;
+    rg_straight *const *system;
     double sum = 0, all = 0;
-    for (int32_t p = rg_fold_systems(f, &system); p-- > 0;) {
+    for (int32_t p = rg_straight_systems(f, &system); p-- > 0;) {
         const double blocks = system[p]->K.C.start[system[p]->mesh.M], pass = 6 * (blocks > 0 ? blocks : 1);
         sum += pass * passes_of_one(system[p], pass);
         all += pass;
@@ -74,7 +74,7 @@ static double passes(const rg_fold *f)
     return sum / all;
 }
 
-static void frame(rg_run *r, const rg_fold *f, const rg_frames *with, rg_frames *keep)
+static void frame(rg_run *r, const rg_straight *f, const rg_frames *with, rg_frames *keep)
 {
     const int32_t k = r->frames++, N = f->mesh.N;
     const double closure = rg_constraint_closure((rg_constraint *)&f->K, f->rho, NULL);
@@ -92,18 +92,18 @@ static void frame(rg_run *r, const rg_fold *f, const rg_frames *with, rg_frames 
 }
 
 /* Steps are to be no longer than this part of what lies behind and before them. */
-static void grade(rg_fold *f, double part)
+static void grade(rg_straight *f, double part)
 {
-    rg_fold *const *system;
-    for (int32_t p = rg_fold_systems(f, &system); p-- > 0;) {
-        rg_fold *g = system[p];
+    rg_straight *const *system;
+    for (int32_t p = rg_straight_systems(f, &system); p-- > 0;) {
+        rg_straight *g = system[p];
         g->graded = 1;
         if (g->s > 0) g->ds = fmin(g->ds, part * fmin(g->s, fmax(1 - g->s, 1e-4)));
     }
 }
 
 /* Is it where it was to go, or was it only to go part of the way? */
-static int has_landed(const rg_fold *f)
+static int has_landed(const rg_straight *f)
 {
     int landed = 1;
     for (int32_t i = 0; i < f->mesh.N && f->s_end >= 1; i++)
@@ -116,7 +116,7 @@ rg_status rg_run_make(rg_run *r, const rg_mesh *m, const rg_settings *settings, 
 {
     rg_settings s = *settings;
     rg_mesh copy;
-    rg_fold *f = NULL;
+    rg_straight *f = NULL;
     rg_step_info info = {0};
     memset(r, 0, sizeof *r);
     r->way = *way;
@@ -127,10 +127,10 @@ rg_status rg_run_make(rg_run *r, const rg_mesh *m, const rg_settings *settings, 
     rg_status status = rg_mesh_copy(m, &copy);
     if (status != RG_OK) return status;
     double begun = rg_seconds(), looking = 0; /* at frames, which is not folding */
-    status = rg_fold_from_mesh(&copy, &s, &f, why);
+    status = rg_straight_from_mesh(&copy, &s, &f, why);
     while (status == RG_OK && info.outcome == RG_RUNNING) {
         if (way->grade > 0) grade(f, way->grade);
-        status = rg_fold_step(f, &info);
+        status = rg_straight_step(f, &info);
         /* Within 1 % of the end and no way on, or crept up to it beside it: that is the last frame, but not one to measure others by. */
         const int last = info.outcome == RG_FOLDED && r->frames == s.frames - 1 && (info.frame < 0 || !has_landed(f));
         if (info.frame < 0 && !last) continue;
@@ -141,8 +141,8 @@ rg_status rg_run_make(rg_run *r, const rg_mesh *m, const rg_settings *settings, 
     r->seconds = rg_seconds() - begun - looking;
     if (status == RG_OK) {
         r->method = f->settings.method;
-        const rg_cost cost = rg_fold_cost(f);
-        r->solver = rg_fold_solver(f);
+        const rg_cost cost = rg_straight_cost(f);
+        r->solver = rg_straight_solver(f);
         r->outcome = info.outcome;
         r->percent = 100 * info.progress;
         r->passes = passes(f);
@@ -153,7 +153,7 @@ rg_status rg_run_make(rg_run *r, const rg_mesh *m, const rg_settings *settings, 
         r->assemblies = cost.assemblies;
         if (!with || with->count < 2) r->error = NAN; /* flat, they are all alike */
     }
-    rg_fold_destroy(f);
+    rg_straight_destroy(f);
     return status;
 }
 

@@ -1,9 +1,9 @@
 /* run.h -- one fold by one method, one solver, one step size: what it costs and how far off it is.
- * Uses  fold.h        Used by  reference.c chart.c */
+ * Uses  straight.h        Used by  reference.c chart.c */
 #ifndef RG_RUN_H
 #define RG_RUN_H
 
-#include "fold/fold.h"
+#include "fold/straight.h"
 
 /* How to fold. */
 typedef struct rg_way {

@@ -1,5 +1,4 @@
 #include "fold/apart.h"
-#include "fold/fold.h"
 #include "mesh/components.h"
 
 #include <stdio.h>
@@ -113,18 +112,19 @@ static rg_status make_parts(rg_apart *a, const rg_mesh *m, deal *d, const rg_set
     if (s == RG_OK) deal_out(m, a, d);
     for (int32_t p = 0; p < a->parts && s == RG_OK; p++) s = cut(m, a, d, p, &piece[p]);
     if (s == RG_OK) deal_loops(m, d, a->parts, piece);
-    for (int32_t p = 0; p < a->parts && s == RG_OK; p++) s = rg_fold_from_mesh_together(&piece[p], settings, &a->part[p], why);
+    for (int32_t p = 0; p < a->parts && s == RG_OK; p++) s = a->of->make(&piece[p], settings, &a->part[p], why);
     for (int32_t p = 0; piece && p < a->parts; p++) rg_mesh_free(&piece[p]);
     rg_mem_free(&a->mem, piece);
     return s;
 }
 
-rg_status rg_apart_init(rg_apart *a, const rg_memory *mem, const rg_mesh *m, const rg_settings *settings, rg_diag *why)
+rg_status rg_apart_init(rg_apart *a, const rg_apart_of *of, const rg_memory *mem, const rg_mesh *m, const rg_settings *settings, rg_diag *why)
 {
     deal d = {0};
     int32_t count = 0;
     memset(a, 0, sizeof *a);
     a->mem = *mem;
+    a->of = of;
     d.part = rg_mem_array(mem, (size_t)m->N, sizeof *d.part);
     rg_status s = d.part ? rg_components_find_coarse(m, d.part, &count) : RG_ENOMEM;
     if (s == RG_OK && count > 1) {
@@ -139,7 +139,7 @@ rg_status rg_apart_init(rg_apart *a, const rg_memory *mem, const rg_mesh *m, con
 void rg_apart_free(rg_apart *a)
 {
     if (!a->mem.resize) return;
-    for (int32_t p = 0; a->part && p < a->parts; p++) rg_fold_destroy(a->part[p]);
+    for (int32_t p = 0; a->part && p < a->parts; p++) a->of->destroy(a->part[p]);
     rg_mem_free(&a->mem, a->part);
     rg_mem_free(&a->mem, a->start);
     rg_mem_free(&a->mem, a->crease);
@@ -151,8 +151,8 @@ void rg_apart_step(rg_apart *a, int32_t frame, int *reached, rg_outcome *outcome
     rg_step_info info;
     int running = 0, stopped = 0, behind = 0, there = 0;
     for (int32_t p = 0; p < a->parts; p++) {
-        rg_fold *f = a->part[p];
-        if (f->outcome == RG_RUNNING && f->frame <= frame) rg_fold_step(f, &info);
+        rg_straight *f = a->part[p];
+        if (f->outcome == RG_RUNNING && f->frame <= frame) a->of->step(f, &info);
         running |= f->outcome == RG_RUNNING;
         stopped |= f->outcome == RG_STOPPED;
         behind |= f->outcome == RG_RUNNING && f->frame <= frame;
@@ -167,7 +167,7 @@ double rg_apart_gather(const rg_apart *a, double *rho, double *closure)
     double sum = 0, driven = 0;
     *closure = 0;
     for (int32_t p = 0; p < a->parts; p++) {
-        const rg_fold *f = a->part[p];
+        const rg_straight *f = a->part[p];
         for (int32_t i = 0; i < f->mesh.N; i++) rho[a->crease[a->start[p] + i]] = f->rho[i];
         sum += f->drive.count * f->s;
         driven += f->drive.count;
@@ -178,7 +178,7 @@ double rg_apart_gather(const rg_apart *a, double *rho, double *closure)
 
 void rg_apart_tell(const rg_apart *a, char *text, size_t room)
 {
-    const rg_fold *first = NULL;
+    const rg_straight *first = NULL;
     int stopped = 0;
     for (int32_t p = a->parts; p-- > 0;) {
         if (a->part[p]->outcome != RG_STOPPED) continue;

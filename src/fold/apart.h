@@ -1,24 +1,22 @@
 /* apart.h -- independent components of a sheet, each a fold of its own: a system, steps and an end of its own.
- * Paper    eq. (11): the blocks that the constraint falls into        Uses  components.h        Used by  fold.c
+ * Paper    eq. (11): the blocks that the constraint falls into        Uses  system.h components.h        Used by  straight.c
  *
  * Each component goes evenly from 0 to 100 % of its own way, frame by frame with the others. One that is done, or was never
  * asked to move, is not solved any more; one that is held stays where it is, and the others go on. */
 #ifndef RG_APART_H
 #define RG_APART_H
 
-#include "mesh/mesh.h"
-#include "rigami.h"
+#include "fold/system.h"
 
-typedef struct rg_apart {
-    rg_memory mem;
-    int32_t parts;   /* 0: the sheet is in one piece */
-    rg_fold **part;  /* [parts] owned */
-    int32_t *start;  /* [parts + 1] into crease */
-    int32_t *crease; /* [N] by part: which crease of the sheet each of its creases is */
-} rg_apart;
+/* What a component is made, stepped and destroyed by: those who know how have components themselves. */
+typedef struct rg_apart_of {
+    rg_status (*make)(rg_mesh *m, const rg_settings *s, rg_straight **part, rg_diag *why); /* takes *m over, also on failure */
+    rg_status (*step)(rg_straight *part, rg_step_info *info);
+    void (*destroy)(rg_straight *part);
+} rg_apart_of;
 
-/* RG_ENOMEM, RG_EABSENT. Owner: the caller, rg_apart_free, also after a failure. */
-rg_status rg_apart_init(rg_apart *a, const rg_memory *mem, const rg_mesh *m, const rg_settings *s, rg_diag *why);
+/* `of` is borrowed. RG_ENOMEM, RG_EABSENT. Owner: the caller, rg_apart_free, also after a failure. */
+rg_status rg_apart_init(rg_apart *a, const rg_apart_of *of, const rg_memory *mem, const rg_mesh *m, const rg_settings *s, rg_diag *why);
 void rg_apart_free(rg_apart *a);
 
 /* Each part that has not reached that frame yet makes a step. *reached: whether all that can have. *outcome: RG_RUNNING as long as

@@ -1,5 +1,5 @@
 #include "fold/integrate.h"
-#include "fold/fold.h"
+#include "fold/newton.h"
 
 #include <string.h>
 
@@ -42,12 +42,12 @@ static const double LANDING = 0.01;
 static const double LEAST_EFFICIENCY = 1e-5;
 
 
-static double good_set_right(const rg_fold *f)
+static double good_set_right(const rg_straight *f)
 {
     return fmin(GOOD_SET_RIGHT * sqrt(f->settings.tol), MOST_SET_RIGHT);
 }
 
-double rg_integrate_tangent(rg_fold *f, const double *rho, double s, int near, double *t)
+double rg_integrate_tangent(rg_straight *f, const double *rho, double s, int near, double *t)
 {
     const int32_t N = f->mesh.N;
     rg_cg_report rep;
@@ -69,14 +69,14 @@ double rg_integrate_tangent(rg_fold *f, const double *rho, double s, int near, d
 /* ------------------------------------------------------------------------------------------- fixed order ---- */
 
 /* k = t at rho + ds (part of `from`), once that is closed. */
-static int stage(rg_fold *f, double ds, const double *from, double *k)
+static int stage(rg_straight *f, double ds, const double *from, double *k)
 {
     for (int32_t i = 0; i < f->mesh.N; i++) f->trial[i] = f->rho[i] + ds * from[i];
     if (!rg_newton_correct(f, f->s + ds, CORRECTIONS)) return 0;
     return rg_integrate_tangent(f, f->trial, f->s + ds, 1, k) > 0;
 }
 
-int rg_integrate_heun(rg_fold *f, double ds)
+int rg_integrate_heun(rg_straight *f, double ds)
 {
     double *k2 = f->k[0];
     if (!stage(f, ds, f->t, k2)) return 0;
@@ -84,7 +84,7 @@ int rg_integrate_heun(rg_fold *f, double ds)
     return rg_newton_correct(f, f->s + ds, CORRECTIONS);
 }
 
-int rg_integrate_rk4(rg_fold *f, double ds)
+int rg_integrate_rk4(rg_straight *f, double ds)
 {
     double *k2 = f->k[0], *k3 = f->k[1], *k4 = f->k[2];
     if (!stage(f, ds / 2, f->t, k2) || !stage(f, ds / 2, k2, k3) || !stage(f, ds, k3, k4)) return 0;
@@ -125,7 +125,7 @@ static void adams(const rg_path *p, int32_t first, int32_t n, int32_t from, doub
 
 /* f->trial moves to where Adams and Moulton's formula leads from the last node, f->t being t at f->trial. Returns how
  * far the farthest crease moves; where it was is in f->k[0]. */
-static double set_right(rg_fold *f, double s)
+static double set_right(rg_straight *f, double s)
 {
     rg_path *p = &f->path;
     double far = 0;
@@ -143,7 +143,7 @@ static double set_right(rg_fold *f, double s)
 /* f->trial at s, beyond the last node. Where the sheet can go one way only, whatever is off is off across the path and
  * closing takes it away: the polynomial of the highest degree is best. Elsewhere what is off along the sheet's freedoms
  * would stay and be amplified, and Adams and Bashforth's formula is what does not do that. */
-static void predict(rg_fold *f, double s)
+static void predict(rg_straight *f, double s)
 {
     const rg_path *p = &f->path;
     int32_t first, n;
@@ -158,7 +158,7 @@ static void predict(rg_fold *f, double s)
 
 /* The order that would have predicted the last node best is taken for the next one: where a freedom of the sheet is stiff
  * the higher orders are the first to be unstable, and it shows in them. */
-static void choose_order(rg_fold *f)
+static void choose_order(rg_straight *f)
 {
     const rg_path *p = &f->path;
     const rg_node *last = &p->node[p->count - 1];
@@ -176,7 +176,7 @@ static void choose_order(rg_fold *f)
 }
 
 /* What the error of a prediction at s is proportional to. */
-static double reach(const rg_fold *f, double s)
+static double reach(const rg_straight *f, double s)
 {
     const rg_path *p = &f->path;
     int32_t first, n;
@@ -188,7 +188,7 @@ static double reach(const rg_fold *f, double s)
     return (s - p->node[p->count - 1].s) * rg_path_reach(p, first, n, s, 1);
 }
 
-static double close_enough(const rg_fold *f)
+static double close_enough(const rg_straight *f)
 {
     return fmax(f->settings.tol * (f->one_way ? READ_OFF_MARGIN_ONE_WAY : READ_OFF_MARGIN), ROUNDING);
 }
@@ -200,7 +200,7 @@ static double scale(double e, double most, int order)
 }
 
 /* The next step. h: the one just made, `rate`: error of closure of its prediction over its reach, far: see set_right. */
-static double next_step(rg_fold *f, double h, double rate, double far)
+static double next_step(rg_straight *f, double h, double rate, double far)
 {
     const rg_path *p = &f->path;
     const double last = p->node[p->count - 1].s, goal = STEP_MARGIN * close_enough(f);
@@ -222,7 +222,7 @@ static double next_step(rg_fold *f, double h, double rate, double far)
     return fmax(x, LARGEST_CUT * h);
 }
 
-static int land(rg_fold *f)
+static int land(rg_straight *f)
 {
     for (int32_t i = 0; i < f->mesh.N; i++)
         if (!(fabs(f->trial[i] - f->end[i]) <= LANDING)) return 0;
@@ -232,7 +232,7 @@ static int land(rg_fold *f)
 
 /* With more creases than equations t is known beside the path as well as on it, and a good prediction need not be closed
  * to ask for it there. */
-static int make_node_at_once(rg_fold *f, double s, double *far)
+static int make_node_at_once(rg_straight *f, double s, double *far)
 {
     if (!(rg_integrate_tangent(f, f->trial, s, 0, f->t) > 0)) return 0;
     *far = f->moved = set_right(f, s);
@@ -241,7 +241,7 @@ static int make_node_at_once(rg_fold *f, double s, double *far)
 
 /* A node at s from the prediction in f->trial, which closes to `error`. far: see set_right. Non-zero: it is made, in
  * f->trial and f->t. */
-static int make_node(rg_fold *f, double s, double error, double *far)
+static int make_node(rg_straight *f, double s, double error, double *far)
 {
     const int32_t N = f->mesh.N;
     if (!f->one_way && N > 3 * f->mesh.M && error <= GOOD_PREDICTION && f->path.count >= RG_PATH_WINDOW)
@@ -265,14 +265,14 @@ static int make_node(rg_fold *f, double s, double error, double *far)
 }
 
 /* Where the next node is put for a step of h: the end if that is near, the last place of the grid that is within reach. */
-static double snap(const rg_fold *f, double from, double h)
+static double snap(const rg_straight *f, double from, double h)
 {
     if (from + 1.2 * h >= f->s_end) return f->s_end;
     double s = f->s_end * (int32_t)((from + 1.3 * h) / f->s_end * GRID) / GRID;
     return !f->one_way && s - from >= 0.4 * h ? s : from + h;
 }
 
-int rg_integrate_advance(rg_fold *f)
+int rg_integrate_advance(rg_straight *f)
 {
     rg_path *p = &f->path;
     const double from = p->node[p->count - 1].s;
@@ -295,7 +295,7 @@ int rg_integrate_advance(rg_fold *f)
     }
 }
 
-int rg_integrate_read_off(rg_fold *f, double s)
+int rg_integrate_read_off(rg_straight *f, double s)
 {
     const rg_path *p = &f->path;
     int32_t first, n;

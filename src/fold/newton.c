@@ -1,5 +1,5 @@
 /* newton.c -- drift worked off: eq. (14) again and again until every vertex closes. */
-#include "fold/fold.h"
+#include "fold/newton.h"
 
 #include <string.h>
 
@@ -23,7 +23,7 @@ static const double ROUNDING = 1e-13;
 
 /* Eq. (14) with the wish for what progress is off. It is held to the letter: without that, an over-constrained sheet, whose C
  * has one more rank off the path than on it, would trade progress for closure and creep. */
-static int correct_held(rg_fold *f, double off, double tol)
+static int correct_held(rg_straight *f, double off, double tol)
 {
     rg_cg_report rep;
     for (int32_t i = 0; i < f->mesh.N; i++) f->wish[i] = off / f->drive.steepness * f->drive.along[i];
@@ -31,7 +31,7 @@ static int correct_held(rg_fold *f, double off, double tol)
 }
 
 /* Eq. (14) without a wish; what progress is off after that is made good along t, a motion that the facets allow. */
-static int correct_along(rg_fold *f, double off, double tol, const double *t)
+static int correct_along(rg_straight *f, double off, double tol, const double *t)
 {
     rg_cg_report rep;
     if (rg_project_step(&f->P, &f->K, NULL, 1, NULL, f->wish, tol, &rep) != RG_OK) return 0;
@@ -40,7 +40,7 @@ static int correct_along(rg_fold *f, double off, double tol, const double *t)
     return 1;
 }
 
-int rg_newton_close(rg_fold *f, double s, int32_t most_corrections, int near, const double *t)
+int rg_newton_close(rg_straight *f, double s, int32_t most_corrections, int near, const double *t)
 {
     const int32_t N = f->mesh.N;
     const double tol = f->settings.tol, solve_tol = most_corrections == 1 ? ONCE : near ? NEAR_SOLVE_TOLERANCE : SOLVE_TOLERANCE;
@@ -72,7 +72,7 @@ int rg_newton_close(rg_fold *f, double s, int32_t most_corrections, int near, co
     }
 }
 
-int rg_newton_correct(rg_fold *f, double s, int32_t most)
+int rg_newton_correct(rg_straight *f, double s, int32_t most)
 {
     return rg_newton_close(f, s, most, 0, NULL);
 }

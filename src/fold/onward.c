@@ -1,5 +1,5 @@
 #include "fold/onward.h"
-#include "fold/fold.h"
+#include "fold/newton.h"
 #include "fold/integrate.h"
 
 /* Steps smaller than this part of the whole way are no progress. */
@@ -22,7 +22,7 @@ static double largest(int32_t n, const double *a)
 }
 
 /* Creases beyond their limits are pulled back, along what the constraint allows; f->trial is then corrected. */
-static int pull_back(rg_fold *f, double least, double gain)
+static int pull_back(rg_straight *f, double least, double gain)
 {
     rg_cg_report rep;
     if (!(rg_limit_pull(&f->limit, f->trial, f->pull) > least)) return 0;
@@ -33,7 +33,7 @@ static int pull_back(rg_fold *f, double least, double gain)
 }
 
 /* The folded state itself, where it is within a step and straight ahead. */
-static int land(rg_fold *f)
+static int land(rg_straight *f)
 {
     const int32_t N = f->mesh.N;
     double far = 0, refused = 0, wished = 0, left = 1 - f->s;
@@ -46,14 +46,14 @@ static int land(rg_fold *f)
     }
     /* The wish points straight at the end; near it the constraint agrees up to second order. */
     if (!(far <= f->settings.step && refused <= 0.01 * wished)) return 0;
-    rg_fold_accept(f, f->end, 1);
+    rg_straight_accept(f, f->end, 1);
     f->closure = rg_constraint_closure(&f->K, f->rho, NULL);
     return 1;
 }
 
 /* A step of the method's own kind from f->rho along f->t to f->trial, closed. Beyond a limit, and where a stage has no
  * direction, as in the folded state, Euler's is the method: it can be pulled back. */
-static int try_step(rg_fold *f, double ds)
+static int try_step(rg_straight *f, double ds)
 {
     int higher = f->settings.method == RG_METHOD_HEUN  ? rg_integrate_heun(f, ds)
                  : f->settings.method == RG_METHOD_RK4 ? rg_integrate_rk4(f, ds)
@@ -66,12 +66,12 @@ static int try_step(rg_fold *f, double ds)
     return closed;
 }
 
-void rg_onward_newton(rg_fold *f)
+void rg_onward_newton(rg_straight *f)
 {
     const int32_t N = f->mesh.N;
-    const double goal = rg_fold_frame_progress(f, f->frame);
+    const double goal = rg_straight_frame_progress(f, f->frame);
     if (!(rg_integrate_tangent(f, f->rho, f->s, 0, f->t) > 0)) {
-        rg_fold_stop(f, "no motion that the facets allow folds any further");
+        rg_straight_stop(f, "no motion that the facets allow folds any further");
         return;
     }
     if (land(f)) return;
@@ -81,7 +81,7 @@ void rg_onward_newton(rg_fold *f)
     if (!(ds < left - SMALLEST_STEP)) ds = left; /* leaves no rest that would be too small a step */
     for (;; ds /= 2) {
         if (!(ds > SMALLEST_STEP)) {
-            rg_fold_stop(f, "the facets leave no way on: even the smallest step does not close");
+            rg_straight_stop(f, "the facets leave no way on: even the smallest step does not close");
             return;
         }
         double way = ds * fastest, strayed = 0;
@@ -94,14 +94,14 @@ void rg_onward_newton(rg_fold *f)
     }
     int whole = ds >= left;
     f->ds = whole ? fmax(2 * ds, f->ds == INFINITY ? 0 : f->ds) : 2 * ds;
-    rg_fold_accept(f, f->trial, whole ? goal : f->s + ds);
+    rg_straight_accept(f, f->trial, whole ? goal : f->s + ds);
 }
 
 /* One solve, no correction: the paper's eq. (14) and nothing else. */
-void rg_onward_euler(rg_fold *f)
+void rg_onward_euler(rg_straight *f)
 {
     const int32_t N = f->mesh.N;
-    const double goal = rg_fold_frame_progress(f, f->frame);
+    const double goal = rg_straight_frame_progress(f, f->frame);
     rg_cg_report rep;
     rg_constraint_assemble(&f->K, f->rho);
     f->assemblies++;
@@ -111,20 +111,20 @@ void rg_onward_euler(rg_fold *f)
     rg_limit_pull(&f->limit, f->rho, f->pull);
     for (int32_t i = 0; i < N; i++) f->wish[i] = h * f->wish[i] + LIMIT_GAIN * f->pull[i];
     if (rg_project_step(&f->P, &f->K, f->wish, 1, NULL, f->t, SOLVE_TOLERANCE, &rep) != RG_OK) { /* eqs. (14), (15) */
-        rg_fold_stop(f, "the solver failed");
+        rg_straight_stop(f, "the solver failed");
         return;
     }
     double ds = rg_drive_progress(&f->drive, f->t), part = 1, way = largest(N, f->t);
     if (!(way <= RG_PI)) {
-        rg_fold_stop(f, "the step diverged");
+        rg_straight_stop(f, "the step diverged");
         return;
     }
     if (f->s + ds > goal - SMALLEST_STEP && ds > 0) part = (goal - f->s) / ds;
     if (!(part * way > SMALLEST_STEP * f->settings.step)) {
-        rg_fold_stop(f, "no motion that the facets allow folds any further");
+        rg_straight_stop(f, "no motion that the facets allow folds any further");
         return;
     }
     for (int32_t i = 0; i < N; i++) f->trial[i] = f->rho[i] + part * f->t[i]; /* eq. (10) */
-    rg_fold_accept(f, f->trial, part != 1 ? goal : f->s + ds);
+    rg_straight_accept(f, f->trial, part != 1 ? goal : f->s + ds);
     f->closure = rg_constraint_closure(&f->K, f->rho, NULL);
 }

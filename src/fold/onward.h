@@ -1,13 +1,13 @@
 /* onward.h -- one step from the state, no farther than the next frame: the methods that go on from step to step.
- * Paper    eqs. (10), (14), section 4        Uses  fold.h integrate.h        Used by  fold.c */
+ * Paper    eqs. (10), (14), section 4        Uses  system.h        Used by  straight.c */
 #ifndef RG_ONWARD_H
 #define RG_ONWARD_H
 
-#include "rigami.h"
+#include "fold/system.h"
 
 /* A step of newton, heun or rk4, closed, what is beyond a limit pulled back; or the end of the fold, f->reason says why. */
-void rg_onward_newton(rg_fold *f);
+void rg_onward_newton(rg_straight *f);
 /* The paper's: one solve, no correction. */
-void rg_onward_euler(rg_fold *f);
+void rg_onward_euler(rg_straight *f);
 
 #endif

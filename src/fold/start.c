@@ -5,7 +5,8 @@
  * branches through the flat state. A first linear step followed by Newton at a fixed small progress solves these
  * homogeneous equations for the branch nearest to the wish; whether it is the right one shows in its signs. Where a
  * crease comes out on the wrong side the attempt is repeated with that crease asked for more strongly. */
-#include "fold/fold.h"
+#include "fold/start.h"
+#include "fold/newton.h"
 
 #include <string.h>
 
@@ -20,7 +21,7 @@ static const int32_t SLIDES = 12;
 static const double LOCKED = 1e-6;
 
 /* Sum of the wrong-sided parts, each over the mean; 0: all on the right side. */
-static double wrongness(const rg_fold *f, const double *rho, double s1)
+static double wrongness(const rg_straight *f, const double *rho, double s1)
 {
     double sum = 0;
     for (int32_t i = 0; i < f->mesh.N; i++) {
@@ -32,7 +33,7 @@ static double wrongness(const rg_fold *f, const double *rho, double s1)
 }
 
 /* t = the wish in f->wish projected at the flat state, scaled to ds/dt = 1. */
-static int flat_direction(rg_fold *f)
+static int flat_direction(rg_straight *f)
 {
     rg_cg_report rep;
     memset(f->trial, 0, (size_t)f->mesh.N * sizeof *f->trial);
@@ -48,7 +49,7 @@ static int flat_direction(rg_fold *f)
 }
 
 /* At f->trial, closed: one step of the wish with progress held, then closed again. */
-static int slide(rg_fold *f, double s1, double gain)
+static int slide(rg_straight *f, double s1, double gain)
 {
     const int32_t N = f->mesh.N;
     rg_cg_report rep;
@@ -62,7 +63,7 @@ static int slide(rg_fold *f, double s1, double gain)
     return rg_newton_correct(f, s1, CORRECTIONS);
 }
 
-int rg_start_leave_flat(rg_fold *f, double s1)
+int rg_start_leave_flat(rg_straight *f, double s1)
 {
     const int32_t N = f->mesh.N;
     const size_t bytes = (size_t)N * sizeof(double);

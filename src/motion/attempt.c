@@ -146,15 +146,15 @@ double rg_attempt_largest_angle(const rg_attempt *t, int32_t i)
 /* ------------------------------------------------------------------------------------------ straight on ---- */
 
 /* One run through the frames that are due. due NULL: evenly in progress. */
-static rg_status run_straight(rg_attempt *t, rg_fold *f, const double *due, rg_watch *watch)
+static rg_status run_straight(rg_attempt *t, rg_straight *f, const double *due, rg_watch *watch)
 {
     rg_step_info info = {0};
     double kept = -1;
     rg_status s = RG_OK;
-    rg_fold_set_due(f, due);
+    rg_straight_set_due(f, due);
     t->count = 0;
     while (s == RG_OK && info.outcome == RG_RUNNING) {
-        s = rg_fold_step(f, &info);
+        s = rg_straight_step(f, &info);
         if (s == RG_OK && info.frame >= 0) {
             memcpy(t->rho + (size_t)t->count++ * (size_t)f->mesh.N, f->rho, (size_t)f->mesh.N * sizeof *f->rho);
             kept = f->s;
@@ -171,17 +171,17 @@ static rg_status run_straight(rg_attempt *t, rg_fold *f, const double *due, rg_w
 static rg_status find_rest(const rg_mesh *drawn, const rg_settings *settings, rg_watch *watch, double *s_rest)
 {
     const rg_memory mem = rg_mem_default(settings->memory);
-    rg_fold *f = NULL;
+    rg_straight *f = NULL;
     rg_mesh m;
     rg_step_info info = {0};
     double *rho = rg_mem_array(&mem, (size_t)drawn->N, sizeof *rho), *t = rg_mem_array(&mem, (size_t)drawn->N, sizeof *t);
     rg_status s = rho && t ? rg_mesh_copy(drawn, &m) : RG_ENOMEM;
-    if (s == RG_OK) s = rg_fold_from_mesh(&m, settings, &f, NULL);
+    if (s == RG_OK) s = rg_straight_from_mesh(&m, settings, &f, NULL);
     for (int found = 0; s == RG_OK && !found && info.outcome == RG_RUNNING; found = rg_rest_find(f, rho, t, s_rest)) {
-        s = rg_fold_step(f, &info);
+        s = rg_straight_step(f, &info);
         if (is_cancelled(watch, info.progress)) break;
     }
-    rg_fold_destroy(f);
+    rg_straight_destroy(f);
     rg_mem_free(&mem, rho);
     rg_mem_free(&mem, t);
     return s;
@@ -191,7 +191,7 @@ rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *sett
 {
     const double begun = rg_seconds();
     rg_settings mine = *settings;
-    rg_fold *f = NULL;
+    rg_straight *f = NULL;
     double s_rest = NAN;
     memset(t, 0, sizeof *t);
     t->mem = rg_mem_default(settings->memory);
@@ -199,7 +199,7 @@ rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *sett
     const int rests = s_rest < fabs(settings->to);
     if (rests) mine.to = copysign(s_rest, settings->to);
     t->to = mine.to;
-    if (s == RG_OK) s = rg_fold_from_mesh(m, &mine, &f, why);
+    if (s == RG_OK) s = rg_straight_from_mesh(m, &mine, &f, why);
     else rg_mesh_free(m);
     if (s != RG_OK) return s;
     s = make_room(t, &f->mesh);
@@ -215,8 +215,8 @@ rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *sett
         static const char *const methods[] = {"auto", "euler", "newton", "heun", "rk4", "adaptive"};
         static const char *const solvers[] = {"auto", "cg", "cholesky", "svd"};
         t->method = methods[f->settings.method];
-        t->solver = solvers[rg_fold_solver(f)];
-        t->cost = rg_fold_cost(f);
+        t->solver = solvers[rg_straight_solver(f)];
+        t->cost = rg_straight_cost(f);
         t->mesh = f->mesh;
         memset(&f->mesh, 0, sizeof f->mesh);
         measure(t);
@@ -226,7 +226,7 @@ rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *sett
             snprintf(t->reason, sizeof t->reason, "undriven creases leave its end open: it rests at %.0f %%", 100 * s_rest);
         }
     }
-    rg_fold_destroy(f);
+    rg_straight_destroy(f);
     if (s != RG_OK) {
         rg_attempt_free(t);
         return rg_fail(s, why, 0, "%s", rg_status_text(s));
@@ -387,16 +387,16 @@ static rg_status read_steadily(rg_attempt *t, const rg_settings *settings)
     double *sum = rg_mem_array(&t->mem, (size_t)t->count, sizeof *sum);
     double *due = rg_mem_array(&t->mem, (size_t)settings->frames, sizeof *due);
     rg_mesh copy = {0};
-    rg_fold *f = NULL;
+    rg_straight *f = NULL;
     rg_watch nobody = {0};
     const rg_outcome outcome = t->outcome;
     mine.to = t->to;
     rg_status s = sum && due ? rg_mesh_copy(&t->mesh, &copy) : RG_ENOMEM;
     if (s == RG_OK) pace_by_states(t->rho, (size_t)t->mesh.N, t->count, fabs(t->to), settings->frames, sum, due);
-    if (s == RG_OK) s = rg_fold_from_mesh(&copy, &mine, &f, NULL);
+    if (s == RG_OK) s = rg_straight_from_mesh(&copy, &mine, &f, NULL);
     if (s == RG_OK) s = run_straight(t, f, due, &nobody);
     t->outcome = outcome;
-    rg_fold_destroy(f);
+    rg_straight_destroy(f);
     rg_mem_free(&t->mem, sum);
     rg_mem_free(&t->mem, due);
     return s;

@@ -1,12 +1,12 @@
 /* attempt.h -- one try at a motion: the path as far as it came, and frames read off it.
- * Uses  fold.h relax.h        Used by  search.c cuts.c states.c assemble.c
+ * Uses  straight.h relax.h        Used by  search.c cuts.c states.c assemble.c
  *
  * A path knows nothing of frames. It is found once, as states of rising progress; frames are read off it, as many and where
  * they are asked for. */
 #ifndef RG_ATTEMPT_H
 #define RG_ATTEMPT_H
 
-#include "fold/fold.h"
+#include "fold/straight.h"
 #include "fold/relax.h"
 #include "motion/motion.h"
 

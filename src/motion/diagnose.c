@@ -46,7 +46,7 @@ static int is_blocked(double rho, double from, double target, double wish, doubl
 }
 
 /* Of one system. */
-static rg_status diagnose(rg_fold *f, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases)
+static rg_status diagnose(rg_straight *f, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases)
 {
     const rg_sparse *C = &f->K.C;
     rg_cg_report rep;
@@ -71,12 +71,12 @@ static rg_status diagnose(rg_fold *f, int32_t *vertex, int32_t *vertices, int32_
     return s;
 }
 
-rg_status rg_diagnose_blocking(rg_fold *f, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases)
+rg_status rg_diagnose_blocking(rg_straight *f, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases)
 {
-    rg_fold *const *system;
+    rg_straight *const *system;
     rg_status s = RG_OK;
     *vertices = *creases = 0;
-    for (int32_t p = 0, n = rg_fold_systems(f, &system), v, c; p < n && s == RG_OK; p++) {
+    for (int32_t p = 0, n = rg_straight_systems(f, &system), v, c; p < n && s == RG_OK; p++) {
         if (n > 1 && system[p]->outcome == RG_FOLDED) continue;
         int32_t *mine = crease + *creases;
         s = diagnose(system[p], vertex + *vertices, &v, mine, &c);

@@ -1,16 +1,9 @@
 #include "motion/motion.h"
-#include "base/clock.h"
 #include "base/status.h"
 #include "kinematics/mobility.h"
-#include "motion/diagnose.h"
-#include "motion/ending.h"
-#include "motion/measure.h"
-#include "motion/search.h"
 #include "pattern/source.h"
-#include "motion/unfolding.h"
 #include "pose/lie.h"
 
-#include <stdio.h>
 #include <string.h>
 
 void rg_motion_destroy(rg_motion *m)
@@ -118,146 +111,10 @@ rg_status rg_motion_mobility(const rg_motion *m, int32_t frame, int32_t *ways)
     return rho ? rg_mobility(&m->mesh, m->flat ? rg_motion_pattern(m, frame) : NULL, rho, ways) : RG_EARG;
 }
 
-/* A crease below the first has not left flat; within the second of half a turn it is at its limit. */
-static const double LOCKED = 1e-6, AT_LIMIT = 0.5 * RG_DEG;
-
-/* Of the creases that are held short: how many are locked flat, how many vertices' creases are at half a turn. */
-static void count_held(const rg_motion *m, int32_t *locked, int32_t *at_limit)
-{
-    const double *rho = rg_motion_angles(m, m->report.frame_count - 1);
-    *locked = *at_limit = 0;
-    for (int32_t i = 0; i < m->report.blocking_crease_count; i++) *locked += fabs(rho[m->report.blocking_creases[i]]) <= LOCKED;
-    for (int32_t i = 0; i < m->mesh.N - m->mesh.added; i++) *at_limit += fabs(rho[i]) >= RG_PI - AT_LIMIT;
-}
-
-/* Where and why the kept try is held, in words: the strongest vertex and what it is, the creases, what may help. */
-static rg_status explain(rg_motion *m, const rg_pattern *p)
-{
-    rg_report *r = &m->report;
-    if (r->outcome != RG_STOPPED || !r->blocking_vertex_count) return RG_OK;
-    const rg_vec2 at = m->mesh.X[r->blocking_vertices[0]];
-    const double x = r->blocking_at[0][0], y = r->blocking_at[0][1];
-    int32_t creases = 0, closed = 0, locked, at_limit, ways;
-    const rg_status s = rg_motion_mobility(m, r->frame_count - 1, &ways);
-    if (s != RG_OK && s != RG_EABSENT) return s;
-    for (int32_t i = 0; i < m->mesh.N - m->mesh.added; i++) {
-        const int32_t *end = m->mesh.edge[m->mesh.crease_edge[i]];
-        creases += end[0] == r->blocking_vertices[0] || end[1] == r->blocking_vertices[0];
-    }
-    for (int32_t i = 0; i < p->closed_triples; i++)
-        closed |= hypot(p->closed[i].x - at.x, p->closed[i].y - at.y) <= 1e-9 * m->mesh.size;
-    count_held(m, &locked, &at_limit);
-    const char *help = m->settings.triangulate == RG_TRIANGULATE_NONE ? "added creases may help"
-                       : m->settings.adjust == 0                      ? "adjusting creases may help"
-                                                                      : "nothing known helps";
-    size_t used = strlen(r->reason);
-    if (s == RG_OK)
-        used += (size_t)snprintf(r->reason + used, sizeof r->reason - used, "; ways the sheet could go to first order: %d", (int)ways);
-    snprintf(r->reason + used, sizeof r->reason - used,
-             "; held most at (%.6g, %.6g), a %svertex of %d creases (%d free); creases of the sheet locked flat: %d, at half a turn: %d; %s", x, y,
-             closed ? "closed " : "", (int)creases, (int)(creases > 3 ? creases - 3 : 0), (int)locked, (int)at_limit, help);
-    return RG_OK;
-}
-
-/* What the kept try has, becomes the motion's. */
-static rg_status adopt(rg_motion *m, rg_search *c)
-{
-    rg_report *r = &m->report;
-    rg_attempt *t = &c->best;
-    m->mesh = t->mesh;
-    m->target = t->target, m->from = t->from, m->rho = t->rho, m->flat = t->flat;
-    m->blocking_vertex = t->vertex, m->blocking_crease = t->crease;
-    r->blocking_vertex_count = t->vertices, r->blocking_crease_count = t->creases;
-    r->frame_count = t->count;
-    r->outcome = t->outcome;
-    snprintf(r->reason, sizeof r->reason, "%s", t->reason);
-    r->method = t->method, r->solver = t->solver;
-    r->adjust_gain = t->relax ? t->relax->how.gain : 0;
-    r->compliance = c->compliance;
-    r->rung = c->rung, r->direction = c->direction;
-    r->seconds_of_winning_try = t->cost.seconds;
-    memset(&t->mesh, 0, sizeof t->mesh);
-    t->target = t->from = t->rho = NULL, t->flat = NULL, t->vertex = t->crease = NULL;
-    rg_attempt_free(t); /* the path itself is not kept */
-
-    r->triangulation = c->triangulation;
-    r->why_triangulated = c->why_triangulated;
-    snprintf(r->strategy, sizeof r->strategy, "%s", c->strategy);
-    r->tries = c->tries;
-    r->steps = c->cost.steps, r->solves = c->cost.solves, r->cg_iterations = c->cost.iterations;
-    r->factorizations = c->cost.factorizations, r->assemblies = c->cost.assemblies;
-    r->seconds_solving = c->cost.seconds;
-    r->added_creases = m->mesh.added;
-    r->unknowns = m->mesh.N;
-    r->constraints = 3 * m->mesh.M;
-
-    m->frame = rg_mem_array(&m->mem, (size_t)r->frame_count, sizeof *m->frame);
-    m->blocking_at = rg_mem_array(&m->mem, (size_t)r->blocking_vertex_count, sizeof *m->blocking_at);
-    if (!m->frame || !m->blocking_at) return RG_ENOMEM;
-    for (int32_t k = 0; k < r->blocking_vertex_count; k++) {
-        const rg_vec2 at = m->mesh.X[m->blocking_vertex[k]];
-        m->blocking_at[k][0] = at.x;
-        m->blocking_at[k][1] = m->source.y_down ? 0 - at.y : at.y;
-    }
-    r->blocking_vertices = m->blocking_vertex;
-    r->blocking_creases = m->blocking_crease;
-    r->blocking_at = (const double(*)[2])m->blocking_at;
-    r->frames = m->frame;
-    return RG_OK;
-}
-
 rg_status rg_motion_check_settings(const rg_settings *s, rg_diag *why)
 {
     if (s->frames < 2) return rg_fail(RG_EARG, why, 0, "there must be at least 2 frames");
     if (!(s->adjust == RG_ADJUST_AUTO || (s->adjust >= 0 && s->adjust <= 1)))
         return rg_fail(RG_EARG, why, 0, "the gain of crease adjustment must be within 0 and 1");
-    return RG_OK;
-}
-
-rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_progress progress, void *ctx,
-                           rg_motion **motion, rg_diag *why)
-{
-    const double begun = rg_seconds();
-    const rg_memory mem = rg_mem_default(settings->memory);
-    rg_status s = rg_motion_check_settings(settings, why);
-    if (s != RG_OK) return s;
-    rg_motion *m = rg_mem_array(&mem, 1, sizeof *m);
-    if (!m) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
-    m->mem = mem;
-    m->settings = *settings;
-    rg_report *r = &m->report;
-    rg_watch watch = {.progress = progress, .ctx = ctx};
-    rg_search search = {0};
-    rg_mesh none = {0};
-    rg_pattern_get_info(p, &r->pattern);
-    r->pattern.title = m->title = rg_mem_string(&mem, r->pattern.title);
-    r->pattern.author = m->author = rg_mem_string(&mem, r->pattern.author);
-    if (!m->title || !m->author) s = RG_ENOMEM;
-    if (s == RG_OK) s = rg_source_copy(&p->source, &mem, &m->source);
-    if (s == RG_OK) s = rg_mesh_from_pattern(p, &mem, &none, why);
-    const rg_problem problem = {&none, NULL, NULL, 1};
-    if (s == RG_OK) s = rg_search_run(&search, &problem, settings, &watch, why);
-    if (s == RG_OK) s = rg_attempt_read(&search.best, settings);
-    if (s == RG_OK) s = rg_unfolding_try(&search, &none, settings, &watch, why);
-    if (s == RG_OK) s = adopt(m, &search);
-    rg_attempt_free(&search.best);
-    if (s == RG_OK) s = rg_tree_init(&m->mesh, settings->fixed_facet, &m->tree);
-    if (s == RG_EARG && m->mesh.nf > 0)
-        rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)settings->fixed_facet, (int)m->mesh.nf - 1);
-    if (s == RG_OK) s = rg_measure_frames(m);
-    if (s == RG_OK) s = rg_ending_find(m, why);
-    if (s == RG_OK && !watch.cancelled) s = explain(m, p);
-    if (s == RG_OK && r->pattern.creases == 0 && r->pattern.lost_creases > 0) {
-        r->outcome = RG_STOPPED;
-        snprintf(r->reason, sizeof r->reason, "no crease is left to fold: all %d that are drawn end short of the next line, or lie on the border",
-                 (int)r->pattern.lost_creases);
-    }
-    rg_mesh_free(&none);
-    if (s != RG_OK) {
-        rg_motion_destroy(m);
-        return s == RG_ENOMEM ? rg_fail(s, why, 0, "out of memory") : s;
-    }
-    r->seconds_total = rg_seconds() - begun;
-    *motion = m;
     return RG_OK;
 }

@@ -1,5 +1,5 @@
 /* motion.h -- a fold from flat to its end, kept frame by frame, and measured.
- * Uses  fold.h pose.h        Used by  write, render */
+ * Uses  straight.h pose.h        Used by  write, render */
 #ifndef RG_MOTION_H
 #define RG_MOTION_H
 

@@ -1,4 +1,5 @@
 #include "motion/overlay.h"
+#include "pattern/build.h"
 #include "base/status.h"
 
 #include <string.h>

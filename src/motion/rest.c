@@ -13,7 +13,7 @@ int rg_rest_is_open(const rg_mesh *m)
 }
 
 /* dE/ds along t. */
-static double slope(const rg_fold *f, const double *rho, const double *t)
+static double slope(const rg_straight *f, const double *rho, const double *t)
 {
     const rg_mesh *m = &f->mesh;
     double sum = 0;
@@ -25,7 +25,7 @@ static double slope(const rg_fold *f, const double *rho, const double *t)
     return sum;
 }
 
-int rg_rest_find(const rg_fold *f, double *rho, double *t, double *s)
+int rg_rest_find(const rg_straight *f, double *rho, double *t, double *s)
 {
     const rg_path *p = &f->path;
     const rg_node *b = p->count > 1 ? &p->node[p->count - 1] : NULL, *a = b ? b - 1 : NULL;

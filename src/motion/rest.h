@@ -1,5 +1,5 @@
 /* rest.h -- where a motion whose end its undriven creases leave open comes to rest.
- * Paper    Fig. 10 (c), the pleated hypar        Uses  fold.h        Used by  attempt.c
+ * Paper    Fig. 10 (c), the pleated hypar        Uses  straight.h        Used by  attempt.c
  *
  * Driven creases pull towards their targets, undriven ones towards flat, all by their lengths l. The sheet rests where
  *
@@ -9,12 +9,12 @@
 #ifndef RG_REST_H
 #define RG_REST_H
 
-#include "fold/fold.h"
+#include "fold/straight.h"
 
 /* Does the pattern leave open where some crease ends? */
 int rg_rest_is_open(const rg_mesh *m);
 /* The progress at which f rests, if that is between its last two nodes. Zero: it is not. rho[N], t[N]: scratch. Only for one system
  * that steps adaptively. */
-int rg_rest_find(const rg_fold *f, double *rho, double *t, double *s);
+int rg_rest_find(const rg_straight *f, double *rho, double *t, double *s);
 
 #endif

@@ -46,7 +46,4 @@ struct rg_pattern {
     rg_lines lines;       /* only its metadata and warnings are kept */
 };
 
-/* Takes over *lines (also on failure, where it is freed). */
-rg_status rg_pattern_from_lines(rg_lines *lines, const rg_settings *s, rg_pattern **pattern, rg_diag *why);
-
 #endif

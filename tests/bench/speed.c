@@ -3,7 +3,8 @@
  * One row a run: the best of a few, seconds of the processor (one thread, but for CHOLMOD's factorisation, which is timed by
  * the clock on the wall so that its threads do not count against it). "factorization" is the numeric one of C C^T + beta I of the
  * Miura-ori 64 x 64, triangulated, by METIS, supernodal; a "pass" is one product with its C. */
-#include "fold/fold.h"
+#include "fold/straight.h"
+#include "pattern/build.h"
 #include "generate/generate.h"
 #include "motion/motion.h"
 #include "pattern/pattern.h"
@@ -105,9 +106,9 @@ static units parts(void)
     rg_pattern *p = generated("miura", 64);
     rg_settings s = rg_settings_default();
     s.triangulate = RG_TRIANGULATE_ALL;
-    rg_fold *f = NULL;
+    rg_straight *f = NULL;
     rg_diag why = {0, ""};
-    if (rg_fold_create(p, &s, &f, &why) != RG_OK) give_up("miura 64", why.text);
+    if (rg_straight_create(p, &s, &f, &why) != RG_OK) give_up("miura 64", why.text);
     const rg_mesh *m = &f->mesh;
     rg_tree tree;
     double *y = calloc(3 * (size_t)m->M, sizeof *y), assembly, closure, pose, factor, solve;
@@ -131,7 +132,7 @@ static units parts(void)
         printf("%s,%.3g,%.3g,%.3g\n", row[k].name, row[k].seconds, row[k].seconds / u.pass, row[k].seconds / u.factorization);
     free(y), free(place), free(x);
     rg_tree_free(&tree);
-    rg_fold_destroy(f);
+    rg_straight_destroy(f);
     rg_pattern_destroy(p);
     return u;
 }

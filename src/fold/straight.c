@@ -1,8 +1,10 @@
-#include "fold/fold.h"
+#include "fold/straight.h"
 #include "base/clock.h"
 #include "base/status.h"
+#include "fold/apart.h"
 #include "fold/integrate.h"
 #include "fold/onward.h"
+#include "fold/start.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -18,8 +20,6 @@ static const int32_t MOST_IDLE = 60;
 static const double LEAST_GAIN = 1e-3, LEAST_PART = 0.01;
 /* Where there are more equations than creases they must agree this well, or what is open at vertices holds the sheet. */
 static const double LOOSEST = 1e-6;
-/* Within this of its target every crease counts as arrived: the exit status's 1 %. */
-static const double ARRIVED = 0.01;
 
 static rg_status check_settings(const rg_settings *s, rg_diag *why)
 {
@@ -31,7 +31,7 @@ static rg_status check_settings(const rg_settings *s, rg_diag *why)
 }
 
 /* The one system of all creases, and what its time loop works on. */
-static rg_status make_system(rg_fold *f, rg_diag *why)
+static rg_status make_system(rg_straight *f, rg_diag *why)
 {
     const rg_memory *mem = &f->mem;
     rg_status s = rg_project_init(&f->P, mem, &f->K, f->settings.solver);
@@ -47,11 +47,14 @@ static rg_status make_system(rg_fold *f, rg_diag *why)
     return RG_OK;
 }
 
-static rg_status create(rg_mesh *m, const rg_settings *settings, int apart, rg_fold **fold, rg_diag *why)
+/* What components are made, stepped and destroyed by. */
+static const rg_apart_of OF_SYSTEMS = {rg_straight_from_mesh_together, rg_straight_step, rg_straight_destroy};
+
+static rg_status create(rg_mesh *m, const rg_settings *settings, int apart, rg_straight **fold, rg_diag *why)
 {
     rg_memory mem = rg_mem_default(settings->memory);
     rg_status s = check_settings(settings, why);
-    rg_fold *f = s == RG_OK ? rg_mem_array(&mem, 1, sizeof *f) : NULL;
+    rg_straight *f = s == RG_OK ? rg_mem_array(&mem, 1, sizeof *f) : NULL;
     if (!f) {
         rg_mesh_free(m);
         return s != RG_OK ? s : RG_ENOMEM;
@@ -69,24 +72,24 @@ static rg_status create(rg_mesh *m, const rg_settings *settings, int apart, rg_f
     s = f->rho ? rg_constraint_init(&f->K, &mem, &f->mesh) : RG_ENOMEM;
     if (s == RG_OK) s = rg_drive_init(&f->drive, &mem, &f->mesh, settings->to < 0 ? -1 : 1);
     if (s == RG_OK) s = rg_limit_init(&f->limit, &mem, &f->mesh);
-    if (s == RG_OK && apart) s = rg_apart_init(&f->apart, &mem, &f->mesh, settings, why);
+    if (s == RG_OK && apart) s = rg_apart_init(&f->apart, &OF_SYSTEMS, &mem, &f->mesh, settings, why);
     if (s == RG_OK && f->apart.parts == 0) s = make_system(f, why);
     if (s == RG_OK) *fold = f;
-    else rg_fold_destroy(f);
+    else rg_straight_destroy(f);
     return s;
 }
 
-rg_status rg_fold_from_mesh(rg_mesh *m, const rg_settings *settings, rg_fold **fold, rg_diag *why)
+rg_status rg_straight_from_mesh(rg_mesh *m, const rg_settings *settings, rg_straight **fold, rg_diag *why)
 {
     return create(m, settings, 1, fold, why);
 }
 
-rg_status rg_fold_from_mesh_together(rg_mesh *m, const rg_settings *settings, rg_fold **fold, rg_diag *why)
+rg_status rg_straight_from_mesh_together(rg_mesh *m, const rg_settings *settings, rg_straight **fold, rg_diag *why)
 {
     return create(m, settings, 0, fold, why);
 }
 
-rg_status rg_fold_create(const rg_pattern *p, const rg_settings *settings, rg_fold **fold, rg_diag *why)
+rg_status rg_straight_create(const rg_pattern *p, const rg_settings *settings, rg_straight **fold, rg_diag *why)
 {
     rg_memory mem = rg_mem_default(settings->memory);
     rg_mesh m, all;
@@ -96,10 +99,10 @@ rg_status rg_fold_create(const rg_pattern *p, const rg_settings *settings, rg_fo
         rg_mesh_free(&m);
         m = all;
     }
-    return s == RG_OK ? rg_fold_from_mesh(&m, settings, fold, why) : s;
+    return s == RG_OK ? rg_straight_from_mesh(&m, settings, fold, why) : s;
 }
 
-void rg_fold_destroy(rg_fold *f)
+void rg_straight_destroy(rg_straight *f)
 {
     if (!f) return;
     rg_memory mem = f->mem;
@@ -115,24 +118,24 @@ void rg_fold_destroy(rg_fold *f)
     rg_mem_free(&mem, f);
 }
 
-const double *rg_fold_angles(const rg_fold *f, int32_t *creases)
+const double *rg_straight_angles(const rg_straight *f, int32_t *creases)
 {
     if (creases) *creases = f->mesh.N;
     return f->rho;
 }
 
-int32_t rg_fold_systems(const rg_fold *f, rg_fold *const **system)
+int32_t rg_straight_systems(const rg_straight *f, rg_straight *const **system)
 {
     *system = f->apart.parts ? f->apart.part : &f->self;
     return f->apart.parts ? f->apart.parts : 1;
 }
 
-rg_cost rg_fold_cost(const rg_fold *f)
+rg_cost rg_straight_cost(const rg_straight *f)
 {
     rg_cost sum = {.seconds = f->seconds_solving};
-    rg_fold *const *system;
-    for (int32_t p = rg_fold_systems(f, &system); p-- > 0;) {
-        const rg_fold *g = system[p];
+    rg_straight *const *system;
+    for (int32_t p = rg_straight_systems(f, &system); p-- > 0;) {
+        const rg_straight *g = system[p];
         sum.steps += g->steps;
         sum.solves += g->P.solves;
         sum.iterations += g->P.iterations;
@@ -142,47 +145,26 @@ rg_cost rg_fold_cost(const rg_fold *f)
     return sum;
 }
 
-rg_solver rg_fold_solver(const rg_fold *f)
+rg_solver rg_straight_solver(const rg_straight *f)
 {
-    rg_fold *const *system, *most = NULL;
-    for (int32_t p = rg_fold_systems(f, &system); p-- > 0;)
+    rg_straight *const *system, *most = NULL;
+    for (int32_t p = rg_straight_systems(f, &system); p-- > 0;)
         if (!most || system[p]->mesh.N > most->mesh.N) most = system[p];
     return most->P.solver;
 }
 
-void rg_fold_set_due(rg_fold *f, const double *due)
+void rg_straight_set_due(rg_straight *f, const double *due)
 {
     f->due = due;
     for (int32_t p = 0; p < f->apart.parts; p++) f->apart.part[p]->due = due;
 }
 
-double rg_fold_frame_progress(const rg_fold *f, int32_t frame)
+static void leave_flat(rg_straight *f)
 {
-    return f->due ? f->due[frame] : f->s_end * frame / (f->settings.frames - 1);
-}
-
-void rg_fold_accept(rg_fold *f, const double *rho, double s)
-{
-    memcpy(f->rho, rho, (size_t)f->mesh.N * sizeof *rho);
-    f->s = s;
-}
-
-void rg_fold_stop(rg_fold *f, const char *why)
-{
-    int arrived = f->s_end >= 1;
-    for (int32_t i = 0; i < f->mesh.N && arrived; i++)
-        if (rg_drive_is_driven(&f->drive, i)) arrived = fabs(f->rho[i] / f->drive.target[i] - 1) <= ARRIVED;
-    f->outcome = arrived ? RG_FOLDED : RG_STOPPED;
-    snprintf(f->reason, sizeof f->reason, "%s%s", why,
-             arrived ? "; every crease is within 1 % of its target" : "");
-}
-
-static void leave_flat(rg_fold *f)
-{
-    double s1 = fmin(FIRST_ANGLE / RG_PI, f->smooth ? f->s_end / 2 : rg_fold_frame_progress(f, f->frame));
+    double s1 = fmin(FIRST_ANGLE / RG_PI, f->smooth ? f->s_end / 2 : rg_straight_frame_progress(f, f->frame));
     if (f->smooth) rg_path_insert(&f->path, 0, f->rho, NULL);
     if (!rg_start_leave_flat(f, s1)) {
-        rg_fold_stop(f, "no way off the flat state was found");
+        rg_straight_stop(f, "no way off the flat state was found");
         return;
     }
     if (f->smooth && !(rg_integrate_tangent(f, f->rho, f->s, 0, f->t) > 0)) f->smooth = 0;
@@ -190,20 +172,20 @@ static void leave_flat(rg_fold *f)
     f->order = 1;
     if (!f->smooth) return;
     rg_path_insert(&f->path, f->s, f->rho, f->t);
-    rg_fold_accept(f, f->path.node[0].rho, 0); /* frames may lie before that node */
+    rg_straight_accept(f, f->path.node[0].rho, 0); /* frames may lie before that node */
 }
 
 /* The next frame off the nodes, or another node where they do not reach it yet. */
-static void step_adaptive(rg_fold *f)
+static void step_adaptive(rg_straight *f)
 {
     rg_path *p = &f->path;
-    const double goal = rg_fold_frame_progress(f, f->frame);
+    const double goal = rg_straight_frame_progress(f, f->frame);
     const int32_t beyond = RG_PATH_WINDOW / 2;
     double last = p->node[p->count - 1].s;
     int ended = f->path_ended || last >= f->s_end;
     int reached = goal <= last && (ended || (p->count > beyond && goal <= p->node[p->count - beyond].s));
     if (reached && rg_integrate_read_off(f, goal)) {
-        rg_fold_accept(f, f->trial, goal);
+        rg_straight_accept(f, f->trial, goal);
         return;
     }
     if (!reached && !ended) {
@@ -212,10 +194,10 @@ static void step_adaptive(rg_fold *f)
         return;
     }
     f->smooth = 0; /* from the last node on, or from the last frame if that is all there is, step by step */
-    if (!reached) rg_fold_accept(f, p->node[p->count - 1].rho, last);
+    if (!reached) rg_straight_accept(f, p->node[p->count - 1].rho, last);
 }
 
-static int creeps(rg_fold *f)
+static int creeps(rg_straight *f)
 {
     const double s = f->smooth && f->path.count > 0 ? f->path.node[f->path.count - 1].s : f->s;
     const double could = MOST_IDLE * f->settings.step / RG_PI;
@@ -225,29 +207,29 @@ static int creeps(rg_fold *f)
 }
 
 /* One step of one system. Returns the frame that it ends on, -1: none. */
-static int32_t step(rg_fold *f)
+static int32_t step(rg_straight *f)
 {
     if (f->steps == 0) return 0; /* the flat state is the first frame */
     if (f->drive.count == 0 || f->s_end == 0) { /* nothing to fold: flat is what all frames are */
-        f->s = rg_fold_frame_progress(f, f->frame);
+        f->s = rg_straight_frame_progress(f, f->frame);
         return f->frame;
     }
     if (f->steps - f->frame > fmax(MOST_STEPS, MOST_WAYS * RG_PI / f->settings.step)) { /* besides those that frames ask for */
-        rg_fold_stop(f, "the number of steps ran out");
+        rg_straight_stop(f, "the number of steps ran out");
     } else if (creeps(f)) {
-        rg_fold_stop(f, "the facets leave hardly any way on: it goes on in steps too small to get anywhere");
+        rg_straight_stop(f, "the facets leave hardly any way on: it goes on in steps too small to get anywhere");
     } else {
         if (f->settings.method == RG_METHOD_EULER) rg_onward_euler(f);
         else if (f->steps == 1 && f->s == 0) leave_flat(f);
         else if (f->smooth) step_adaptive(f);
         else rg_onward_newton(f);
-        if (f->outcome == RG_RUNNING && f->s >= rg_fold_frame_progress(f, f->frame)) return f->frame;
+        if (f->outcome == RG_RUNNING && f->s >= rg_straight_frame_progress(f, f->frame)) return f->frame;
     }
     return -1;
 }
 
 /* The same for several. */
-static int32_t step_apart(rg_fold *f)
+static int32_t step_apart(rg_straight *f)
 {
     const int32_t last = f->settings.frames - 1;
     int reached, done = 1;
@@ -258,9 +240,9 @@ static int32_t step_apart(rg_fold *f)
     return done ? last : reached ? f->frame : -1;
 }
 
-rg_status rg_fold_step(rg_fold *f, rg_step_info *info)
+rg_status rg_straight_step(rg_straight *f, rg_step_info *info)
 {
-    const rg_cost was = rg_fold_cost(f);
+    const rg_cost was = rg_straight_cost(f);
     int32_t frame = -1;
     double from = rg_seconds();
     if (f->outcome == RG_RUNNING) {
@@ -268,12 +250,12 @@ rg_status rg_fold_step(rg_fold *f, rg_step_info *info)
         if (frame >= 0) f->frame = frame + 1, f->idle = 0;
         if (f->outcome == RG_RUNNING && f->frame == f->settings.frames) {
             f->outcome = RG_FOLDED;
-            if (f->s_end >= 1) rg_fold_stop(f, "all frames are made");
+            if (f->s_end >= 1) rg_straight_stop(f, "all frames are made");
         }
         f->steps += !f->smooth || f->steps < 2;
     }
     f->seconds_solving += rg_seconds() - from;
-    const rg_cost is = rg_fold_cost(f);
+    const rg_cost is = rg_straight_cost(f);
     *info = (rg_step_info){f->outcome, f->s, frame, f->closure, (int32_t)(is.solves - was.solves),
                            (int32_t)(is.iterations - was.iterations)};
     return RG_OK;

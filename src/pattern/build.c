@@ -1,4 +1,4 @@
-#include "pattern/pattern.h"
+#include "pattern/build.h"
 #include "base/status.h"
 #include "pattern/check.h"
 #include "pattern/closed.h"

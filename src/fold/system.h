@@ -1,13 +1,25 @@
-/* fold.h -- the time loop: from flat to folded, one step at a time.
- * Paper    eqs. (10), (14), section 4        Uses  drive.h limit.h project.h        Used by  motion.c */
-#ifndef RG_FOLD_H
-#define RG_FOLD_H
+/* system.h -- one system of creases on its way from flat to folded, straight on: its state, its aim, what it works on.
+ * Paper    eqs. (10), (14), section 4        Uses  drive.h limit.h path.h project.h
+ * Used by  start.c newton.c integrate.c onward.c apart.c straight.c */
+#ifndef RG_SYSTEM_H
+#define RG_SYSTEM_H
 
-#include "fold/apart.h"
 #include "fold/drive.h"
 #include "fold/limit.h"
 #include "fold/path.h"
 #include "kinematics/project.h"
+
+typedef struct rg_straight rg_straight;
+
+/* Its independent components, each a system of its own: apart.h. */
+typedef struct rg_apart {
+    rg_memory mem;
+    const struct rg_apart_of *of; /* borrowed */
+    int32_t parts;   /* 0: the sheet is in one piece */
+    rg_straight **part;  /* [parts] owned */
+    int32_t *start;  /* [parts + 1] into crease */
+    int32_t *crease; /* [N] by part: which crease of the sheet each of its creases is */
+} rg_apart;
 
 /* What was spent. */
 typedef struct rg_cost {
@@ -15,16 +27,16 @@ typedef struct rg_cost {
     double seconds;
 } rg_cost;
 
-struct rg_fold {
+struct rg_straight {
     rg_memory mem;
     rg_settings settings;
-    const double *due;            /* see rg_fold_set_due */
+    const double *due;            /* see rg_straight_set_due */
     rg_mesh mesh;
     rg_constraint K;
     rg_drive drive;
     rg_limit limit;
     rg_apart apart;               /* the folds of its components; with any, of what follows only the state and the end are used */
-    rg_fold *self;
+    rg_straight *self;
     rg_project P;
     double *rho;                  /* [N] the state: always closed to settings.tol under newton */
     double *trial, *wish, *t;     /* [N] */
@@ -52,37 +64,12 @@ struct rg_fold {
     double seconds_solving;
 };
 
-/* A fold of a mesh, its independent components apart; *m is taken over, also on failure. */
-rg_status rg_fold_from_mesh(rg_mesh *m, const rg_settings *s, rg_fold **fold, rg_diag *why);
-/* The same as one system, whatever components there are. */
-rg_status rg_fold_from_mesh_together(rg_mesh *m, const rg_settings *s, rg_fold **fold, rg_diag *why);
-
-/* The systems that are solved: f itself, or its components. Returns how many. */
-int32_t rg_fold_systems(const rg_fold *f, rg_fold *const **system);
-/* Of all systems. */
-rg_cost rg_fold_cost(const rg_fold *f);
-/* That of the system with most creases; never RG_SOLVER_AUTO. */
-rg_solver rg_fold_solver(const rg_fold *f);
-
 /* The state is rho now, at progress s. */
-void rg_fold_accept(rg_fold *f, const double *rho, double s);
+void rg_straight_accept(rg_straight *f, const double *rho, double s);
 /* It is over, and arrived if every crease is within 1 % of its target. */
-void rg_fold_stop(rg_fold *f, const char *why);
+void rg_straight_stop(rg_straight *f, const char *why);
 
-/* Frames are due at these progresses, rising, [settings.frames], borrowed; NULL: evenly. Before the first step. */
-void rg_fold_set_due(rg_fold *f, const double *due);
 /* The progress at which a frame is due. */
-double rg_fold_frame_progress(const rg_fold *f, int32_t frame);
-
-/* start.c: leaves the flat state along the branch that mountain and valley ask for. On return f->rho is closed, at
- * progress s1, with as few creases on the wrong side as could be found; RG_FOLDED-like success is non-zero. */
-int rg_start_leave_flat(rg_fold *f, double s1);
-
-/* newton.c: works off the residual at f->trial, holding progress at `s`: eq. (14) with the wish along f->t only.
- * Non-zero when closed; f->closure is then the closure of f->trial. */
-int rg_newton_correct(rg_fold *f, double s, int32_t most);
-/* The same. near: the last factorisation was made so near to f->trial that it will do. t: the direction there, with which
- * progress is held at less cost where a sheet has more creases than equations; NULL: not known. */
-int rg_newton_close(rg_fold *f, double s, int32_t most, int near, const double *t);
+double rg_straight_frame_progress(const rg_straight *f, int32_t frame);
 
 #endif

@@ -13,7 +13,7 @@
 #include "counted.h"
 #include "folded.h"
 #include "folding.h"
-#include "fold/fold.h"
+#include "fold/straight.h"
 #include "generate/generate.h"
 
 static rg_pattern *generated(const char *kind, int32_t n, double degrees)
@@ -62,7 +62,7 @@ static void miura_keeps_its_closed_form(int32_t n, rg_method method, double off,
     rg_settings s = rg_settings_default();
     s.method = method;
     rg_pattern *p = generated("miura", n, 60);
-    rg_fold *f = fold_of(p, &s);
+    rg_straight *f = fold_of(p, &s);
     int32_t straight = -1, zigzag = -1, frames = 0;
     static char kind[4000];
     assert_in_range(f->mesh.N, 1, 4000);
@@ -88,7 +88,7 @@ static void miura_keeps_its_closed_form(int32_t n, rg_method method, double off,
     assert_int_equal(f->outcome, RG_FOLDED);
     for (int32_t k = 0; k < f->mesh.N; k++) near(f->rho[k], f->drive.target[k], 0); /* the folded state itself */
     below(*worst, off);
-    rg_fold_destroy(f);
+    rg_straight_destroy(f);
     rg_pattern_destroy(p);
 }
 
@@ -117,7 +117,7 @@ static void a_vertex_of_four_keeps_its_ratio(void **state)
         rg_settings s = rg_settings_default();
         s.solver = solver;
         rg_pattern *p = star(4, degrees, "VMMM");
-        rg_fold *f = fold_of(p, &s);
+        rg_straight *f = fold_of(p, &s);
         double ratio = 0;
         for (rg_step_info i; next_frame(f, &i);) {
             const double *rho = f->rho;
@@ -135,7 +135,7 @@ static void a_vertex_of_four_keeps_its_ratio(void **state)
         double other = fabs(cos((a + b) / 2 * RG_DEG) / cos((a - b) / 2 * RG_DEG));
         assert_true(fabs(ratio - one) < 1e-8 || fabs(ratio - other) < 1e-8);
         assert_int_equal(f->outcome, RG_FOLDED);
-        rg_fold_destroy(f);
+        rg_straight_destroy(f);
         rg_pattern_destroy(p);
     }
 }
@@ -148,13 +148,13 @@ static void all_mountain_does_not_fold_and_says_so(void **state)
         rg_settings s = rg_settings_default();
         s.method = m;
         rg_pattern *p = star(4, degrees, "MMMM");
-        rg_fold *f = fold_of(p, &s);
+        rg_straight *f = fold_of(p, &s);
         rg_step_info i;
         while (next_frame(f, &i)) below(unclosed(&f->mesh, f->mesh.X, f->rho), 1e-9);
         assert_int_equal(f->outcome, RG_STOPPED);
         assert_true(f->reason[0] != 0);
         below(unclosed(&f->mesh, f->mesh.X, f->rho), 1e-9);
-        rg_fold_destroy(f);
+        rg_straight_destroy(f);
         rg_pattern_destroy(p);
     }
 }
@@ -172,20 +172,20 @@ static void go_on(const rg_pattern *p, rg_method method, double degrees, const d
     s.frames = 3;
     s.to = 0.5;
     s.tol = 1e-13;
-    rg_fold *f = fold_of(p, &s);
+    rg_straight *f = fold_of(p, &s);
     rg_step_info i;
     if (from) {
-        assert_int_equal(rg_fold_step(f, &i), RG_OK);
+        assert_int_equal(rg_straight_step(f, &i), RG_OK);
         memcpy(f->rho, from, (size_t)f->mesh.N * sizeof *from);
         f->s = 0.25;
         f->steps = 2;
         f->frame = 2;
     }
-    do assert_int_equal(rg_fold_step(f, &i), RG_OK);
+    do assert_int_equal(rg_straight_step(f, &i), RG_OK);
     while (i.frame != (from ? 2 : 1) && i.outcome == RG_RUNNING);
     assert_int_equal(i.frame, from ? 2 : 1);
     memcpy(to, f->rho, (size_t)f->mesh.N * sizeof *to);
-    rg_fold_destroy(f);
+    rg_straight_destroy(f);
 }
 
 static double distance(const double *a, const double *b)
@@ -229,10 +229,10 @@ static void adaptive_follows_the_same_motion(void **state)
     s.frames = 11;
     s.method = RG_METHOD_RK4;
     s.step = 0.1 * RG_DEG;
-    rg_fold *fine = fold_of(p, &s);
+    rg_straight *fine = fold_of(p, &s);
     s.method = RG_METHOD_ADAPTIVE;
     s.step = 5 * RG_DEG;
-    rg_fold *f = fold_of(p, &s);
+    rg_straight *f = fold_of(p, &s);
     for (rg_step_info i, j; next_frame(f, &i);) {
         assert_true(next_frame(fine, &j));
         below(distance(f->rho, fine->rho), 2e-5);
@@ -240,8 +240,8 @@ static void adaptive_follows_the_same_motion(void **state)
         below(unclosed(&f->mesh, f->mesh.X, f->rho), 1e-10);
     }
     assert_int_equal(f->outcome, RG_FOLDED);
-    rg_fold_destroy(f);
-    rg_fold_destroy(fine);
+    rg_straight_destroy(f);
+    rg_straight_destroy(fine);
     rg_pattern_destroy(p);
 }
 
@@ -255,13 +255,13 @@ static void the_same_bits_twice(void **state)
         rg_settings s = rg_settings_default();
         s.frames = 17;
         rg_pattern *p = generated(kinds[k], k < 2 ? 5 : 0, 0);
-        rg_fold *a = fold_of(p, &s), *b = fold_of(p, &s);
+        rg_straight *a = fold_of(p, &s), *b = fold_of(p, &s);
         for (rg_step_info i, j; next_frame(a, &i);) {
             assert_true(next_frame(b, &j));
             assert_memory_equal(a->rho, b->rho, (size_t)a->mesh.N * sizeof *a->rho);
         }
-        rg_fold_destroy(a);
-        rg_fold_destroy(b);
+        rg_straight_destroy(a);
+        rg_straight_destroy(b);
         rg_pattern_destroy(p);
     }
 }
@@ -281,7 +281,7 @@ static void frames_are_read_off_a_path_that_knows_nothing_of_them(void **state)
             s.triangulate = of[k].triangulate;
             s.frames = 24 * many + 1;
             rg_pattern *p = generated(of[k].kind, of[k].n, 0);
-            rg_fold *f = fold_of(p, &s);
+            rg_straight *f = fold_of(p, &s);
             const int32_t N = f->mesh.N;
             const size_t row = (size_t)N * sizeof(double);
             double *now = calloc((size_t)s.frames, row), most = 0;
@@ -297,7 +297,7 @@ static void frames_are_read_off_a_path_that_knows_nothing_of_them(void **state)
                 assert_memory_equal(now + i * N, kept + i / 10 * N, row);
             free(kept);
             kept = now;
-            rg_fold_destroy(f);
+            rg_straight_destroy(f);
             rg_pattern_destroy(p);
         }
         free(kept);
@@ -316,11 +316,11 @@ static void steps_allocate_nothing(void **state)
             s.memory = &mem;
             s.method = m;
             s.frames = 9;
-            rg_fold *f = fold_of(k ? q : p, &s);
+            rg_straight *f = fold_of(k ? q : p, &s);
             long asked = c.asked;
             for (rg_step_info i; next_frame(f, &i);) {}
             assert_int_equal(c.asked, asked);
-            rg_fold_destroy(f);
+            rg_straight_destroy(f);
             assert_int_equal(c.out, 0);
         }
     rg_pattern_destroy(p);
@@ -345,11 +345,11 @@ static void what_stops_is_closed(void **state)
     for (int k = 0; k < 3; k++) {
         rg_settings s = rg_settings_default();
         rg_pattern *p = generated(kinds[k], 0, 0);
-        rg_fold *f = fold_of(p, &s);
+        rg_straight *f = fold_of(p, &s);
         for (rg_step_info i; next_frame(f, &i);) below(unclosed(&f->mesh, f->mesh.X, f->rho), 2e-10);
         assert_int_equal(f->outcome, RG_STOPPED);
         below(unclosed(&f->mesh, f->mesh.X, f->rho), 2e-10);
-        rg_fold_destroy(f);
+        rg_straight_destroy(f);
         rg_pattern_destroy(p);
     }
 }
@@ -366,7 +366,7 @@ static void solvers_say_the_same(void **state)
         rg_settings s = rg_settings_default();
         s.frames = 7;
         s.method = RG_METHOD_NEWTON;
-        rg_fold *f[3];
+        rg_straight *f[3];
         for (int i = 0; i < 3; i++) {
             s.solver = (rg_solver)(RG_SOLVER_CG + i);
             f[i] = fold_of(k ? q : p, &s);
@@ -376,7 +376,7 @@ static void solvers_say_the_same(void **state)
                 assert_true(next_frame(f[j], &i));
                 for (int32_t c = 0; c < f[0]->mesh.N; c++) near(f[j]->rho[c], f[0]->rho[c], 1e-6);
             }
-        for (int i = 0; i < 3; i++) rg_fold_destroy(f[i]);
+        for (int i = 0; i < 3; i++) rg_straight_destroy(f[i]);
     }
     rg_pattern_destroy(p);
     rg_pattern_destroy(q);

@@ -1,0 +1,32 @@
+/* straight.h -- straight on: the time loop from flat to folded on the pattern given, one step at a time.
+ * Paper    eqs. (10), (14), section 4        Uses  system.h        Used by  attempt.c rest.c run.c
+ *
+ * Creases that no vertex joins are systems of their own, in step frame by frame; one that is held does not hold the others. */
+#ifndef RG_STRAIGHT_H
+#define RG_STRAIGHT_H
+
+#include "fold/system.h"
+
+/* Takes a copy of what it needs of the pattern. RG_ESHEET: not one sheet without holes, why->text says where; RG_ENOMEM, RG_EABSENT.
+ * Owner: the caller, rg_straight_destroy. */
+rg_status rg_straight_create(const rg_pattern *p, const rg_settings *s, rg_straight **fold, rg_diag *why);
+void rg_straight_destroy(rg_straight *f);
+/* One step of the time loop; allocates nothing. A run that cannot go on is no error: info->outcome is RG_STOPPED. */
+rg_status rg_straight_step(rg_straight *f, rg_step_info *info);
+/* Fold angles, radians, one per crease; borrowed until the next step. */
+const double *rg_straight_angles(const rg_straight *f, int32_t *creases);
+/* A fold of a mesh, its independent components apart; *m is taken over, also on failure. */
+rg_status rg_straight_from_mesh(rg_mesh *m, const rg_settings *s, rg_straight **fold, rg_diag *why);
+/* The same as one system, whatever components there are. */
+rg_status rg_straight_from_mesh_together(rg_mesh *m, const rg_settings *s, rg_straight **fold, rg_diag *why);
+
+/* The systems that are solved: f itself, or its components. Returns how many. */
+int32_t rg_straight_systems(const rg_straight *f, rg_straight *const **system);
+/* Of all systems. */
+rg_cost rg_straight_cost(const rg_straight *f);
+/* That of the system with most creases; never RG_SOLVER_AUTO. */
+rg_solver rg_straight_solver(const rg_straight *f);
+
+/* Frames are due at these progresses, rising, [settings.frames], borrowed; NULL: evenly. Before the first step. */
+void rg_straight_set_due(rg_straight *f, const double *due);
+#endif
