@@ -15,6 +15,7 @@
 #include "chart/run.h"
 #include "draw.h"
 #include "fold/integrate.h"
+#include "fold/newton.h"
 #include "motion/attempt.h"
 
 #include <stdio.h>
