@@ -372,6 +372,7 @@ rg_status rg_end_init(rg_end *e, const rg_memory *mem, rg_linkage *P, const doub
     builder w = {.e = e, .P = P, .m = m, .rules = rules, .above = above_, .ctx = ctx};
     memset(e, 0, sizeof *e);
     e->mem = *mem;
+    e->keep = rules->keep;
     e->z = rg_mem_array(mem, (size_t)P->n, sizeof *e->z);
     e->x = rg_mem_array(mem, (size_t)m->nv, sizeof *e->x);
     w.triangle = rg_mem_array(mem, (size_t)m->nf, sizeof *w.triangle);

@@ -36,6 +36,7 @@ typedef struct rg_end_row {
 typedef struct rg_end_rules {
     int round;   /* ROUND */
     int corners; /* BESIDE for corners, too */
+    int keep;    /* the rows are kept while it unfolds, as long as they are of what lies there */
     int apart;   /* BESIDE is left out where LAYER keeps the two apart */
 } rg_end_rules;
 
@@ -46,6 +47,7 @@ typedef struct rg_end {
     size_t room;
     int32_t count;
     rg_sides sides;
+    int keep;            /* of the rules */
     rg_vec2 *x;          /* [nv] positions in the plane */
 } rg_end;
 

@@ -6,9 +6,9 @@
 
 /* Columns are read a little past their ends. */
 enum { PAD = 8 };
-static const int ITERATIONS = 50;
+static const int ITERATIONS = 40;
 /* Done when complementarity, and what rows miss, is this part of the largest that is asked. */
-static const double COMPLEMENTARY = 1e-12, KEPT = 1e-8;
+static const double COMPLEMENTARY = 1e-11, KEPT = 1e-8;
 /* The part of the way to the nearest bound that a step goes. */
 static const double SHORT_OF_BOUND = 0.995;
 

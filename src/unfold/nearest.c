@@ -198,8 +198,13 @@ rg_status rg_nearest_solve(rg_nearest *q, const double *wish, const double *r, i
 {
     int more;
     rg_nearest_project(q, wish, r);
+    const int32_t before = q->carry && q->q.iterations > 0 ? q->actives : 0;
+    rg_status s = RG_OK;
     q->actives = 0;
-    rg_status s = add_broken(q, with_soft, &more);
+    for (int32_t i = 0; i < before && s == RG_OK; i++)
+        if (q->q.x[i] > q->q.slack[i] && q->active[i] / 2 < q->count) s = activate(q, q->active[i] / 2, q->active[i] % 2);
+    if (s == RG_OK) s = add_broken(q, with_soft, &more);
+    more |= q->actives > 0;
     for (int round = 0; s == RG_OK && more && round < ROUNDS; round++) {
         s = push(q);
         if (s != RG_OK) break;

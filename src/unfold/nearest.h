@@ -40,6 +40,7 @@ typedef struct rg_nearest {
     int32_t *active;    /* 2 * row, and 1 more for its soft form */
     size_t active_room;
     int32_t actives;
+    int carry;          /* non-zero: rows come in the same order each time; those that pushed are active from the start */
     double *y0, *y, *dz, *scratch; /* [n filled up to fours] */
     double *wish;       /* the same, for the caller */
     double *right;      /* [rows of A] */

@@ -8,18 +8,22 @@
 static const double OPEN = 0.03, LAYER = 2e-3, INSIDE = 5e-4, BESIDE = 3e-5;
 static const double SOFT = 1e-5, SOFT_IN_PLANE = 0.03; /* compliance, and in the plane, as many times it */
 static const double BOUND = 1e-12;                     /* compliance of half a turn */
-static const int32_t ITERATIONS = 40, CLOSE = 20;
-static const double LARGEST = 0.1; /* change of an unknown in an iteration: rows are linear only so far */
-static const double STILL = 1e-6, CLOSED = 1e-12, CLOSED_ENOUGH = 1e-10;
+static const int32_t ITERATIONS = 24, CLOSE = 20;
+static const double LARGEST = 1; /* change of an unknown in an iteration, over part: rows are linear only so far */
+static const double LARGEST_AT_ONCE = 0.1, REPAIR_LARGEST = 0.1;
+static const double FIRST = 1e-3, GROWTH = 1.4; /* the end is opened by so much first, and then more and more */
+static const int32_t SETTLE = 8;
+static const double STILL = 1e-2, STILL_AT_ONCE = 1e-4, CLOSED = 1e-12, CLOSED_ENOUGH = 1e-10;
 /* Repair: pairs are looked at this near; less than that part of what is wanted counts as touching. */
 static const double NEAR = 6e-3, TOUCHING = 0.5;
 static const double REPAIR_HARD = 1e-7, REPAIR_KEEP = 1e-9, REPAIR_SOFT = 1e-4; /* compliances: apart, not nearer, softly */
 static const double REPAIR_INSIDE = 2e-4, REPAIR_BESIDE = 2e-5, REPAIR_SCALE = 5e-5; /* of rows in the plane where want is the last */
 static const double NEAR_HALF_TURN = 0.3;
 
-static rg_status add_end_rows(const rg_linkage *P, const rg_end *e, rg_nearest *q, const rg_open_way *way)
+static rg_status add_end_rows(const rg_linkage *P, const rg_end *e, rg_nearest *q, const rg_open_way *way,
+                              double part)
 {
-    const double scale = way->scaled ? way->part / OPEN : 1;
+    const double scale = way->scaled || way->grow ? part / OPEN : 1;
     for (int32_t k = 0; k < e->count; k++) {
         const rg_end_row *from = &e->row[k];
         const double gap = rg_end_gap(from, P->place, P->p);
@@ -55,11 +59,11 @@ static rg_status add_bounds(const rg_linkage *P, const double *z, const double *
 }
 
 /* Goes along q->dz, no farther than rows are linear. Returns how far it wished to. */
-static double go(const rg_linkage *P, const rg_nearest *q, double *z)
+static double go(const rg_linkage *P, const rg_nearest *q, double *z, double largest)
 {
     double most = 0;
     for (int32_t i = 0; i < P->n; i++) most = fmax(most, fabs(q->dz[i]) / (i < P->N ? 1 : P->freedom.reach[i - P->N]));
-    const double f = fmin(1, LARGEST / fmax(most, 1e-12));
+    const double f = fmin(1, largest / fmax(most, 1e-12));
     for (int32_t i = 0; i < P->n; i++) z[i] += f * q->dz[i];
     return most;
 }
@@ -87,16 +91,23 @@ rg_status rg_open(rg_linkage *P, const rg_end *e, const rg_open_way *way, rg_pro
 {
     rg_stride_scale(P, way->give, q->scale);
     memcpy(z, e->z, (size_t)P->n * sizeof *z);
-    double *wish = q->wish;
+    double *wish = q->wish, part = way->grow ? FIRST : way->part;
     rg_status s = RG_OK;
+    q->q.iterations = 0;
+    q->carry = 1;
     for (int32_t n = 0; n < ITERATIONS && s == RG_OK; n++) {
         const double angle = stand(P, q, z);
-        for (int32_t i = 0; i < P->n; i++) wish[i] = (i < P->N ? 1 - way->part : 1) * e->z[i] - z[i];
-        s = add_end_rows(P, e, q, way);
-        if (s == RG_OK) s = add_bounds(P, z, e->z, 0, way->margin, q);
+        for (int32_t i = 0; i < P->n; i++) wish[i] = (i < P->N ? 1 - part : 1) * e->z[i] - z[i];
+        s = add_end_rows(P, e, q, way, part);
+        if (s == RG_OK) s = add_bounds(P, z, e->z, 0, way->margin * part / way->part, q);
         if (s == RG_OK) s = rg_nearest_solve(q, wish, P->J.r, 1);
-        if (s != RG_OK || (go(P, q, z) < STILL && angle < CLOSED_ENOUGH)) break;
+        if (s != RG_OK) break;
+        const double step = go(P, q, z, way->grow ? LARGEST * part : LARGEST_AT_ONCE);
+        if (way->grow) rg_stride_close(P, q, z, CLOSED_ENOUGH, 2);
+        if (part == way->part && step < (way->grow ? STILL * part : STILL_AT_ONCE) && angle < CLOSED_ENOUGH) break;
+        if (n >= SETTLE) part = fmin(way->part, GROWTH * part);
     }
+    q->carry = 0;
     if (s != RG_OK) return s;
     rg_stride_close(P, q, z, CLOSED, CLOSE);
     result->angle = stand(P, q, z);
@@ -162,7 +173,7 @@ rg_status rg_open_repair(rg_linkage *P, const rg_end *e, double want, double sof
         if (s == RG_OK) s = add_bounds(P, z, NULL, RG_PI - NEAR_HALF_TURN, margin, q);
         if (s == RG_OK) s = rg_nearest_solve(q, NULL, P->J.r, 1);
         if (s != RG_OK) break;
-        go(P, q, z);
+        go(P, q, z, REPAIR_LARGEST);
         rg_stride_close(P, q, z, 1e-11, 3);
     }
     if (s != RG_OK) return s;

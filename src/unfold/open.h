@@ -12,6 +12,7 @@ typedef struct rg_open_way {
     double hard;      /* compliance of the rows: of drawings that are rounded, rows contradict each other */
     double margin;    /* that each crease has to be open by, radians; 0: creases that the rows lock stay at half a turn */
     int scaled;       /* what rows are wished open by goes with part, and its square */
+    int grow;         /* non-zero: it is opened by very little first, and then more and more, closed at each step */
     int repair;       /* times that near parts are pushed apart by their side at most */
 } rg_open_way;
 

@@ -32,6 +32,12 @@ static const double GLUE = 2e-5, RELEASE = 3e-5, SIDE_RELEASE = 1e-5; /* distanc
 static const double HARDLY_OPEN_END = 0.04, GROWTH = 0.3, LAGGING = 0.7; /* near the end: steps as a part of how far it is open */
 static const double SIDE_COUNTS = 1e-3;  /* pairs nearer than that are held by their side in the order */
 
+/* Rows of the end live while what they are about is nearer than that, in the plane of a crease, and else while facets face each
+ * other to 25 degrees; what they let go, and push up, as for pairs. */
+static const double LIVES_INSIDE = 1e-3, LIVES = 2e-4, LIVES_FACING = 0.9;
+static const double END_FLOOR = 1e-4, END_BACK = 0.5, END_BACK_MOST = 1e-5, END_ROUNDING = 1e-7;
+static const double END_INSIDE = 5e-4, END_SOFT_MOST = 1e-4;
+
 void rg_stride_scale(const rg_linkage *P, double give, double *scale)
 {
     for (int32_t i = 0; i < P->N; i++) scale[i] = i < P->N - P->mesh->added ? 1 : ADDED_SCALE;
@@ -248,6 +254,40 @@ static rg_status add_pair_rows(rg_stride *s)
     return status;
 }
 
+/* Rows of the end speak while what they are about still lies there: they are of fixed places, which slide on each other later. */
+static int is_live(const rg_stride *s, const rg_end_row *from)
+{
+    const rg_place *place = s->P->place;
+    rg_vec3 apart = {0, 0, 0};
+    for (int32_t i = 0; i < from->terms; i++) apart = rg_vec3_axpy(from->weight[i], s->P->p[from->v[i]], apart);
+    if (!(rg_vec3_length(apart) < (from->kind == RG_END_INSIDE ? LIVES_INSIDE : LIVES))) return 0;
+    const signed char *up = s->end->sides.up;
+    return from->kind == RG_END_INSIDE || fabs(up[from->frame] * up[from->other] *
+                                                rg_vec3_dot(place[from->frame].R.c[2], place[from->other].R.c[2])) > LIVES_FACING;
+}
+
+static rg_status add_end_rows(rg_stride *s)
+{
+    for (int32_t k = 0; s->end && s->end->keep && k < s->end->count; k++) {
+        const rg_end_row *from = &s->end->row[k];
+        if (!is_live(s, from)) continue;
+        const double d = rg_end_gap(from, s->P->place, s->P->p);
+        rg_row *row = rg_nearest_add(&s->q);
+        if (!row) return RG_ENOMEM;
+        row->terms = from->terms;
+        memcpy(row->v, from->v, sizeof row->v);
+        memcpy(row->weight, from->weight, sizeof row->weight);
+        row->n = rg_end_normal(from, s->P->place);
+        row->c = HARD_COMPLIANCE;
+        row->b = d > 0 ? -DAMPER * fmax(0, d - END_FLOOR) : fmin(-END_BACK * d, END_BACK_MOST);
+        row->floor = d > 0 ? (1 - DAMPER_CLOSING) * d : d - END_ROUNDING;
+        row->glued = 1;
+        if (from->kind == RG_END_INSIDE && d < END_INSIDE)
+            row->soft_b = fmin(SOFT * (END_INSIDE - d), END_SOFT_MOST), row->soft_c = SOFT_COMPLIANCE;
+    }
+    return RG_OK;
+}
+
 static rg_status add_bounds(rg_stride *s)
 {
     for (int32_t i = 0; i < s->P->N; i++) {
@@ -334,6 +374,7 @@ static rg_status find_step(rg_stride *s, double *f)
     rg_nearest *q = &s->q;
     rg_nearest_clear(q);
     rg_status status = add_pair_rows(s);
+    if (status == RG_OK) status = add_end_rows(s);
     if (status == RG_OK) status = add_bounds(s);
     if (status == RG_OK) status = rg_nearest_solve(q, s->wish, P->J.r, 1);
     if (status != RG_OK) return status;

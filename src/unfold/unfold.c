@@ -12,12 +12,13 @@ typedef struct try_ {
 } try_;
 
 static const try_ TRIES[] = {
-    /* part  give hard  margin scaled repair    round corners apart */
-    {{0.03, 0.2, 1e-9, 1e-4, 0, 6}, {0, 0, 0}},
-    {{0.03, 0.2, 1e-8, 0, 0, 0}, {1, 1, 1}},
-    {{0.01, 0.2, 1e-8, 0, 1, 0}, {1, 1, 1}},
-    {{0.03, 0.2, 1e-6, 1e-4, 0, 6}, {0, 0, 0}},
-    {{0.01, 0.2, 1e-8, 0, 1, 0}, {1, 1, 0}},
+    /* part  give hard  margin scaled grow repair    round corners keep apart */
+    {{0.03, 0.2, 1e-9, 1e-4, 0, 0, 6}, {0, 0, 0, 0}},
+    {{0.03, 0.2, 1e-8, 0, 0, 0, 0}, {1, 1, 0, 1}},
+    {{0.03, 0.2, 1e-9, 1e-4, 1, 1, 0}, {0, 0, 0, 0}},
+    {{0.01, 0.2, 1e-8, 0, 1, 0, 0}, {1, 1, 0, 1}},
+    {{0.01, 0.2, 1e-8, 0, 1, 0, 0}, {1, 1, 1, 1}},
+    {{0.03, 0.2, 1e-6, 1e-4, 0, 0, 6}, {0, 0, 0, 0}},
 };
 enum { TRY_COUNT = sizeof TRIES / sizeof *TRIES };
 /* Orders that are tried: the first one, and those that differ from it in one part. */

@@ -1,0 +1,446 @@
+/* unfold/: derivatives by differences, multipliers by trying all sets of active rows, distances by sampling; and motions without
+ * contact, looked at by a test of segments against triangles of its own. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "near.h"
+
+#include "counted.h"
+#include "unfold/unfold.h"
+
+static void mesh_of(const char *path, rg_mesh *m)
+{
+    const rg_settings s = rg_settings_default();
+    const rg_memory mem = rg_mem_default(NULL);
+    rg_pattern *p = NULL;
+    rg_diag why;
+    assert_int_equal(rg_pattern_read(path, &s, &p, &why), RG_OK);
+    assert_int_equal(rg_mesh_from_pattern(p, &mem, m, &why), RG_OK);
+    rg_pattern_destroy(p);
+}
+
+/* ------------------------------------------------------------------------------------------------------ linkage ---- */
+
+/* Rows and velocities against central differences, at a state that need not close. */
+static void derivatives(void **state)
+{
+    (void)state;
+    const rg_memory mem = rg_mem_default(NULL);
+    rg_mesh none, m;
+    rg_linkage P;
+    unsigned seed = 5;
+    mesh_of("patterns/frog.opx", &none);
+    assert_int_equal(rg_triangulate_all(&none, &m), RG_OK);
+    assert_int_equal(rg_linkage_init(&P, &mem, &m), RG_OK);
+    double *z = calloc((size_t)P.n, sizeof *z), *dz = calloc((size_t)P.n, sizeof *dz), *row = calloc((size_t)P.n, sizeof *row);
+    rg_vec3 *x = calloc((size_t)m.nv, sizeof *x), *y = calloc((size_t)m.nv, sizeof *y), *dp = calloc((size_t)m.nv, sizeof *dp);
+    assert_true(z && dz && row && x && y && dp);
+    for (int32_t i = 0; i < P.n; i++) {
+        z[i] = (i < P.N ? 1.5 : 0.02 * m.size) * noise(&seed);
+        dz[i] = noise(&seed) * (i < P.N ? 1 : m.size);
+    }
+    const rg_vec3 c = {0.3, -0.7, 1.1};
+    rg_linkage_put(&P, z);
+    rg_linkage_velocity(&P, dz, dp);
+    for (int32_t v = 0; v < m.nv; v++) {
+        memset(row, 0, (size_t)P.n * sizeof *row);
+        rg_linkage_row(&P, v, c, row);
+        double along = 0;
+        for (int32_t i = 0; i < P.n; i++) {
+            const double h = i < P.N ? 1e-5 : 1e-6 * m.size, was = z[i];
+            z[i] = was + h;
+            rg_linkage_positions(&P, z, x);
+            z[i] = was - h;
+            rg_linkage_positions(&P, z, y);
+            z[i] = was;
+            const double slope = rg_vec3_dot(c, rg_vec3_sub(x[v], y[v])) / (2 * h);
+            near(row[i], slope, 1e-7 * (i < P.N ? m.size : 1));
+            along += slope * dz[i];
+        }
+        near(rg_vec3_dot(c, dp[v]), along, 1e-5 * m.size);
+    }
+    free(z), free(dz), free(row), free(x), free(y), free(dp);
+    rg_linkage_free(&P);
+    rg_mesh_free(&m);
+    rg_mesh_free(&none);
+}
+
+/* ----------------------------------------------------------------------------------------------------- interior ---- */
+
+enum { ROWS = 6, WAYS = 4 };
+
+/* A x = b by Gauss, n <= ROWS, with pivots. Zero: singular. */
+static int solve(int n, double A[ROWS][ROWS], double *b)
+{
+    for (int i = 0; i < n; i++) {
+        int p = i;
+        for (int k = i + 1; k < n; k++)
+            if (fabs(A[k][i]) > fabs(A[p][i])) p = k;
+        if (fabs(A[p][i]) < 1e-13) return 0;
+        for (int j = 0; j < n; j++) {
+            const double was = A[i][j];
+            A[i][j] = A[p][j], A[p][j] = was;
+        }
+        const double was = b[i];
+        b[i] = b[p], b[p] = was;
+        for (int k = i + 1; k < n; k++) {
+            const double f = A[k][i] / A[i][i];
+            for (int j = i; j < n; j++) A[k][j] -= f * A[i][j];
+            b[k] -= f * b[i];
+        }
+    }
+    for (int i = n - 1; i >= 0; i--) {
+        for (int j = i + 1; j < n; j++) b[i] -= A[i][j] * b[j];
+        b[i] /= A[i][i];
+    }
+    return 1;
+}
+
+/* The one set of active rows whose multipliers are positive and whose other rows are kept; copies of rows among them. */
+static void multipliers(void **state)
+{
+    (void)state;
+    unsigned seed = 11;
+    for (int trial = 0; trial < 60; trial++) {
+        rg_interior q = {.mem = rg_mem_default(NULL)};
+        double F[ROWS][WAYS], best[WAYS] = {0};
+        int found = 0;
+        assert_int_equal(rg_interior_reserve(&q, ROWS, WAYS), RG_OK);
+        for (int i = 0; i < ROWS; i++) {
+            for (int j = 0; j < WAYS; j++) F[i][j] = trial % 3 == 0 && i == ROWS - 1 ? F[0][j] : noise(&seed);
+            q.d[i] = trial % 3 == 0 && i == ROWS - 1 ? q.d[0] : noise(&seed);
+            q.c[i] = 1e-6 * (1.5 + noise(&seed));
+            for (size_t j = 0; j < rg_interior_stride(WAYS); j++) q.F[(size_t)i * rg_interior_stride(WAYS) + j] = j < WAYS ? F[i][j] : 0;
+        }
+        for (int set = 0; set < 1 << ROWS && !found; set++) {
+            double A[ROWS][ROWS], x[ROWS] = {0}, full[ROWS] = {0}, v[WAYS] = {0};
+            int at[ROWS], n = 0, right = 1;
+            for (int i = 0; i < ROWS; i++)
+                if (set >> i & 1) at[n++] = i;
+            for (int i = 0; i < n; i++) {
+                for (int k = 0; k < n; k++) {
+                    A[i][k] = i == k ? q.c[at[i]] : 0;
+                    for (int j = 0; j < WAYS; j++) A[i][k] += F[at[i]][j] * F[at[k]][j];
+                }
+                x[i] = q.d[at[i]];
+            }
+            if (!solve(n, A, x)) continue;
+            for (int i = 0; i < n; i++) {
+                full[at[i]] = x[i];
+                right &= x[i] >= 0;
+                for (int j = 0; j < WAYS; j++) v[j] += x[i] * F[at[i]][j];
+            }
+            for (int i = 0; i < ROWS; i++) {
+                double kept = q.c[i] * full[i] - q.d[i];
+                for (int j = 0; j < WAYS; j++) kept += F[i][j] * v[j];
+                right &= set >> i & 1 || kept >= -1e-9;
+            }
+            found = right;
+            if (found) memcpy(best, v, sizeof best);
+        }
+        assert_true(found);
+        rg_interior_solve(&q, ROWS, WAYS);
+        for (int j = 0; j < WAYS; j++) near(q.v[j], best[j], 1e-5 * (1 + fabs(best[j])));
+        for (int i = 0; i < ROWS; i++) assert_true(q.x[i] >= 0);
+        rg_interior_free(&q);
+    }
+}
+
+/* ---------------------------------------------------------------------------------------------------- proximity ---- */
+
+/* No sampled point of the two parts is nearer than the distance told, and one is hardly farther. */
+static void distances(void **state)
+{
+    (void)state;
+    enum { FINE = 60 };
+    const rg_memory mem = rg_mem_default(NULL);
+    rg_mesh none, m;
+    rg_proximity n;
+    unsigned seed = 3;
+    mesh_of("patterns/waterbomb-base.opx", &none);
+    assert_int_equal(rg_triangulate_all(&none, &m), RG_OK);
+    assert_int_equal(rg_proximity_init(&n, &mem, &m), RG_OK);
+    rg_vec3 *p = calloc((size_t)m.nv, sizeof *p);
+    for (int32_t v = 0; v < m.nv; v++) p[v] = (rg_vec3){noise(&seed), noise(&seed), noise(&seed)};
+    for (int32_t v = 0; v < m.nv; v++)
+        for (int32_t f = 0; f < m.nf; f++) {
+            const int32_t *c = m.facet_vertex + m.facet_start[f];
+            double least = INFINITY;
+            for (int i = 0; i <= FINE; i++)
+                for (int j = 0; i + j <= FINE; j++) {
+                    const double a = (double)i / FINE, b = (double)j / FINE;
+                    const rg_vec3 x = rg_vec3_axpy(a, p[c[0]], rg_vec3_axpy(b, p[c[1]], rg_vec3_scale(1 - a - b, p[c[2]])));
+                    least = fmin(least, rg_vec3_length(rg_vec3_sub(x, p[v])));
+                }
+            const double d = rg_proximity_distance(&n, 0, v, f, p, NULL);
+            assert_true(d <= least + 1e-12);
+            near(d, least, 0.05);
+        }
+    for (int32_t e = 0; e < m.ne; e++)
+        for (int32_t f = 0; f < e; f++) {
+            double least = INFINITY;
+            for (int i = 0; i <= FINE; i++)
+                for (int j = 0; j <= FINE; j++) {
+                    const double s = (double)i / FINE, t = (double)j / FINE;
+                    const rg_vec3 x = rg_vec3_axpy(s, p[m.edge[e][1]], rg_vec3_scale(1 - s, p[m.edge[e][0]]));
+                    const rg_vec3 y = rg_vec3_axpy(t, p[m.edge[f][1]], rg_vec3_scale(1 - t, p[m.edge[f][0]]));
+                    least = fmin(least, rg_vec3_length(rg_vec3_sub(x, y)));
+                }
+            const double d = rg_proximity_distance(&n, 1, e, f, p, NULL);
+            assert_true(d <= least + 1e-12);
+            near(d, least, 0.05);
+        }
+    free(p);
+    rg_proximity_free(&n);
+    rg_mesh_free(&m);
+    rg_mesh_free(&none);
+}
+
+/* A corner that goes through a triangle is met; one that stays on its side is not. */
+static void meetings(void **state)
+{
+    (void)state;
+    const rg_memory mem = rg_mem_default(NULL);
+    rg_mesh none, m;
+    rg_proximity n;
+    rg_linkage P;
+    rg_close_pair who;
+    mesh_of("patterns/preliminary.opx", &none);
+    assert_int_equal(rg_triangulate_all(&none, &m), RG_OK);
+    assert_int_equal(rg_proximity_init(&n, &mem, &m), RG_OK);
+    assert_int_equal(rg_linkage_init(&P, &mem, &m), RG_OK);
+    double *z = calloc((size_t)P.n, sizeof *z);
+    rg_vec3 *q = calloc((size_t)m.nv, sizeof *q);
+    rg_linkage_put(&P, z);
+    int32_t v = 0, f = 0;
+    while (n.corner[(size_t)v * (size_t)m.nf + (size_t)f]) f++; /* a corner and a facet it is not part of */
+    const int32_t *c = m.facet_vertex + m.facet_start[f];
+    const rg_vec3 middle = rg_vec3_scale(1 / 3.0, rg_vec3_add(P.p[c[0]], rg_vec3_add(P.p[c[1]], P.p[c[2]])));
+    P.p[v] = rg_vec3_add(middle, (rg_vec3){0, 0, 0.1});
+    memcpy(q, P.p, (size_t)m.nv * sizeof *q);
+    q[v].z = -0.1;
+    const double part = rg_proximity_meet(&n, P.p, q, 0.1, &who);
+    below(part, 0.5); /* it would be in the facet half way */
+    assert_true(part > 0 && who.kind >= 0);
+    q[v].z = 0.05;
+    near(rg_proximity_meet(&n, P.p, q, 0.1, &who), 1, 0);
+    assert_int_equal(who.kind, -1);
+    free(z), free(q);
+    rg_linkage_free(&P);
+    rg_proximity_free(&n);
+    rg_mesh_free(&m);
+    rg_mesh_free(&none);
+}
+
+/* ------------------------------------------------------------------------------------------------------- unfold ---- */
+
+/* Deeper than that an edge goes through a facet that it has no corner in common with (of the sheet). */
+static const double DEEP = 1e-4;
+
+static int pierces(const rg_mesh *m, const rg_vec3 *x, double deep)
+{
+    for (int32_t f = 0; f < m->nf; f++) {
+        const int32_t *c = m->facet_vertex + m->facet_start[f];
+        const rg_vec3 a = x[c[0]], b = x[c[1]], d = x[c[2]], across = rg_vec3_cross(rg_vec3_sub(b, a), rg_vec3_sub(d, a));
+        const rg_vec3 n = rg_vec3_scale(1 / rg_vec3_length(across), across);
+        for (int32_t e = 0; e < m->ne; e++) {
+            const int32_t i = m->edge[e][0], j = m->edge[e][1];
+            int joined = 0;
+            for (int k = 0; k < 3; k++) joined |= c[k] == i || c[k] == j;
+            const double p = rg_vec3_dot(n, rg_vec3_sub(x[i], a)), q = rg_vec3_dot(n, rg_vec3_sub(x[j], a));
+            if (joined || !(p * q < 0) || fabs(p) < deep || fabs(q) < deep) continue;
+            const rg_vec3 at = rg_vec3_axpy(p / (p - q), rg_vec3_sub(x[j], x[i]), x[i]);
+            int in = 1;
+            for (int k = 0; k < 3; k++) {
+                const rg_vec3 from = x[c[k]], edge = rg_vec3_sub(x[c[(k + 1) % 3]], from);
+                const rg_vec3 inwards = rg_vec3_cross(n, rg_vec3_scale(1 / rg_vec3_length(edge), edge));
+                in &= rg_vec3_dot(inwards, rg_vec3_sub(at, from)) > deep;
+            }
+            if (in) return 1;
+        }
+    }
+    return 0;
+}
+
+static void unfolds(const char *path, double sign)
+{
+    const rg_memory mem = rg_mem_default(NULL);
+    const rg_unfold_wish wish = {sign, -1, 0, 5e10, NULL, NULL};
+    rg_mesh none;
+    rg_unfold u;
+    mesh_of(path, &none);
+    assert_int_equal(rg_unfold_run(&u, &mem, &none, &wish), RG_OK);
+    assert_int_equal(u.outcome, RG_UNFOLD_FREE);
+    below(0.99, u.landed);
+    double *rho = calloc((size_t)u.P.N, sizeof *rho);
+    rg_vec2 *X = calloc((size_t)u.mesh.nv, sizeof *X);
+    rg_place *place = calloc((size_t)u.mesh.nf, sizeof *place);
+    rg_vec3 *x = calloc((size_t)u.mesh.nv, sizeof *x);
+    rg_tree tree;
+    assert_int_equal(rg_tree_init(&u.mesh, 0, &tree), RG_OK);
+    for (int k = 0; k <= 150; k++) {
+        double sum = 0;
+        int n = 0;
+        rg_unfold_read(&u, k / 150.0, rho, X);
+        for (int32_t i = 0; i < u.P.N - u.mesh.added; i++) {
+            const double target = u.mesh.target[u.mesh.crease_edge[i]];
+            if (isnan(target) || target == 0) continue;
+            sum += rho[i] / (sign * target);
+            n++;
+            below(fabs(rho[i]), RG_PI + 1e-6);
+        }
+        near(sum / n, k / 150.0, 1e-3);
+        rg_pose_facets(&u.mesh, X, &tree, rho, place);
+        rg_pose_vertices(&u.mesh, X, &tree, place, x);
+        below(rg_pose_gap(X, &tree, place), 1e-8 * none.size);
+        for (int32_t v = 0; v < u.mesh.nv; v++) x[v] = rg_vec3_scale(1 / none.size, x[v]);
+        assert_false(pierces(&u.mesh, x, DEEP));
+    }
+    for (int32_t v = 0; v < u.mesh.nv; v++) { /* the end is of the pattern given */
+        near(X[v].x, u.mesh.X[v].x * none.size, 1e-12 * none.size);
+        near(X[v].y, u.mesh.X[v].y * none.size, 1e-12 * none.size);
+    }
+    free(rho), free(X), free(place), free(x);
+    rg_tree_free(&tree);
+    rg_unfold_free(&u);
+    rg_mesh_free(&none);
+}
+
+static void free_motions(void **state)
+{
+    (void)state;
+    static const char *const files[] = {"bird", "fish", "preliminary", "waterbomb-base", "tatou", "open-sink", "frog"};
+    for (int k = 0; k < 7; k++) {
+        char path[64];
+        snprintf(path, sizeof path, "patterns/%s.opx", files[k]);
+        unfolds(path, 1);
+    }
+    unfolds("patterns/bird.opx", -1);
+}
+
+/* The check can fail: the frog folds through itself where it is folded straight at its angles. */
+static void the_check_sees(void **state)
+{
+    (void)state;
+    rg_mesh none, m;
+    rg_tree tree;
+    mesh_of("patterns/preliminary.opx", &none);
+    assert_int_equal(rg_triangulate_all(&none, &m), RG_OK);
+    assert_int_equal(rg_tree_init(&m, 0, &tree), RG_OK);
+    rg_vec3 *x = calloc((size_t)m.nv, sizeof *x);
+    for (int32_t v = 0; v < m.nv; v++) x[v] = (rg_vec3){m.X[v].x / m.size, m.X[v].y / m.size, 0};
+    assert_false(pierces(&m, x, DEEP));
+    const int32_t *c = m.facet_vertex + m.facet_start[0];
+    for (int32_t e = 0; e < m.ne; e++) { /* an edge elsewhere is put through the first facet */
+        int joined = 0;
+        for (int k = 0; k < 3; k++) joined |= c[k] == m.edge[e][0] || c[k] == m.edge[e][1];
+        if (joined) continue;
+        const rg_vec3 middle = rg_vec3_scale(1 / 3.0, rg_vec3_add(x[c[0]], rg_vec3_add(x[c[1]], x[c[2]])));
+        x[m.edge[e][0]] = rg_vec3_add(middle, (rg_vec3){0, 0, 0.2});
+        x[m.edge[e][1]] = rg_vec3_add(middle, (rg_vec3){0.01, 0, -0.2});
+        assert_true(pierces(&m, x, DEEP));
+        break;
+    }
+    free(x);
+    rg_tree_free(&tree);
+    rg_mesh_free(&m);
+    rg_mesh_free(&none);
+}
+
+static void no_end(void **state)
+{
+    (void)state;
+    static const char *const files[] = {"patterns/hypar.opx", "patterns/closed-split.opx", "patterns/closed-adjust.opx"};
+    const rg_memory mem = rg_mem_default(NULL);
+    const rg_unfold_wish wish = {1, -1, 0, 5e10, NULL, NULL};
+    for (int k = 0; k < 3; k++) {
+        rg_mesh none;
+        rg_unfold u;
+        mesh_of(files[k], &none);
+        assert_int_equal(rg_unfold_run(&u, &mem, &none, &wish), RG_OK);
+        assert_int_equal(u.outcome, RG_UNFOLD_NO_END);
+        rg_unfold_free(&u);
+        rg_mesh_free(&none);
+    }
+}
+
+static void same_bits(void **state)
+{
+    (void)state;
+    const rg_memory mem = rg_mem_default(NULL);
+    const rg_unfold_wish wish = {1, -1, 0, 5e10, NULL, NULL};
+    rg_mesh none;
+    rg_unfold u[2];
+    mesh_of("patterns/open-sink.opx", &none);
+    for (int k = 0; k < 2; k++) assert_int_equal(rg_unfold_run(&u[k], &mem, &none, &wish), RG_OK);
+    assert_int_equal(u[0].count, u[1].count);
+    assert_memory_equal(u[0].z, u[1].z, (size_t)u[0].count * (size_t)u[0].P.n * sizeof *u[0].z);
+    for (int k = 0; k < 2; k++) rg_unfold_free(&u[k]);
+    rg_mesh_free(&none);
+}
+
+static void without_memory(void **state)
+{
+    (void)state;
+    rg_mesh none;
+    long refused = 0;
+    rg_status s = RG_ENOMEM;
+    mesh_of("patterns/waterbomb-base.opx", &none);
+    for (long k = 0; s != RG_OK; k++) {
+        counted c = {.left = k};
+        const rg_memory mem = {counted_resize, &c};
+        const rg_memory was = none.mem;
+        const rg_unfold_wish wish = {1, -1, 0, 5e10, NULL, NULL};
+        rg_unfold u;
+        none.mem = mem; /* of it copies are made */
+        s = rg_unfold_run(&u, &mem, &none, &wish);
+        none.mem = was;
+        assert_true(s == RG_OK || s == RG_ENOMEM);
+        refused += s == RG_ENOMEM;
+        rg_unfold_free(&u);
+        assert_int_equal(c.out, 0);
+    }
+    assert_true(refused > 50);
+    rg_mesh_free(&none);
+}
+
+/* Who asks to stop is heard. */
+static int at_once(void *ctx, double done)
+{
+    (void)done;
+    ++*(int *)ctx;
+    return 1;
+}
+
+static void stopped(void **state)
+{
+    (void)state;
+    const rg_memory mem = rg_mem_default(NULL);
+    int asked = 0;
+    const rg_unfold_wish wish = {1, -1, 0, 5e10, at_once, &asked};
+    rg_mesh none;
+    rg_unfold u;
+    mesh_of("patterns/frog.opx", &none);
+    assert_int_equal(rg_unfold_run(&u, &mem, &none, &wish), RG_OK);
+    assert_int_equal(u.outcome, RG_UNFOLD_FAILED);
+    assert_int_equal(u.tries, 0);
+    assert_true(asked > 0);
+    rg_unfold_free(&u);
+    rg_mesh_free(&none);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(derivatives),  cmocka_unit_test(multipliers), cmocka_unit_test(distances),      cmocka_unit_test(meetings),
+        cmocka_unit_test(free_motions), cmocka_unit_test(the_check_sees), cmocka_unit_test(no_end),      cmocka_unit_test(same_bits),
+        cmocka_unit_test(without_memory), cmocka_unit_test(stopped),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
