@@ -186,6 +186,7 @@ static rg_status push(rg_nearest *q)
         q->q.d[i] = (soft ? row->soft_b : row->b) * part - rg_dense_dot((int32_t)q->stride, f, q->scratch);
     }
     rg_interior_solve(&q->q, m, k);
+    q->pushed = m;
     memcpy(q->y, q->y0, q->stride * sizeof *q->y);
     for (int32_t j = 0; j < k; j++) {
         const double x = q->q.v[j], *e = q->Q + (size_t)j * q->stride;
@@ -198,9 +199,9 @@ rg_status rg_nearest_solve(rg_nearest *q, const double *wish, const double *r, i
 {
     int more;
     rg_nearest_project(q, wish, r);
-    const int32_t before = q->carry && q->q.iterations > 0 ? q->actives : 0;
+    const int32_t before = q->carry ? q->pushed : 0;
     rg_status s = RG_OK;
-    q->actives = 0;
+    q->actives = q->pushed = 0;
     for (int32_t i = 0; i < before && s == RG_OK; i++)
         if (q->q.x[i] > q->q.slack[i] && q->active[i] / 2 < q->count) s = activate(q, q->active[i] / 2, q->active[i] % 2);
     if (s == RG_OK) s = add_broken(q, with_soft, &more);

@@ -39,7 +39,7 @@ typedef struct rg_nearest {
     int32_t made, ways;
     int32_t *active;    /* 2 * row, and 1 more for its soft form */
     size_t active_room;
-    int32_t actives;
+    int32_t actives, pushed; /* pushed: of the last quadratic program, q.x of each */
     int carry;          /* non-zero: rows come in the same order each time; those that pushed are active from the start */
     double *y0, *y, *dz, *scratch; /* [n filled up to fours] */
     double *wish;       /* the same, for the caller */

@@ -93,7 +93,7 @@ rg_status rg_open(rg_linkage *P, const rg_end *e, const rg_open_way *way, rg_pro
     memcpy(z, e->z, (size_t)P->n * sizeof *z);
     double *wish = q->wish, part = way->grow ? FIRST : way->part;
     rg_status s = RG_OK;
-    q->q.iterations = 0;
+    q->pushed = 0;
     q->carry = 1;
     for (int32_t n = 0; n < ITERATIONS && s == RG_OK; n++) {
         const double angle = stand(P, q, z);

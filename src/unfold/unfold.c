@@ -29,6 +29,9 @@ static const double CLOSED = 1e-9, LEAST_AREA = 0.1;
 /* Closing a state that is read off. */
 static const double READ_CLOSED = 1e-13, NEAR_DUE = 1e-6;
 static const int READ_NEWTON = 12, SECANTS = 8;
+/* Folding forwards is tried after so many ways of opening; it leaves flat with creases folded by this part. */
+static const int FORWARDS_AFTER = 2, OFF_FLAT_ITERATIONS = 60;
+static const double OFF_FLAT = 0.03, OFF_FLAT_LARGEST = 0.35;
 /* No try may cost more than this part of what is left. */
 static const double PART_OF_BUDGET = 0.5;
 
@@ -37,6 +40,8 @@ void rg_unfold_free(rg_unfold *u)
     if (!u->mem.resize) return;
     rg_linkage_free(&u->P);
     rg_nearest_free(&u->q);
+    rg_contact_work_free(&u->look);
+    rg_plates_free(&u->plates);
     rg_mesh_free(&u->mesh);
     rg_layers_destroy(u->layers);
     void *block[] = {u->z, u->progress, u->end, u->scratch, u->which};
@@ -138,6 +143,27 @@ static void turn_round(rg_unfold *u, int32_t first)
     }
 }
 
+/* Facets cross in the state whose positions are x. */
+static int crosses(rg_unfold *u, const rg_vec3 *x)
+{
+    rg_contact_hit hit;
+    return rg_contact_deepest(&u->plates, x, WRONG, &u->look, &hit);
+}
+
+static void between(rg_unfold *u, int32_t k, double t);
+
+/* Half way between any two states, where frames may be. */
+static int crosses_between(rg_unfold *u)
+{
+    rg_stride_scale(&u->P, 1, u->q.scale);
+    for (int32_t k = 0; k + 1 < u->count; k++) {
+        between(u, k, 0.5);
+        rg_linkage_put(&u->P, u->scratch);
+        if (crosses(u, u->P.p)) return 1;
+    }
+    return 0;
+}
+
 /* ---- one try */
 
 static int is_stopped(const rg_unfold_wish *wish, double done) { return wish->stop && wish->stop(wish->ctx, done); }
@@ -177,7 +203,9 @@ static rg_status walk(rg_unfold *u, const rg_end *end, const double *z, const do
     while (status == RG_OK && s.state == RG_STRIDE_GOES && !is_stopped(wish, s.mean)) {
         const int32_t steps = s.steps;
         status = rg_stride_take(&s);
-        if (status == RG_OK && s.steps > steps) status = keep(u, s.z);
+        if (status != RG_OK || s.steps == steps) continue;
+        if (crosses(u, u->P.p)) break; /* the sides of layers that lay on each other did not tell */
+        status = keep(u, s.z);
     }
     u->steps += s.steps;
     for (int i = 0; i < RG_REFUSALS; i++) u->refused += s.refused[i];
@@ -185,7 +213,64 @@ static rg_status walk(rg_unfold *u, const rg_end *end, const double *z, const do
     if (*through) status = finish(u, s.z);
     u->work += landing + s.work + s.q.work + s.q.q.work;
     rg_stride_free(&s);
-    if (*through && status == RG_OK) turn_round(u, 0);
+    if (*through && status == RG_OK) {
+        turn_round(u, 0);
+        *through = !crosses_between(u);
+    }
+    return status;
+}
+
+/* The second way: from flat, without an order. */
+static rg_status forwards(rg_unfold *u, double budget, const rg_unfold_wish *wish, int *through)
+{
+    const int32_t N = u->P.N, n = u->P.n;
+    rg_stride s = {0};
+    double *z = rg_mem_array(&u->mem, (size_t)n, sizeof *z), *target = rg_mem_array(&u->mem, (size_t)n, sizeof *target);
+    rg_status status = z && target ? RG_OK : RG_ENOMEM;
+    *through = 0;
+    u->count = 0;
+    u->tries++;
+    if (status == RG_OK) {
+        find_angles(u);
+        status = keep(u, z);
+        rg_stride_scale(&u->P, 1, u->q.scale);
+        for (int32_t i = 0; i < N; i++) target[i] = u->end[i] == 0 ? NAN : u->end[i];
+    }
+    /* Off flat: the closed state nearest to all creases a little folded. */
+    for (int k = 0; status == RG_OK && k < OFF_FLAT_ITERATIONS; k++) {
+        double most = 0;
+        rg_joint_assemble(&u->P.J, z, z + N, NULL);
+        rg_joint_renew(&u->P.J, u->q.scale);
+        rg_linkage_put(&u->P, z);
+        for (int32_t i = 0; i < n; i++) u->q.wish[i] = (i < N ? OFF_FLAT * u->end[i] : 0) - z[i];
+        rg_nearest_project(&u->q, u->q.wish, u->P.J.r);
+        for (int32_t i = 0; i < N; i++) most = fmax(most, fabs(u->q.dz[i]));
+        for (int32_t i = 0; i < n; i++) z[i] += fmin(1, OFF_FLAT_LARGEST / fmax(most, 1e-12)) * u->q.dz[i];
+        if (most < 1e-8) break;
+    }
+    if (status == RG_OK && rg_stride_close(&u->P, &u->q, z, 1e-11, READ_NEWTON)) {
+        status = rg_stride_init(&s, &u->mem, &u->P, NULL, NULL, z, target);
+        if (status == RG_OK) status = keep(u, z);
+        s.budget = budget;
+        while (status == RG_OK && s.state == RG_STRIDE_GOES && !is_stopped(wish, s.mean)) {
+            const int32_t steps = s.steps;
+            status = rg_stride_take(&s);
+            if (status == RG_OK && s.steps > steps) status = keep(u, s.z);
+        }
+        u->steps += s.steps;
+        u->work += s.q.work + s.q.q.work;
+        *through = status == RG_OK && s.state == RG_STRIDE_ARRIVED;
+        rg_stride_free(&s);
+    }
+    if (*through) {
+        u->opened = u->landed = u->progress[u->count - 1];
+        memset(z, 0, (size_t)n * sizeof *z);
+        memcpy(z, u->end, (size_t)N * sizeof *z);
+        status = keep(u, z);
+        *through = status == RG_OK && !crosses_between(u);
+    }
+    rg_mem_free(&u->mem, z);
+    rg_mem_free(&u->mem, target);
     return status;
 }
 
@@ -222,7 +307,18 @@ static rg_status search(rg_unfold *u, const rg_unfold_wish *wish)
 {
     rg_status s = RG_OK;
     u->outcome = RG_UNFOLD_FAILED;
-    for (int t = 0; t < TRY_COUNT; t++)
+    for (int t = 0; t < TRY_COUNT; t++) {
+        if (t == FORWARDS_AFTER && wish->order < 0 && u->work < wish->budget && !is_stopped(wish, 0)) {
+            int through;
+            if ((s = rg_layers_choose(u->layers, NULL)) != RG_OK) return s;
+            s = forwards(u, PART_OF_BUDGET * (wish->budget - u->work), wish, &through);
+            if (s != RG_OK) return s;
+            if (through) {
+                u->outcome = RG_UNFOLD_FREE;
+                snprintf(u->how, sizeof u->how, "folded from flat with contacts");
+                return RG_OK;
+            }
+        }
         for (int32_t n = 0; n < ORDERS && number_order(u, wish, n); n++) {
             int through;
             const double left = wish->budget - u->work;
@@ -236,6 +332,7 @@ static rg_status search(rg_unfold *u, const rg_unfold_wish *wish)
                      t + 1);
             return RG_OK;
         }
+    }
     return RG_OK;
 }
 
@@ -251,6 +348,8 @@ rg_status rg_unfold_run(rg_unfold *u, const rg_memory *mem, const rg_mesh *none,
     u->mesh.size = 1;
     s = rg_linkage_init(&u->P, mem, &u->mesh);
     if (s == RG_OK) s = rg_nearest_init(&u->q, mem, &u->P);
+    if (s == RG_OK) s = rg_plates_init(&u->mesh, &u->plates);
+    if (s == RG_OK) s = rg_contact_work_init(&u->plates, &u->look);
     if (s != RG_OK) return s;
     u->end = rg_mem_array(mem, (size_t)u->P.N, sizeof *u->end);
     u->scratch = rg_mem_array(mem, (size_t)u->P.n, sizeof *u->scratch);

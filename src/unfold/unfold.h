@@ -1,12 +1,14 @@
 /* unfold.h -- a motion in which no facets pass through each other: unfolded from the flat end, and read backwards.
  * Paper    section 4: models that "intersect themselves before folded", its future work
- * Uses  layers.h open.h landing.h stride.h        Used by  motion
+ * Uses  layers.h contact.h open.h landing.h stride.h        Used by  motion
  *
  * A flat end with an order of its layers is opened a little, unfolded to flat with contacts as hard rows, and, from where it was
- * opened, landed in the end. Several ways to open and several orders are tried. */
+ * opened, landed in the end. Several ways to open and several orders are tried; and, where none comes through, folding forwards
+ * from flat with the same rows, which jams more often but needs no order. */
 #ifndef RG_UNFOLD_H
 #define RG_UNFOLD_H
 
+#include "contact/contact.h"
 #include "layers/layers.h"
 #include "unfold/stride.h"
 
@@ -31,6 +33,8 @@ typedef struct rg_unfold {
     double size;           /* of the sheet, file units */
     rg_linkage P;
     rg_nearest q;
+    rg_plates plates;      /* to look at states with code that the steps are not made by */
+    rg_contact_work look;
     double *z;             /* [count][n] closed states from flat to the end */
     double *progress;      /* [count] 0 ... 1 */
     size_t z_room, progress_room;
