@@ -87,7 +87,7 @@ static double farthest(int32_t m, const double *x, const double *dx, double part
 
 static double diagonal(const rg_interior *q, int32_t i) { return q->c[i] + q->slack[i] / q->x[i]; }
 
-/* From a lower triangle by rows to one by columns, `add` put on its diagonal. */
+/* From a lower triangle by rows to one by columns. */
 static void turn(const problem *p, int32_t n, size_t room)
 {
     rg_interior *q = p->q;

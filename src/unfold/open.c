@@ -86,16 +86,17 @@ static double least_gap(const rg_linkage *P, const rg_end *e, int in_plane)
     return least;
 }
 
-rg_status rg_open(rg_linkage *P, const rg_end *e, const rg_open_way *way, rg_proximity *near, rg_nearest *q, double *z,
-                  rg_open_result *result)
+rg_status rg_open(rg_linkage *P, const rg_end *e, const rg_open_way *way, double budget, rg_proximity *near, rg_nearest *q,
+                  double *z, rg_open_result *result)
 {
+    const double most = q->work + q->q.work + budget;
     rg_stride_scale(P, way->give, q->scale);
     memcpy(z, e->z, (size_t)P->n * sizeof *z);
     double *wish = q->wish, part = way->grow ? FIRST : way->part;
     rg_status s = RG_OK;
     q->pushed = 0;
     q->carry = 1;
-    for (int32_t n = 0; n < ITERATIONS && s == RG_OK; n++) {
+    for (int32_t n = 0; n < ITERATIONS && s == RG_OK && q->work + q->q.work < most; n++) {
         const double angle = stand(P, q, z);
         for (int32_t i = 0; i < P->n; i++) wish[i] = (i < P->N ? 1 - part : 1) * e->z[i] - z[i];
         s = add_end_rows(P, e, q, way, part);
@@ -114,7 +115,8 @@ rg_status rg_open(rg_linkage *P, const rg_end *e, const rg_open_way *way, rg_pro
     result->worst = 0;
     result->least = least_gap(P, e, 0);
     return way->repair > 0 && result->angle < 1e-6
-               ? rg_open_repair(P, e, REPAIR_SCALE, 1e-3, way->margin / 10, way->repair, near, q, z, result) : RG_OK;
+               ? rg_open_repair(P, e, REPAIR_SCALE, 1e-3, way->margin / 10, way->repair, most - q->work - q->q.work, near, q, z,
+                                result) : RG_OK;
 }
 
 static rg_status add_near_rows(const rg_linkage *P, const rg_end *e, double want, double soft, const rg_proximity *near,
@@ -160,11 +162,12 @@ static rg_status add_plane_rows(const rg_linkage *P, const rg_end *e, double wan
     return RG_OK;
 }
 
-rg_status rg_open_repair(rg_linkage *P, const rg_end *e, double want, double soft, double margin, int32_t most, rg_proximity *near,
+rg_status rg_open_repair(rg_linkage *P, const rg_end *e, double want, double soft, double margin, int32_t most, double budget, rg_proximity *near,
                          rg_nearest *q, double *z, rg_open_result *result)
 {
+    const double spent = q->work + q->q.work;
     rg_status s = RG_OK;
-    for (int32_t n = 0; n < most && s == RG_OK; n++) {
+    for (int32_t n = 0; n < most && s == RG_OK && q->work + q->q.work - spent < budget; n++) {
         const double angle = stand(P, q, z);
         s = rg_proximity_find(near, P->p, NEAR);
         if (s == RG_OK) s = add_near_rows(P, e, want, soft, near, q, &result->worst);

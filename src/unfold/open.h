@@ -22,11 +22,11 @@ typedef struct rg_open_result {
     double least;     /* the least gap of a row */
 } rg_open_result;
 
-/* z[n]: out. near: its flags are left as they are. RG_ENOMEM. */
-rg_status rg_open(rg_linkage *P, const rg_end *e, const rg_open_way *way, rg_proximity *near, rg_nearest *q, double *z,
-                  rg_open_result *result);
+/* z[n]: out. budget: of work; where that ends it is as near as it came. near: its flags are left as they are. RG_ENOMEM. */
+rg_status rg_open(rg_linkage *P, const rg_end *e, const rg_open_way *way, double budget, rg_proximity *near, rg_nearest *q,
+                  double *z, rg_open_result *result);
 /* Pushes near parts of a state near the end apart, by their sides: at least `want`, if it can be `soft`. q->scale is set. */
-rg_status rg_open_repair(rg_linkage *P, const rg_end *e, double want, double soft, double margin, int32_t most, rg_proximity *near,
+rg_status rg_open_repair(rg_linkage *P, const rg_end *e, double want, double soft, double margin, int32_t most, double budget, rg_proximity *near,
                          rg_nearest *q, double *z, rg_open_result *result);
 
 #endif

@@ -20,20 +20,23 @@ static const try_ TRIES[] = {
     {{0.01, 0.2, 1e-8, 0, 1, 0, 0}, {1, 1, 1, 1}},
     {{0.03, 0.2, 1e-6, 1e-4, 0, 0, 6}, {0, 0, 0, 0}},
 };
-enum { TRY_COUNT = sizeof TRIES / sizeof *TRIES };
-/* Orders that are tried: the first one, and those that differ from it in one part. */
-static const int32_t ORDERS = 4;
 /* An opened state whose layers are farther on the wrong side is not one (lengths of the sheet): half of what counts as a crossing. */
 static const double WRONG = 5e-5;
 static const double CLOSED = 1e-9, LEAST_AREA = 0.1;
 /* Closing a state that is read off. */
 static const double READ_CLOSED = 1e-13, NEAR_DUE = 1e-6;
 static const int READ_NEWTON = 12, SECANTS = 8;
-/* Folding forwards is tried after so many ways of opening; it leaves flat with creases folded by this part. */
-static const int FORWARDS_AFTER = 2, OFF_FLAT_ITERATIONS = 60;
+/* What is tried, one after the other: a way of opening, and the number of an order; way -1: forwards. Another order does more than
+ * another way. */
+typedef struct step_of_plan { int way; int32_t order; } step_of_plan;
+static const step_of_plan PLAN[] = {{0, 0}, {0, 1}, {-1, 0}, {1, 0}, {0, 2}, {1, 1}, {2, 0}, {0, 3}, {2, 1}, {3, 0}, {1, 2}, {2, 2},
+                                    {4, 0}, {3, 1}, {5, 0}, {1, 3}, {5, 1}};
+enum { PLAN_COUNT = sizeof PLAN / sizeof *PLAN };
+/* Folding forwards leaves flat with creases folded by this part. */
+static const int OFF_FLAT_ITERATIONS = 60;
 static const double OFF_FLAT = 0.03, OFF_FLAT_LARGEST = 0.35;
 /* No try may cost more than this part of what is left. */
-static const double PART_OF_BUDGET = 0.5;
+static const double PART_OF_BUDGET = 0.4;
 
 void rg_unfold_free(rg_unfold *u)
 {
@@ -289,7 +292,7 @@ static rg_status attempt(rg_unfold *u, const try_ *t, double budget, const rg_un
     if (s == RG_OK) {
         for (int32_t i = 0; i < u->P.N; i++) target[i] = u->end[i] == 0 ? NAN : 0;
         const double before = u->q.work + u->q.q.work;
-        s = rg_open(&u->P, &end, &t->open, &near, &u->q, z, &opened);
+        s = rg_open(&u->P, &end, &t->open, budget, &near, &u->q, z, &opened);
         const double spent = u->q.work + u->q.q.work - before;
         u->work += spent;
         budget -= spent;
@@ -303,35 +306,34 @@ static rg_status attempt(rg_unfold *u, const try_ *t, double budget, const rg_un
     return s;
 }
 
+/* One entry of the plan; *is_free: out. */
+static rg_status go_by(rg_unfold *u, const step_of_plan *p, const rg_unfold_wish *wish, int *is_free)
+{
+    const double budget = PART_OF_BUDGET * (wish->budget - u->work);
+    const int forward = p->way < 0;
+    *is_free = 0;
+    if (forward ? wish->order >= 0 : !number_order(u, wish, p->order)) return RG_OK;
+    rg_status s = rg_layers_choose(u->layers, forward ? NULL : u->which);
+    if (s == RG_OK) s = forward ? forwards(u, budget, wish, is_free) : attempt(u, &TRIES[p->way], budget, wish, is_free);
+    if (s != RG_OK || !*is_free) return s;
+    if (forward) snprintf(u->how, sizeof u->how, "folded from flat with contacts");
+    else
+        snprintf(u->how, sizeof u->how, "unfolded from the flat end: order of layers %d of those tried, way of opening %d",
+                 (int)p->order + 1, p->way + 1);
+    return RG_OK;
+}
+
 static rg_status search(rg_unfold *u, const rg_unfold_wish *wish)
 {
-    rg_status s = RG_OK;
     u->outcome = RG_UNFOLD_FAILED;
-    for (int t = 0; t < TRY_COUNT; t++) {
-        if (t == FORWARDS_AFTER && wish->order < 0 && u->work < wish->budget && !is_stopped(wish, 0)) {
-            int through;
-            if ((s = rg_layers_choose(u->layers, NULL)) != RG_OK) return s;
-            s = forwards(u, PART_OF_BUDGET * (wish->budget - u->work), wish, &through);
-            if (s != RG_OK) return s;
-            if (through) {
-                u->outcome = RG_UNFOLD_FREE;
-                snprintf(u->how, sizeof u->how, "folded from flat with contacts");
-                return RG_OK;
-            }
-        }
-        for (int32_t n = 0; n < ORDERS && number_order(u, wish, n); n++) {
-            int through;
-            const double left = wish->budget - u->work;
-            if (!(left > 0) || is_stopped(wish, 0)) return RG_OK;
-            if ((s = rg_layers_choose(u->layers, u->which)) != RG_OK) return s;
-            s = attempt(u, &TRIES[t], PART_OF_BUDGET * left, wish, &through);
-            if (s != RG_OK) return s;
-            if (!through) continue;
-            u->outcome = RG_UNFOLD_FREE;
-            snprintf(u->how, sizeof u->how, "unfolded from the flat end: order of layers %d of those tried, way of opening %d", (int)n + 1,
-                     t + 1);
-            return RG_OK;
-        }
+    for (int k = 0; k < PLAN_COUNT; k++) {
+        int is_free;
+        if (!(u->work < wish->budget) || is_stopped(wish, 0)) return RG_OK;
+        const rg_status s = go_by(u, &PLAN[k], wish, &is_free);
+        if (s != RG_OK) return s;
+        if (!is_free) continue;
+        u->outcome = RG_UNFOLD_FREE;
+        return RG_OK;
     }
     return RG_OK;
 }
