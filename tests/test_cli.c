@@ -770,7 +770,7 @@ static void passing_through_itself_is_told(void **state)
 {
     (void)state;
     ends(0, run("gen", "waterbomb", "6", "-o", "through.opx"));
-    const ran *r = ends(1, run("fold", "through.opx", "--report", "through.json", "-o", "through.csv"));
+    const ran *r = ends(1, run("fold", "through.opx", "--contact", "report", "--report", "through.json", "-o", "through.csv"));
     says(r, "rigami: through.opx: reaches its end only by passing through itself, from 32 %: facets ", "at (");
     json_t *report = json_load_file("through.json", 0, NULL);
     const json_t *result = json_object_get(report, "result");
@@ -780,7 +780,6 @@ static void passing_through_itself_is_told(void **state)
     near(value(report, "result", "contact_depth"), 0.04, 0.002);
     assert_true(value(report, "result", "contact_pairs") > 10);
     json_decref(report);
-    ends(1, run("fold", "through.opx", "--contact", "report"));
     ends(0, run("fold", "through.opx", "--contact", "ignore", "--report", "through.json"));
     report = json_load_file("through.json", 0, NULL);
     assert_string_equal(json_string_value(json_object_get(json_object_get(report, "result"), "contact")), "unchecked");
@@ -805,7 +804,7 @@ static void motions_are_verified(void **state)
     assert_int_equal(json_array_size(json_object_get(found, "faults")), 0);
     json_decref(found);
     ends(0, run("gen", "waterbomb", "6", "-o", "through.opx"));
-    ends(1, run("fold", "through.opx", "-q", "-o", "through.fold"));
+    ends(1, run("fold", "through.opx", "-q", "--contact", "report", "-o", "through.fold"));
     r = ends(1, run("verify", "through.fold"));
     assert_int_equal(strncmp(r->out, "frame ", 6), 0);
     assert_true(strstr(r->out, " %): facets ") && strstr(r->out, " cross, 0.0"));
