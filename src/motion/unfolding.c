@@ -111,7 +111,7 @@ static rg_status unfold(rg_search *c, const rg_mesh *none, const rg_settings *s,
 rg_status rg_unfolding_try(rg_search *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why)
 {
     int32_t crossing = -1;
-    if (s->contact != RG_CONTACT_AVOID || s->effort == RG_EFFORT_FAST || s->to == 0 || watch->cancelled || none->M == 0) return RG_OK;
+    if (s->contact != RG_CONTACT_AVOID || s->effort == RG_EFFORT_FAST || s->to == 0 || watch->cancelled) return RG_OK;
     if (s->adjust == 0 || s->triangulate == RG_TRIANGULATE_NONE) return RG_OK; /* it bends facets and moves the pattern */
     rg_status status = c->best.outcome == RG_FOLDED ? first_crossing(&c->best, &crossing) : RG_OK;
     if (status == RG_OK && (c->best.outcome != RG_FOLDED || crossing >= 0)) status = unfold(c, none, s, watch, why);

@@ -30,7 +30,8 @@ static const int READ_NEWTON = 12, SECANTS = 8;
  * another way. */
 typedef struct step_of_plan { int way; int32_t order; } step_of_plan;
 static const step_of_plan PLAN[] = {{0, 0}, {0, 1}, {-1, 0}, {1, 0}, {0, 2}, {1, 1}, {2, 0}, {0, 3}, {2, 1}, {3, 0}, {1, 2}, {2, 2},
-                                    {4, 0}, {3, 1}, {5, 0}, {1, 3}, {5, 1}};
+                                    {4, 0}, {3, 1}, {5, 0}, {1, 3}, {5, 1}, {0, 4}, {1, 4}, {0, 5}, {1, 5}, {0, 6}, {1, 6}, {0, 7}, {1, 7},
+                                    {0, 8}, {1, 8}, {0, 9}, {1, 9}, {0, 10}, {1, 10}, {0, 11}, {1, 11}};
 enum { PLAN_COUNT = sizeof PLAN / sizeof *PLAN };
 /* Folding forwards leaves flat with creases folded by this part. */
 static const int OFF_FLAT_ITERATIONS = 60;
@@ -101,7 +102,8 @@ static int number_order(rg_unfold *u, const rg_unfold_wish *wish, int32_t n)
             u->which[i] = 1;
             return 1;
         }
-    return 0;
+    /* Then, by their numbers, some that differ in more. */
+    return rg_layers_which(u->layers, (uint64_t)(q->count + n), u->which) == RG_OK;
 }
 
 /* ---- the path */
