@@ -173,6 +173,7 @@ run-bench: $(bench_bin)
 # tested=yes: make test was run already.
 check:
 	@$(setup) check
+	@mkdir -p build
 	@$(if $(tested),,$(MAKE) --no-print-directory $(jobs) run-tests)
 	@for part in layers equations header werror install-check outputs without-gpl without-gl asan; do \
 	    echo "== $$part"; $(MAKE) --no-print-directory $(jobs) $$part >build/check.log 2>&1 || \
