@@ -470,10 +470,9 @@ static int close_within_half_turns(rg_relax *F)
  * is of first. node, s: out, the nearest last. Zero: the branch of z does not lead there. */
 static int approach(rg_relax *F, const double *z, const double *at, double *node, double *s)
 {
-    double f = 1, least;
+    double least;
     const double *last = z;
     for (int32_t k = 0; k < END_NODES; k++, node += F->n) {
-        f *= NEARER;
         for (int32_t i = 0; i < F->N; i++) F->trial[i] = at[i] + NEARER * (last[i] - at[i]);
         for (int32_t i = F->N; i < F->n; i++) F->trial[i] = NEARER * NEARER * last[i];
         even_out(F, F->trial);

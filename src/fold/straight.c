@@ -153,6 +153,12 @@ rg_solver rg_straight_solver(const rg_straight *f)
     return most->P.solver;
 }
 
+void rg_straight_set_most_steps(rg_straight *f, int32_t most)
+{
+    f->most_steps = most;
+    for (int32_t p = 0; p < f->apart.parts; p++) f->apart.part[p]->most_steps = most;
+}
+
 void rg_straight_set_due(rg_straight *f, const double *due)
 {
     f->due = due;
@@ -214,7 +220,7 @@ static int32_t step(rg_straight *f)
         f->s = rg_straight_frame_progress(f, f->frame);
         return f->frame;
     }
-    if (f->steps - f->frame > fmax(MOST_STEPS, MOST_WAYS * RG_PI / f->settings.step)) { /* besides those that frames ask for */
+    if (f->steps - f->frame > (f->most_steps ? f->most_steps : fmax(MOST_STEPS, MOST_WAYS * RG_PI / f->settings.step))) { /* besides those that frames ask for */
         rg_straight_stop(f, "the number of steps ran out");
     } else if (creeps(f)) {
         rg_straight_stop(f, "the facets leave hardly any way on: it goes on in steps too small to get anywhere");

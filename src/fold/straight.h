@@ -29,4 +29,6 @@ rg_solver rg_straight_solver(const rg_straight *f);
 
 /* Frames are due at these progresses, rising, [settings.frames], borrowed; NULL: evenly. Before the first step. */
 void rg_straight_set_due(rg_straight *f, const double *due);
+/* It gives up after so many steps; 0: only where it creeps, or after very many. */
+void rg_straight_set_most_steps(rg_straight *f, int32_t most);
 #endif

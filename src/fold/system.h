@@ -31,6 +31,7 @@ struct rg_straight {
     rg_memory mem;
     rg_settings settings;
     const double *due;            /* see rg_straight_set_due */
+    int32_t most_steps;           /* see rg_straight_set_most_steps */
     rg_mesh mesh;
     rg_constraint K;
     rg_drive drive;

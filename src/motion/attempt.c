@@ -187,7 +187,8 @@ static rg_status find_rest(const rg_mesh *drawn, const rg_settings *settings, rg
     return s;
 }
 
-rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *settings, rg_watch *watch, rg_diag *why)
+rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *settings, int32_t most_steps, rg_watch *watch,
+                              rg_diag *why)
 {
     const double begun = rg_seconds();
     rg_settings mine = *settings;
@@ -205,6 +206,7 @@ rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *sett
     s = make_room(t, &f->mesh);
     t->rho = rg_mem_array(&t->mem, ((size_t)settings->frames + 1) * (size_t)f->mesh.N, sizeof *t->rho);
     if (!t->rho) s = RG_ENOMEM;
+    if (s == RG_OK) rg_straight_set_most_steps(f, most_steps);
     if (s == RG_OK) s = run_straight(t, f, NULL, watch);
     if (s == RG_OK) {
         memcpy(t->target, f->drive.target, (size_t)f->mesh.N * sizeof *t->target);
@@ -438,6 +440,14 @@ rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *set
             t->moved = fmax(t->moved, rg_vec2_length(rg_vec2_sub(t->flat[(size_t)k * nv + v], t->mesh.X[v])));
     judge(t, last_state(t));
     return RG_OK;
+}
+
+void rg_attempt_forget_frames(rg_attempt *t)
+{
+    if (!t->relax) return;
+    rg_mem_free(&t->mem, t->rho);
+    rg_mem_free(&t->mem, t->flat);
+    t->rho = NULL, t->flat = NULL, t->count = 0;
 }
 
 rg_status rg_attempt_read(rg_attempt *t, const rg_settings *settings)

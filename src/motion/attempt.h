@@ -48,8 +48,8 @@ typedef struct rg_attempt {
 } rg_attempt;
 
 void rg_attempt_free(rg_attempt *t);
-/* Straight on along the motion that closes exactly, on the pattern given. *m is taken over, also on failure. */
-rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *s, rg_watch *watch, rg_diag *why);
+/* Straight on along the motion that closes exactly, on the pattern given. most_steps 0: as many as it takes. *m is taken over, also on failure. */
+rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *s, int32_t most_steps, rg_watch *watch, rg_diag *why);
 /* Relaxed, from `from` (NULL: flat) to `target`; backwards: the same motion, looked for from its end. G: on a mesh with the same
  * vertices, kept; NULL: none. *m is taken over, also on failure. budget: of its work. */
 rg_status rg_attempt_relaxed(rg_attempt *t, rg_mesh *m, const rg_settings *s, const rg_relaxation *how, const double *from,
@@ -61,6 +61,8 @@ rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *s, 
                                void *ctx, rg_diag *why);
 /* Frames of it, by settings->frames, to and pace; where it stopped short, those that it reached and the last state. RG_ENOMEM. */
 rg_status rg_attempt_read(rg_attempt *t, const rg_settings *s);
+/* Frames that can be read off again are let go. */
+void rg_attempt_forget_frames(rg_attempt *t);
 /* The most that crease i turned on the whole path, radians. */
 double rg_attempt_largest_angle(const rg_attempt *t, int32_t i);
 

@@ -122,8 +122,8 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_
     if (s == RG_OK) s = rg_mesh_from_pattern(p, &mem, &none, why);
     const rg_problem problem = {&none, NULL, NULL, 1};
     if (s == RG_OK) s = rg_search_run(&search, &problem, settings, &watch, why);
-    if (s == RG_OK) s = rg_attempt_read(&search.best, settings);
     if (s == RG_OK) s = rg_unfolding_try(&search, &none, settings, &watch, why);
+    if (s == RG_OK) s = rg_attempt_read(&search.best, settings);
     if (s == RG_OK) s = adopt(m, &search);
     rg_attempt_free(&search.best);
     if (s == RG_OK) s = rg_tree_init(&m->mesh, settings->fixed_facet, &m->tree);

@@ -45,7 +45,9 @@ static const rung LADDER[] = {
 };
 enum { RUNGS = sizeof LADDER / sizeof *LADDER, MOST_GROUPS = 8, MOST_JOBS = MOST_GROUPS * RUNGS };
 /* Work of one try, about seconds of a slow machine, by effort. */
-static const double MOST_WORK[] = {4, 25, 300};
+static const double MOST_WORK[] = {4, 12, 300};
+/* What folds straight on, triangulated, takes a hundred steps or so. */
+static const int32_t MOST_STEPS_TRIANGULATED = 250;
 /* Retraction: how often half the compliance is tried, and fewer cuts, of a relaxation and straight on. A facet that bends by less
  * (radians) may stay whole, if no vertex goes much farther. */
 static const int32_t LESS_COMPLIANCE[] = {0, 2, 5}, FEWER_CUTS[] = {0, 3, 8}, FEWER_STRAIGHT[] = {0, 8, 24};
@@ -126,7 +128,8 @@ static rg_status try_rung(const ladder *l, const rung *r, const rg_symmetry *G, 
     if (r->straight) {
         rg_settings mine = *l->settings;
         mine.triangulate = cuts ? RG_TRIANGULATE_ALL : RG_TRIANGULATE_NONE;
-        return rg_attempt_straight(t, &m, &mine, watch, why);
+        /* Asked for by a method, it may take its time; as one of several rungs it must not. */
+        return rg_attempt_straight(t, &m, &mine, cuts && mine.method == RG_METHOD_AUTO ? MOST_STEPS_TRIANGULATED : 0, watch, why);
     }
     const rg_memory mem = rg_mem_default(l->settings->memory);
     double *from = rg_mem_array(&mem, (size_t)m.N, sizeof *from), *to = rg_mem_array(&mem, (size_t)m.N, sizeof *to);

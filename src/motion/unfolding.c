@@ -13,6 +13,9 @@ static const double MOST_WORK[] = {0, 2e11, 3e12};
 /* What moving a vertex of the pattern by the shortest line at it counts, in radians of a crease, as in relax.h. */
 static const double GIVE = 1;
 
+/* A path is looked at in so many states, evenly in percent, whatever frames are asked for: what is chosen must not depend on them. */
+static const int32_t LOOKED_AT = 121;
+
 /* The first frame in which facets cross; -1: none. */
 static rg_status first_crossing(const rg_attempt *t, int32_t *frame)
 {
@@ -38,6 +41,18 @@ static rg_status first_crossing(const rg_attempt *t, int32_t *frame)
     rg_tree_free(&tree);
     rg_mem_free(&t->mem, place);
     rg_mem_free(&t->mem, x);
+    return s;
+}
+
+/* The same of the path itself; what went straight on has its frames only. */
+static rg_status path_crosses(rg_attempt *t, const rg_settings *settings, int32_t *frame)
+{
+    rg_settings look = *settings;
+    look.frames = LOOKED_AT;
+    look.pace = RG_PACE_PERCENT;
+    rg_status s = rg_attempt_read(t, &look);
+    if (s == RG_OK) s = first_crossing(t, frame);
+    rg_attempt_forget_frames(t);
     return s;
 }
 
@@ -113,7 +128,8 @@ rg_status rg_unfolding_try(rg_search *c, const rg_mesh *none, const rg_settings 
     int32_t crossing = -1;
     if (s->contact != RG_CONTACT_AVOID || s->effort == RG_EFFORT_FAST || s->to == 0 || watch->cancelled) return RG_OK;
     if (s->adjust == 0 || s->triangulate == RG_TRIANGULATE_NONE) return RG_OK; /* it bends facets and moves the pattern */
-    rg_status status = c->best.outcome == RG_FOLDED ? first_crossing(&c->best, &crossing) : RG_OK;
-    if (status == RG_OK && (c->best.outcome != RG_FOLDED || crossing >= 0)) status = unfold(c, none, s, watch, why);
+    const int stopped = c->best.outcome == RG_STOPPED;
+    rg_status status = stopped ? RG_OK : path_crosses(&c->best, s, &crossing);
+    if (status == RG_OK && (stopped || crossing >= 0)) status = unfold(c, none, s, watch, why);
     return status == RG_ENOMEM ? rg_fail(status, why, 0, "%s", rg_status_text(status)) : status;
 }
