@@ -197,7 +197,7 @@ static rg_status push(rg_nearest *q)
 
 rg_status rg_nearest_solve(rg_nearest *q, const double *wish, const double *r, int with_soft)
 {
-    int more;
+    int more = 0;
     rg_nearest_project(q, wish, r);
     const int32_t before = q->carry ? q->pushed : 0;
     rg_status s = RG_OK;
