@@ -1,5 +1,5 @@
 /* utf8.h -- where characters begin and end, in text that may be anything.
- * Used by  json.c svgfile.c */
+ * Used by  json.c plot.c opx.c svg.c svgfile.c */
 #ifndef RG_UTF8_H
 #define RG_UTF8_H
 

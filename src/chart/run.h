@@ -1,5 +1,5 @@
 /* run.h -- one fold by one method, one solver, one step size: what it costs and how far off it is.
- * Uses  straight.h        Used by  reference.c chart.c */
+ * Uses  straight.h        Used by  model.c reference.c */
 #ifndef RG_RUN_H
 #define RG_RUN_H
 

@@ -1,5 +1,5 @@
 /* depth.h -- how deep two convex plates cross.
- * Uses  vec.h        Used by  contact.c sweep.c
+ * Uses  vec.h        Used by  contact.c
  *
  * Two plates cross when the overlap of their shadows is positive along every axis of the separating-axis theorem: both normals,
  * and every edge of the one by every edge of the other (Gottschalk, Lin and Manocha 1996, there for boxes). The depth is the

@@ -1,5 +1,5 @@
 /* adjust.h -- where the vertices of closed vertices wish to go.
- * Paper    sections 3.1, 3.3, Fig. 5        Uses  freedom.h closed.h        Used by  flow.c
+ * Paper    sections 3.1, 3.3, Fig. 5        Uses  freedom.h closed.h        Used by  relax.c
  *
  * A closed vertex moves in the direction that shrinks its inside angles, by
  *

@@ -1,6 +1,6 @@
 /* drive.h -- what the creases wish for: drho0.
  * Paper    section 2 (drho0 "calculated by mountain-valley value of the fold edges"), eq. (10)
- * Uses  mesh.h        Used by  straight.c
+ * Uses  mesh.h        Used by  exact.c limit.c system.c
  *
  * Progress s is the mean of rho_i / target_i over the driven creases: 0 flat, 1 folded. The wish for a small ds is
  *

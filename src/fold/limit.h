@@ -1,5 +1,5 @@
 /* limit.h -- the two penalties against local self-intersection.
- * Paper    section 4        Uses  drive.h mesh.h        Used by  straight.c
+ * Paper    section 4        Uses  drive.h mesh.h        Used by  relax.c system.c
  *
  * One keeps every crease within [-pi, pi], so that two facets at a crease do not pass through each other. The other
  * keeps an added crease within what its neighbours leave: where an original crease next to it has turned by rho > 0,

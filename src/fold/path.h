@@ -1,5 +1,5 @@
 /* path.h -- the way travelled so far, as nodes with their directions, and what lies between and beyond them.
- * Paper    eq. (10): what its integral is                Used by  integrate.c */
+ * Paper    eq. (10): what its integral is                Used by  system.c */
 #ifndef RG_PATH_H
 #define RG_PATH_H
 

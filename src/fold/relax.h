@@ -1,6 +1,6 @@
 /* relax.h -- the relaxed stepper: folding where fold angles alone cannot go, the creases roll through the sheet as well.
  * Paper    eqs. (14), (19) as one system; section 3.3; both penalties of section 4
- * Uses  orbits.h adjust.h limit.h        Used by  attempt.c diagnose.c states.c
+ * Uses  orbits.h adjust.h limit.h        Used by  attempt.c diagnose.c
  *
  * Unknowns z = (rho, u): fold angles, and the ways in which the vertices of the pattern may move. Every step projects a wish,
  *

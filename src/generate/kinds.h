@@ -1,5 +1,5 @@
 /* kinds.h -- the patterns that can be drawn, one function each.
- * Uses  drawing.h        Used by  generate.c
+ * Uses  drawing.h        Used by  generate
  *
  * Each draws in units of its own; its file says which theorems hold where and what the numbers mean. */
 #ifndef RG_KINDS_H

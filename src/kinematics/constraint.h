@@ -1,5 +1,5 @@
 /* constraint.h -- all vertices: C (3M x N) and r at given fold angles.
- * Paper    eqs. (6)-(8), (11), (12)        Uses  loop.h turn.h sparse.h mesh.h        Used by  project.c fold.c motion.c */
+ * Paper    eqs. (6)-(8), (11), (12)        Uses  loop.h turn.h sparse.h mesh.h        Used by  mobility.c project.c */
 #ifndef RG_CONSTRAINT_H
 #define RG_CONSTRAINT_H
 

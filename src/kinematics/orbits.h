@@ -1,5 +1,5 @@
 /* orbits.h -- the joint system of a symmetric sheet, with one unknown for each orbit and the rows of one vertex of each.
- * Paper    eqs. (7), (8), (11), (16)-(18)        Uses  joint.h symmetry.h        Used by  flow.c
+ * Paper    eqs. (7), (8), (11), (16)-(18)        Uses  joint.h symmetry.h        Used by  relax.c
  *
  * A state that has the symmetry has it after a step x = Q y too: the columns of Q are orthonormal, each with as much for every
  * crease of an orbit or, for the vertices of one, with a vector that is turned from one to the next, as far as it is its own image

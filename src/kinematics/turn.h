@@ -1,5 +1,5 @@
 /* turn.h -- cosines and sines of all creases.
- * Paper    Fig. 3        Uses  lanes.h        Used by  constraint.c */
+ * Paper    Fig. 3        Uses  lanes.h        Used by  constraint.c pose.c */
 #ifndef RG_TURN_H
 #define RG_TURN_H
 

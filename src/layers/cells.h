@@ -1,5 +1,5 @@
 /* cells.h -- the folded sheet's creases and borders in the plane, cut at each other: segments, and cells between them.
- * Uses  flat.h planar.h faces.h        Used by  pairs.c constraint.c
+ * Uses  flat.h planar.h faces.h        Used by  pairs.c
  *
  * The same facets lie over all of a cell; the same edges lie along all of a segment. */
 #ifndef RG_LAYERS_CELLS_H

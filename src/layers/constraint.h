@@ -1,6 +1,6 @@
 /* constraint.h -- what creases that lie on each other, or run through facets, ask of the order of facets.
  * Source   H. Akitaya, E. Demaine, J. Ku et al., taco-taco, taco-tortilla, tortilla-tortilla conditions; transitivity is in pairs.h
- * Uses  pairs.h        Used by  propagate.c layers.c
+ * Uses  pairs.h        Used by  propagate.c
  *
  * A taco is two facets at a folded crease, on one side of its line; a tortilla goes on across the line, as one facet or as two
  * at a crease that stays flat. Let o(f, g) be +1 where g lies above f, -1 below. Then, all of these facets having a common place:

@@ -1,5 +1,5 @@
 /* count.h -- how many orders there are, part by part, and any one of them.
- * Uses  propagate.h        Used by  blame.c layers.c
+ * Uses  propagate.h        Used by  blame.c
  *
  * Pairs that constraints with two unknown orders join are a part; parts don't touch each other, so the orders of the whole are
  * products. Within a part one pair is tried both ways; what is left falls into parts again, and those are counted each for itself.

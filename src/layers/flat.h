@@ -1,6 +1,6 @@
 /* flat.h -- the sheet folded flat: where each facet goes, and which side of it is up.
  * Source   J. Justin, "Towards a mathematical theory of origami" (1989): an isometric flat map is made by reflections
- * Uses  undriven.h        Used by  cells.c constraint.c layers.c
+ * Uses  undriven.h        Used by  cells.c
  *
  * The facets here are those that were drawn: facets of the mesh that only added creases part are one. */
 #ifndef RG_LAYERS_FLAT_H

@@ -1,5 +1,5 @@
 /* pairs.h -- facets that lie on each other, and threes of them that have a common place.
- * Uses  cells.h        Used by  constraint.c propagate.c layers.c */
+ * Uses  cells.h        Used by  constraint.c overlap.c */
 #ifndef RG_LAYERS_PAIRS_H
 #define RG_LAYERS_PAIRS_H
 

@@ -1,5 +1,5 @@
 /* scale.h -- the rows of each vertex made orthonormal: B = S C, S one 3 x 3 block a vertex.
- * Paper    eqs. (9), (11): the same equations in other words        Uses  sparse.h        Used by  project.c
+ * Paper    eqs. (9), (11): the same equations in other words        Uses  sparse.h        Used by  mobility.c project.c
  *
  * Near flat and near flat-folded the third row of a vertex is as small as the fold angles, and C C^T as badly
  * conditioned as their squares; with B_k B_k^T = I that is gone, and B B^T no worse there than anywhere else. What solves

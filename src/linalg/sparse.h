@@ -1,5 +1,5 @@
 /* sparse.h -- the fixed pattern of C: one 3-vector where an interior vertex meets a crease.
- * Paper    eqs. (7), (8)        Used by  cg.c constraint.c */
+ * Paper    eqs. (7), (8)        Used by  kinematics, linalg */
 #ifndef RG_SPARSE_H
 #define RG_SPARSE_H
 

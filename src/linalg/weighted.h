@@ -1,5 +1,5 @@
 /* weighted.h -- a graph with weights, and its parting: two parts, and the nodes between them, which separate them.
- * Used by  cut.c separator.c dissect.c */
+ * Used by  cut.c separator.c */
 #ifndef RG_WEIGHTED_H
 #define RG_WEIGHTED_H
 

@@ -1,5 +1,5 @@
 /* diagnose.h -- where a run that stopped is held.
- * Paper    sections 3.1, 4 (which models "get stuck")        Uses  straight.h relax.h        Used by  attempt.c motion.c */
+ * Paper    sections 3.1, 4 (which models "get stuck")        Uses  straight.h relax.h        Used by  attempt.c */
 #ifndef RG_DIAGNOSE_H
 #define RG_DIAGNOSE_H
 

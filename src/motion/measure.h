@@ -1,5 +1,5 @@
 /* measure.h -- everything that a report says of frames, from their fold angles and patterns alone.
- * Uses  motion.h loop.h        Used by  motion.c */
+ * Uses  motion.h loop.h        Used by  assemble.c create.c */
 #ifndef RG_MEASURE_H
 #define RG_MEASURE_H
 

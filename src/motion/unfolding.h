@@ -1,5 +1,5 @@
 /* unfolding.h -- a motion in which no facets pass through each other, where the plain one is none.
- * Paper    section 4's future work        Uses  search.h unfold.h contact.h        Used by  motion.c */
+ * Paper    section 4's future work        Uses  search.h unfold.h contact.h        Used by  create.c */
 #ifndef RG_UNFOLDING_H
 #define RG_UNFOLDING_H
 

@@ -1,6 +1,6 @@
 /* closed.h -- closed vertices: creases made by folding through two layers at once, which lock a rigid sheet.
  * Paper    section 3.1, Fig. 7        Uses  check.h
- * Used by  pattern.c inside.c adjust.c */
+ * Used by  adjust.c inside.c build.c svgfile.c */
 #ifndef RG_CLOSED_H
 #define RG_CLOSED_H
 

@@ -1,5 +1,5 @@
 /* pieces.h -- the sheets of a drawing that has several, and the choice of one.
- * Uses  planar.h faces.h classes.h        Used by  pattern.c */
+ * Uses  planar.h faces.h classes.h        Used by  build.c */
 #ifndef RG_PIECES_H
 #define RG_PIECES_H
 

@@ -1,5 +1,5 @@
 /* points.h -- points that grow into vertices: what is nearer than a tolerance is one vertex.
- * Uses  base        Used by  planar.c */
+ * Uses  base        Used by  build.c planar.c */
 #ifndef RG_POINTS_H
 #define RG_POINTS_H
 

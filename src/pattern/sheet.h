@@ -1,5 +1,5 @@
 /* sheet.h -- is the graph one sheet without holes, where is its border, and which vertices only break a straight line.
- * Paper    section 1 (a sheet of paper is a disk)        Uses  planar.h faces.h        Used by  pattern.c */
+ * Paper    section 1 (a sheet of paper is a disk)        Uses  planar.h faces.h        Used by  build.c */
 #ifndef RG_SHEET_H
 #define RG_SHEET_H
 

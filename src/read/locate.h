@@ -1,5 +1,5 @@
 /* locate.h -- the lines of a JSON text that its values stand in, for messages: a parser keeps none.
- * Used by  fold.c */
+ * Used by  fold.c ori.c */
 #ifndef RG_LOCATE_H
 #define RG_LOCATE_H
 

@@ -1,5 +1,5 @@
 /* read.h -- a crease pattern file of any format: which one it is, and its lines.
- * Uses  opx.h cp.h fold.h svg.h dxf.h ori.h kinds.h        Used by  pattern.c convert.c */
+ * Uses  opx.h cp.h fold.h svg.h dxf.h ori.h kinds.h        Used by  given.c build.c convert.c */
 #ifndef RG_READ_H
 #define RG_READ_H
 

@@ -1,5 +1,5 @@
 /* xml.h -- an XML file as a tree of elements.
- * Uses  libxml2        Used by  opx.c svg.c
+ * Uses  libxml2        Used by  css.c ids.c opx.c select.c
  *
  * Loads nothing from anywhere and expands no entities; depth and length of names are bounded by the parser, the rest by
  * the size of the input. */

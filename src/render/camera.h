@@ -1,5 +1,5 @@
 /* camera.h -- one steady move of the camera for a whole motion: the sheet stays in the middle and fills the picture.
- * Paper    section 4        Uses  stage.h caption.h        Used by  render.c frames.c html.c
+ * Paper    section 4        Uses  stage.h caption.h        Used by  render, write
  *
  * The camera never turns. It comes nearer as the sheet grows small, goes farther as it unfolds, and moves sideways so that the sheet
  * is in the middle; all of it smoothed over a part of the motion. Nothing of the sheet is cut off unless one zooms in. */

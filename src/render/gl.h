@@ -1,5 +1,5 @@
 /* gl.h -- the one door to OpenGL: a context off the screen that tells which triangle is nearest at each sample.
- * Paper    section 4        Uses  base        Used by  canvas.c
+ * Paper    section 4        Uses  base        Used by  canvas.c raster.c seen.c
  *
  * Built for OSMesa, for EGL without a surface, or for neither (RG_GL_osmesa, RG_GL_egl, RG_GL_none). What GL keeps
  * inside is allocated by GL, not by rg_memory. One handle belongs to one thread at a time. */

@@ -1,5 +1,5 @@
 /* lift.h -- facets that lie on each other, moved apart for the eye, so that each frame shows paper on paper.
- * Paper    section 4        Uses  motion.h ending.h coplanar.h stack.h        Used by  frames.c
+ * Paper    section 4        Uses  motion.h ending.h coplanar.h stack.h        Used by  frames.c html.c
  *
  * Who is on top follows from the motion: facets that come to lie in one plane are ordered by where they lay a little
  * before, and stay in that order for as long as they lie there. So frames are taken one after the other. A flat end is shown in

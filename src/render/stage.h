@@ -1,5 +1,5 @@
 /* stage.h -- a motion put before the camera: it turns as little as it can, and shows its symmetry and most of its paper.
- * Paper    section 4        Uses  motion.h maps.h        Used by  camera.c frames.c html.c
+ * Paper    section 4        Uses  motion.h maps.h        Used by  render, write
  *
  * A motion has one facet that stays where it is, so that all others seem to swing round it. On the stage it is the sheet as a whole
  * that stays: each frame is turned to lie as near as it can to the frame before (Horn, "Closed-form solution of absolute

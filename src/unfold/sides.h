@@ -1,5 +1,5 @@
 /* sides.h -- on which side of each other near parts of the sheet belong, by the order of layers in the flat end.
- * Uses  linkage.h proximity.h        Used by  end.c open.c stride.c
+ * Uses  linkage.h proximity.h        Used by  end.c stride.c
  *
  * As long as two layers are all but on each other, their distance does not tell whether they have passed through one another;
  * the order does. Once they are apart, distance and conservative advancement keep them so. */

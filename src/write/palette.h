@@ -1,5 +1,5 @@
 /* palette.h -- the few colours that show a whole film best.
- * Uses  base        Used by  film.c gif.c */
+ * Uses  base        Used by  gif.c */
 #ifndef RG_PALETTE_H
 #define RG_PALETTE_H
 

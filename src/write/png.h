@@ -1,5 +1,5 @@
 /* png.h -- one picture as PNG.
- * Uses  base        Used by  film.c html.c gltf.c */
+ * Uses  base        Used by  apng.c film.c gltf.c html.c output.c */
 #ifndef RG_PNG_H
 #define RG_PNG_H
 
