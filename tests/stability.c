@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "near.h"
+#include "paths.h"
 #include "scenarios.h"
 
 #include <unistd.h>
@@ -101,9 +102,66 @@ static void write_svg(FILE *f, cell (*c)[METHODS])
             top + SCENARIOS * h + 30);
 }
 
+/* ------------------------------------------------------------------------------------------------- paths ---- */
+
+static const char *outcome_name(rg_outcome o) { return o == RG_FOLDED ? "folded" : o == RG_RESTS ? "rests" : "stopped"; }
+
+static void write_paths_csv(FILE *f, const path_seen *x)
+{
+    fprintf(f, "pattern,rung,outcome,percent,leap_61_deg,even_61_deg,leap_601_deg,even_601_deg,falls_percent,wrong_side_deg,wrong_side_told_deg,"
+               "same_bits,apart_rad,percent_half_step,percent_loose_tol,symmetries,kept,kept_told,askew_deg,seconds\n");
+    for (int i = 0; i < PATHS; i++, x++) {
+        if (!x->there) continue;
+        fprintf(f, "\"%s\",\"%s\",%s,%.4g,%.4g,%.4g,%.4g,%.4g,%.2g,%.4g,%.4g,%d,%.2g,%.4g,%.4g,%d,%d,%d,%.2g,%.3g\n", paths[i].name,
+                x->rung ? x->rung : "", outcome_name(x->outcome), x->percent, x->leap[0], x->even[0], x->leap[1], x->even[1], x->back, x->wrong,
+                x->wrong_told, x->same_bits, x->apart, x->percent_by_step, x->percent_by_tol, x->elements, x->kept, x->told, x->askew, x->seconds);
+    }
+}
+
+static void write_paths_md(FILE *f, const path_seen *x)
+{
+    static const char *const bad = "**", *const good = "";
+    fprintf(f, "\nThe paths of the default; what fails is in bold:\n\n| pattern | folds by | largest turn over the even one: 61, 601 frames | percents fall | "
+               "wrong side, deg: seen, told | 61 frames are of the 601 | half the step | ten times the tolerance | symmetries: drawn, told, kept |\n"
+               "|---|---|---|---|---|---|---|---|---|\n");
+    for (int i = 0; i < PATHS; i++, x++) {
+        if (!x->there) continue;
+        const char *mark[PATH_CHECKS];
+        char apart[40] = "same bits";
+        for (int k = 0; k < PATH_CHECKS; k++) mark[k] = path_fails(x, k) ? bad : good;
+        if (!x->same_bits) snprintf(apart, sizeof apart, "apart by %.0e rad", x->apart);
+        fprintf(f, "| **%s**: %s | %s, %s | %s%.2f, %.2f%s | %s%.0e%s | %s%.3g, %.3g%s | %s%s%s | %s%s, %.3g %%%s | %s%s, %.3g %%%s | %s%d, %d, %d%s |\n",
+                paths[i].name, paths[i].what, x->rung ? x->rung : "-", outcome_name(x->outcome), mark[LEAPS], x->leap[0] / x->even[0],
+                x->leap[1] / x->even[1], mark[LEAPS], mark[GOES_BACK], x->back, mark[GOES_BACK], mark[CONCEALS], x->wrong, x->wrong_told,
+                mark[CONCEALS], mark[DEPENDS_ON_FRAMES], apart, mark[DEPENDS_ON_FRAMES], mark[DEPENDS_ON_STEP],
+                x->same_outcome_by_step ? "the same" : "another outcome", x->percent_by_step, mark[DEPENDS_ON_STEP], mark[DEPENDS_ON_TOL],
+                x->same_outcome_by_tol ? "the same" : "another outcome", x->percent_by_tol, mark[DEPENDS_ON_TOL], mark[ASKEW], x->elements,
+                x->told, x->kept, mark[ASKEW]);
+    }
+}
+
+/* How many checks fail. */
+static int look_at_path(int i, path_seen *x)
+{
+    static const char *const names[] = {"leaps", "goes back", "conceals", "depends on frames", "depends on the step", "depends on the tolerance", "askew"};
+    int failed = 0;
+    const double begun = rg_seconds();
+    *x = path_look(&paths[i]);
+    if (!x->there) return 0;
+    printf("path %-25s %-9s %6.1f %%  leaps %.2f %.2f, falls %.0e, wrong %.3g deg, %s, symmetries %d of %d  %.2f s ", paths[i].name,
+           outcome_name(x->outcome), x->percent, x->leap[0] / x->even[0], x->leap[1] / x->even[1], x->back, x->wrong,
+           x->same_bits ? "same bits" : "OTHER BITS", x->kept, x->elements, rg_seconds() - begun);
+    for (int k = 0; k < PATH_CHECKS; k++)
+        if (path_fails(x, k)) printf(failed++ ? ", %s" : " FAILS: %s", names[k]);
+    printf("\n");
+    fflush(stdout);
+    return failed;
+}
+
 int main(int argc, char **argv)
 {
     static cell c[SCENARIOS][METHODS];
+    static path_seen way[PATHS];
     int failed = 0;
     if (argc < 2) return fprintf(stderr, "usage: stability FOLDER [SCENARIO]\n"), 2;
     for (int i = 0; i < SCENARIOS; i++) {
@@ -119,6 +177,8 @@ int main(int argc, char **argv)
             if (m == RG_METHOD_AUTO && (x->verdict > STOPPED || lies)) failed = 1;
         }
     }
+    for (int i = 0; i < PATHS; i++)
+        if (argc <= 2 || strcmp(argv[2], paths[i].name) == 0) failed |= look_at_path(i, &way[i]) > 0;
     if (argc > 2) return failed;
     FILE *f = out_file(argv[1], "stability.csv");
     write_csv(f, c);
@@ -128,6 +188,10 @@ int main(int argc, char **argv)
     fclose(f);
     f = out_file(argv[1], "table.md");
     write_md(f, c);
+    write_paths_md(f, way);
+    fclose(f);
+    f = out_file(argv[1], "paths.csv");
+    write_paths_csv(f, way);
     fclose(f);
     return failed;
 }

@@ -92,6 +92,43 @@ static void order_along_freedoms(void **state)
     rg_pattern_destroy(p);
 }
 
+/* What nothing folds straight on has the curve of what does fold it; its default is the one of the program. */
+static void where_creases_roll(void **state)
+{
+    (void)state;
+    rg_pattern *p = bent_miura(3, 1.25, 1.25, 1e-3, -1);
+    rg_chart *c = chart_of(p, 21);
+    const rg_relaxed *R = &c->relaxed;
+    assert_true(R->folds);
+    assert_true(R->best.relax->U > 0);
+    assert_int_equal(c->ref.frames.count, 0);
+    assert_int_equal(c->run[0].method, RG_METHOD_RELAXED);
+    assert_true(R->points > RG_RELAXED_DEFAULT);
+    near(R->run[RG_RELAXED_DEFAULT].way.step, c->settings.step, 1e-15);
+    assert_true(isnan(R->run[R->points - 1].error)); /* the reference */
+    for (int32_t k = 0; k < R->points; k++) {
+        const rg_run *r = &R->run[k];
+        if (!rg_chart_reached(c, r)) continue;
+        assert_true(r->seconds > 0 && r->passes > 0);
+        below(r->closure, c->settings.tol);
+        if (k) near(r->way.step, R->run[k - 1].way.step / 2, 1e-15);
+        if (k) assert_true(r->steps > R->run[k - 1].steps);
+        if (k + 1 < R->points) assert_true(r->error >= 0 && r->error < RG_PI && r->pattern_error >= 0 && r->pattern_error < 0.1);
+    }
+    /* The same try by the program itself: as many steps, and frames of the same bits. */
+    rg_settings s = c->settings;
+    rg_motion *m = NULL;
+    rg_diag why = {0, ""};
+    s.contact = RG_CONTACT_IGNORE;
+    assert_int_equal(rg_motion_create(p, &s, NULL, NULL, &m, &why), RG_OK);
+    assert_int_equal(rg_motion_report(m)->outcome, RG_FOLDED);
+    assert_string_equal(rg_motion_report(m)->strategy, R->strategy);
+    assert_int_equal(R->run[RG_RELAXED_DEFAULT].steps, R->best.relax->steps);
+    rg_motion_destroy(m);
+    rg_chart_destroy(c);
+    rg_pattern_destroy(p);
+}
+
 static char *slurp(const char *path)
 {
     FILE *f = fopen(path, "rb");
@@ -230,7 +267,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(degree4),  cmocka_unit_test(order_along_freedoms), cmocka_unit_test(files),
-        cmocka_unit_test(verdicts), cmocka_unit_test(every_frame_is_made),  cmocka_unit_test(hard_places),
+        cmocka_unit_test(where_creases_roll), cmocka_unit_test(verdicts), cmocka_unit_test(every_frame_is_made),  cmocka_unit_test(hard_places),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

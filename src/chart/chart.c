@@ -98,51 +98,80 @@ static rg_status curve(rg_chart *c, const rg_mesh *m, rg_method method, rg_solve
     return s;
 }
 
+/* What the program does where nothing folds straight on is its default there, and heads the curve that it is of. */
+static void add_relaxed(rg_chart *c)
+{
+    c->run[c->runs++] = c->relaxed.run[RG_RELAXED_DEFAULT];
+    for (int32_t k = 0; k < c->relaxed.points; k++) c->run[c->runs++] = c->relaxed.run[k];
+}
+
 static rg_status all_curves(rg_chart *c, const rg_mesh *m, watch *w, rg_diag *why)
 {
     static const rg_method methods[] = {RG_METHOD_EULER, RG_METHOD_NEWTON, RG_METHOD_HEUN, RG_METHOD_RK4, RG_METHOD_ADAPTIVE};
     static const rg_solver solvers[] = {RG_SOLVER_CG, RG_SOLVER_CHOLESKY, RG_SOLVER_SVD};
     const rg_way default_way = {RG_METHOD_AUTO, RG_SOLVER_AUTO, c->settings.step, c->settings.tol, 0};
-    rg_status s = add_run(c, m, &default_way, why);
+    rg_status s = RG_OK;
+    if (c->relaxed.folds) add_relaxed(c);
+    else s = add_run(c, m, &default_way, why);
     for (int j = 0; j < 5; j++)
         for (int k = 0; k < 3; k++) {
             const rg_solver solver = solvers[k];
             if (solver == RG_SOLVER_SVD && (!rg_pinv_built() || m->N > SVD_UP_TO)) continue;
             if (s == RG_OK && !w->cancelled) s = curve(c, m, methods[j], solver, w, why);
         }
+    if (c->relaxed.folds) return s;
     /* Again, now that the machine is as busy as it was for the others. */
     return s == RG_OK ? rg_run_time(&c->run[0], m, &c->settings, 2 * PATIENCE, why) : s;
 }
 
 /* The sheet as drawn, or cut into triangles if that is asked for, or if it folds so and not as drawn. */
-static rg_status choose_mesh(rg_chart *c, const rg_mesh *none, const rg_mesh *all, const rg_mesh **m, rg_diag *why)
+static rg_status choose_mesh(rg_chart *c, const rg_mesh *none, const rg_mesh *all, const rg_mesh **m, int *folds, rg_diag *why)
 {
     const rg_way way = {RG_METHOD_AUTO, RG_SOLVER_AUTO, c->settings.step, c->settings.tol, 0};
     rg_run run;
     rg_status s = RG_OK;
+    const int may_cut = c->settings.triangulate == RG_TRIANGULATE_AUTO;
     c->triangulated = c->settings.triangulate == RG_TRIANGULATE_ALL;
-    if (c->settings.triangulate == RG_TRIANGULATE_AUTO) {
-        s = rg_run_make(&run, none, &c->settings, &way, NULL, NULL, why);
-        int folds = s == RG_OK && run.outcome == RG_FOLDED;
-        if (s == RG_OK && !folds) s = rg_run_make(&run, all, &c->settings, &way, NULL, NULL, why);
-        c->triangulated = s == RG_OK && !folds && run.outcome == RG_FOLDED;
+    s = rg_run_make(&run, c->triangulated ? all : none, &c->settings, &way, NULL, NULL, why);
+    *folds = s == RG_OK && run.outcome == RG_FOLDED;
+    if (s == RG_OK && !*folds && may_cut) {
+        s = rg_run_make(&run, all, &c->settings, &way, NULL, NULL, why);
+        *folds = c->triangulated = s == RG_OK && run.outcome == RG_FOLDED;
     }
     *m = c->triangulated ? all : none;
     return s;
 }
 
+/* While the relaxed stepper is at it nothing else is done, but whoever watches may end it. */
+static int ask(void *ctx, double done)
+{
+    watch *w = ctx;
+    (void)done;
+    if (w->progress && !w->cancelled) w->cancelled = w->progress(w->ctx, fmin(1, (double)w->done / w->of)) != 0;
+    return w->cancelled;
+}
+
+static rg_status measure_relaxed(rg_chart *c, const rg_mesh *none, watch *w, rg_diag *why)
+{
+    rg_watch mine = {.progress = ask, .ctx = w};
+    return rg_relaxed_measure(&c->relaxed, none, &c->settings, &mine, why);
+}
+
 static rg_status fill(rg_chart *c, const rg_mesh *none, const rg_mesh *all, watch *w, rg_diag *why)
 {
-    const rg_mesh *m = none;
-    rg_status s = choose_mesh(c, none, all, &m, why);
-    c->nv = none->nv, c->N = m->N, c->M = m->M, c->added = m->added;
+    const rg_mesh *m = none, *sheet;
+    int folds = 0;
+    rg_status s = choose_mesh(c, none, all, &m, &folds, why);
+    if (s == RG_OK && !folds) s = measure_relaxed(c, none, w, why);
+    sheet = c->relaxed.folds ? &c->relaxed.best.mesh : m;
+    c->nv = none->nv, c->N = sheet->N, c->M = sheet->M, c->added = sheet->added;
     c->nodes = all->nv, c->edges_all = all->ne;
-    if (s == RG_OK) s = rg_reference_make(&c->ref, &c->mem, m, &c->settings, why);
+    if (s == RG_OK && !c->relaxed.folds) s = rg_reference_make(&c->ref, &c->mem, m, &c->settings, why);
     tick(w);
     if (s == RG_OK) s = all_curves(c, m, w, why);
     const int32_t frames = c->settings.frames, from = (frames - 1) / 3, to = 2 * (frames - 1) / 3;
     c->from = (double)from / (frames - 1), c->to = (double)to / (frames - 1);
-    if (s == RG_OK) s = rg_order_measure(c->order, m, &c->settings, &c->ref, from, to, why);
+    if (s == RG_OK && !c->relaxed.folds) s = rg_order_measure(c->order, m, &c->settings, &c->ref, from, to, why);
     tick(w);
     if (s == RG_OK) s = rg_model_fold(&c->none, none, &c->settings, none->N, &c->ref.frames, why);
     if (s == RG_OK) s = rg_model_fold(&c->all, all, &c->settings, none->N, &c->ref.frames, why);
@@ -180,6 +209,7 @@ void rg_chart_destroy(rg_chart *c)
     if (!c) return;
     const rg_memory mem = c->mem;
     rg_reference_free(&c->ref);
+    rg_relaxed_free(&c->relaxed);
     rg_mem_free(&mem, c);
 }
 

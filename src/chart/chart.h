@@ -1,17 +1,18 @@
 /* chart.h -- speed against accuracy of one pattern: every method with every solver, over a range of steps.
- * Uses  reference.h order.h model.h alike.h        Used by  table.c plot.c */
+ * Uses  reference.h order.h relaxed.h model.h alike.h        Used by  table.c plot.c */
 #ifndef RG_CHART_H
 #define RG_CHART_H
 
 #include "chart/model.h"
 #include "chart/order.h"
 #include "chart/reference.h"
+#include "chart/relaxed.h"
 #include "pattern/alike.h"
 
 #include <stdio.h>
 
-/* Curves: 4 methods by step and 1 by tolerance with 3 solvers each, 5 points a curve; and the default. */
-enum { RG_CHART_POINTS = 5, RG_CHART_RUNS = 5 * 3 * RG_CHART_POINTS + 1 };
+/* Curves: 4 methods by step and 1 by tolerance with 3 solvers each, 5 points a curve; the relaxed stepper's; and the default. */
+enum { RG_CHART_POINTS = 5, RG_CHART_RUNS = 5 * 3 * RG_CHART_POINTS + RG_RELAXED_POINTS + 1 };
 
 struct rg_chart {
     rg_memory mem;
@@ -19,6 +20,7 @@ struct rg_chart {
     int32_t nv, N, M, added, frames;
     int triangulated;
     rg_reference ref;
+    rg_relaxed relaxed;         /* where nothing folds straight on; then N, M, added are of its sheet, and ref is empty */
     int32_t runs;
     rg_run run[RG_CHART_RUNS];  /* curve by curve; the first is the default */
     rg_order order[RG_ORDERS];

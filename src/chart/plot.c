@@ -6,7 +6,7 @@
 enum { WIDTH = 11900, HEIGHT = 5400, TOP = 700, BOTTOM = 4650, PANEL = 4000, LEFT = 900, GAP = 700 };
 
 /* Colour-blind safe (Okabe and Ito), by method. */
-static const char *const COLOUR[] = {"#000000", "#d55e00", "#e69f00", "#009e73", "#0072b2", "#cc79a7"};
+static const char *const COLOUR[] = {"#000000", "#d55e00", "#e69f00", "#009e73", "#0072b2", "#cc79a7", "#56b4e9"};
 /* What is less off than this is drawn here: rounding. */
 static const double LEAST_ERROR = 1e-15;
 
@@ -39,6 +39,7 @@ static void fit(const rg_chart *c, int in_passes, axes *a)
         if (!is_drawn(c, r)) continue;
         low = fmin(low, cost(r, in_passes)), high = fmax(high, cost(r, in_passes));
         least = fmin(least, fmax(r->error, LEAST_ERROR)), most = fmax(most, r->error);
+        if (r->pattern_error > 0) least = fmin(least, fmax(r->pattern_error, LEAST_ERROR)), most = fmax(most, r->pattern_error);
     }
     if (!(high > 0)) low = 1e-3, high = 1;
     a->left = LEFT + in_passes * (PANEL + GAP);
@@ -122,6 +123,22 @@ static void curves(const rg_chart *c, const axes *a, int in_passes, FILE *out)
     if (is_drawn(c, &c->run[0])) mark_default(across(a, cost(&c->run[0], in_passes)), down(a, c->run[0].error), out);
 }
 
+/* How far off the rolled pattern is: the relaxed stepper's second curve, open marks. */
+static void pattern_curve(const rg_chart *c, const axes *a, int in_passes, FILE *out)
+{
+    for (int marks = 0; marks < 2; marks++) {
+        if (!marks) fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"20\" stroke-dasharray=\"25 45\" points=\"", COLOUR[RG_METHOD_RELAXED]);
+        for (int32_t i = 1; i <= c->relaxed.points; i++) {
+            const rg_run *r = &c->run[i];
+            if (!is_drawn(c, r) || !(r->pattern_error > 0)) continue;
+            const int x = across(a, cost(r, in_passes)), y = down(a, r->pattern_error);
+            if (marks) fprintf(out, "<circle cx=\"%d\" cy=\"%d\" r=\"62\" fill=\"white\" stroke=\"%s\" stroke-width=\"20\"/>\n", x, y, COLOUR[RG_METHOD_RELAXED]);
+            else fprintf(out, "%d,%d ", x, y);
+        }
+        if (!marks) fputs("\"/>\n", out);
+    }
+}
+
 static void tolerance(const rg_chart *c, const axes *a, FILE *out)
 {
     if (!(log10(c->settings.tol) > a->y0 && log10(c->settings.tol) < a->y1)) return;
@@ -139,11 +156,17 @@ static void legend(const rg_chart *c, FILE *out)
     for (int32_t i = 1; i < c->runs; i++) {
         const rg_run *r = &c->run[i];
         stopped += !rg_chart_reached(c, r);
-        if (rg_chart_same_curve(c, i)) continue;
+        if (rg_chart_same_curve(c, i) || (c->relaxed.folds && r->method != RG_METHOD_RELAXED)) continue;
         fprintf(out, "<path d=\"M%d %dh360\" stroke=\"%s\" stroke-width=\"20\"%s/>\n", x, y, COLOUR[r->method], dashes(r->solver));
         mark(x + 180, y, r->solver, COLOUR[r->method], out);
         text(x + 440, y + 45, "start", 130, out);
         fprintf(out, "%s, %s</text>\n", rg_run_method_name(r->method), rg_run_solver_name(r->solver));
+        y += 210;
+    }
+    if (c->relaxed.folds) {
+        fprintf(out, "<path d=\"M%d %dh360\" stroke=\"%s\" stroke-width=\"20\" stroke-dasharray=\"25 45\"/>\n", x, y, COLOUR[RG_METHOD_RELAXED]);
+        text(x + 440, y + 45, "start", 130, out);
+        fprintf(out, "pattern, of the sheet</text>\n");
         y += 210;
     }
     y += 110;
@@ -188,6 +211,7 @@ void rg_chart_svg(const rg_chart *c, const char *title, FILE *out)
         grid(&a, in_passes ? "passes over C" : "seconds", !in_passes, out);
         tolerance(c, &a, out);
         curves(c, &a, in_passes, out);
+        if (c->relaxed.folds) pattern_curve(c, &a, in_passes, out);
     }
     legend(c, out);
     fputs("</svg>\n", out);

@@ -3,16 +3,13 @@
 
 #include <string.h>
 
-/* Multiplications of C and r anew over those of a product with C, of which a block has three: two turns of a 3 x 3 frame
- * by one angle each, 4 x 3 multiplications a turn, less what the zeros of a turn save. */
-static const double ASSEMBLY_PASSES = 6;
 /* A time is known when it was taken so often and has taken this long in all. */
 static const double LONG_ENOUGH = 0.02;
 static const int FEWEST_REPEATS = 3, MOST_REPEATS = 100;
 
 const char *rg_run_method_name(rg_method m)
 {
-    static const char *const names[] = {"auto", "euler", "newton", "heun", "rk4", "adaptive"};
+    static const char *const names[] = {"auto", "euler", "newton", "heun", "rk4", "adaptive", "relaxed"};
     return names[m];
 }
 
@@ -50,7 +47,7 @@ double rg_frames_distance(const rg_frames *a, const rg_frames *b)
 /* What one system's counters say, in its own products with C: two multiplications and additions a number of C. */
 static double passes_of_one(const rg_straight *f, double pass)
 {
-    double sum = ASSEMBLY_PASSES * (double)f->assemblies + 2 * (double)f->P.solves + 2 * (double)f->P.iterations;
+    double sum = RG_ASSEMBLY_PASSES * (double)f->assemblies + 2 * (double)f->P.solves + 2 * (double)f->P.iterations;
     if (f->P.solver == RG_SOLVER_CHOLESKY)
         sum += ((double)f->P.cholesky.factorizations * f->P.cholesky.L.S.flops +
                 4 * (double)f->P.cholesky.triangular * f->P.cholesky.L.S.entries) / pass;
@@ -120,6 +117,7 @@ rg_status rg_run_make(rg_run *r, const rg_mesh *m, const rg_settings *settings, 
     rg_step_info info = {0};
     memset(r, 0, sizeof *r);
     r->way = *way;
+    r->pattern_error = NAN;
     s.method = way->method;
     s.solver = way->solver;
     s.step = way->step;

@@ -1,9 +1,16 @@
 /* run.h -- one fold by one method, one solver, one step size: what it costs and how far off it is.
- * Uses  straight.h        Used by  model.c reference.c */
+ * Uses  straight.h        Used by  model.c reference.c relaxed.c */
 #ifndef RG_RUN_H
 #define RG_RUN_H
 
 #include "fold/straight.h"
+
+/* Beside rg_method's: the relaxed stepper, see relaxed.h. */
+#define RG_METHOD_RELAXED ((rg_method)(RG_METHOD_ADAPTIVE + 1))
+
+/* Multiplications of C and r anew over those of a product with C, of which a block has three: two turns of a 3 x 3 frame
+ * by one angle each, 4 x 3 multiplications a turn, less what the zeros of a turn save. */
+enum { RG_ASSEMBLY_PASSES = 6 };
 
 /* How to fold. */
 typedef struct rg_way {
@@ -27,6 +34,7 @@ typedef struct rg_run {
     int32_t frames;   /* reached */
     double percent;   /* reached */
     double error;     /* max over frames and creases of |rho - reference|, radians; NAN: nothing to compare with */
+    double pattern_error; /* max over frames and vertices of | X - reference | over the sheet's size; NAN: not moved or not known */
     double closure;   /* the largest in a frame, radians */
     double beyond;    /* the most a crease was beyond half a turn in a frame, radians */
     double seconds;   /* of all it takes, the least of several times */

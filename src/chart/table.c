@@ -37,7 +37,7 @@ static void brief(double x, FILE *out)
 
 void rg_chart_csv(const rg_chart *c, const char *title, FILE *out)
 {
-    fputs("pattern,creases,constraints,method,solver,step_deg,tol_rad,default,outcome,frames,percent,error_rad,closure_rad,"
+    fputs("pattern,creases,constraints,method,solver,step_deg,tol_rad,default,outcome,frames,percent,error_rad,pattern_error,closure_rad,"
           "seconds,passes,steps,solves,cg_iterations,factorizations,assemblies\n", out);
     for (int32_t i = 0; i < c->runs; i++) {
         const rg_run *r = &c->run[i];
@@ -47,8 +47,8 @@ void rg_chart_csv(const rg_chart *c, const char *title, FILE *out)
         field(r->way.step / RG_DEG, out);
         field(r->way.tol, out);
         fprintf(out, ",%d,%s,%d", i == 0, rg_chart_reached(c, r) ? "reached" : "stopped", (int)r->frames);
-        const double numbers[] = {r->percent, r->error, r->closure, r->seconds, r->passes};
-        for (int k = 0; k < 5; k++) field(numbers[k], out);
+        const double numbers[] = {r->percent, r->error, r->pattern_error, r->closure, r->seconds, r->passes};
+        for (int k = 0; k < 6; k++) field(numbers[k], out);
         fprintf(out, ",%lld,%lld,%lld,%lld,%lld\n", (long long)r->steps, (long long)r->solves, (long long)r->iterations,
                 (long long)r->factorizations, (long long)r->assemblies);
     }
@@ -167,6 +167,97 @@ static void orders(const rg_chart *c, FILE *out)
     fputs("\n", out);
 }
 
+static void off_on_the_way(const rg_relaxed *R, FILE *out)
+{
+    fputs(" On the way:\n\n| percent |", out);
+    for (int j = 0; j < RG_RELAXED_PERCENTS; j++) fprintf(out, " %d |", rg_relaxed_percent[j]);
+    fputs("\n|---|---|---|---|---|---|\n| angles, rad |", out);
+    for (int j = 0; j < RG_RELAXED_PERCENTS; j++) fputc(' ', out), brief(R->off[j], out), fputs(" |", out);
+    fputs("\n| pattern, of the sheet |", out);
+    for (int j = 0; j < RG_RELAXED_PERCENTS; j++) fputc(' ', out), brief(R->pattern_off[j], out), fputs(" |", out);
+}
+
+/* Of the relaxed stepper: its path by steps halved, what the default is off by, its order. */
+static void relaxed(const rg_chart *c, FILE *out)
+{
+    const rg_relaxed *R = &c->relaxed;
+    const rg_run *d = &R->run[RG_RELAXED_DEFAULT], *last = &R->run[R->points - 1];
+    fprintf(out, "Nothing folds straight on; what folds is %s", R->strategy);
+    if (R->best.relax->U > 0) {
+        fputs(", the pattern moving by up to ", out);
+        brief(100 * R->best.moved / R->best.mesh.size, out);
+        fputs(" % of the sheet", out);
+    }
+    fprintf(out, ", %d creases added, a symmetry of order %d kept.\n", (int)R->best.mesh.added,
+            R->best.symmetry ? (int)R->best.symmetry->order : 1);
+    fputs("Reference: the same with steps of ", out);
+    brief(last->way.step / RG_DEG, out);
+    fputs(" degrees.", out);
+    if (R->order > 0 && R->error <= d->error) {
+        fputs(" Its own error, if changes go on to fall as they did, is ", out);
+        brief(R->error, out);
+        fputs(" rad; observed order: ", out);
+        brief(round(100 * R->order) / 100, out);
+        fputs(" of the angles, ", out);
+        brief(isnan(R->pattern_order) ? NAN : round(100 * R->pattern_order) / 100, out);
+        fputs(" of the pattern.", out);
+    } else {
+        fputs(" The path has not converged there: changes hardly fall with the step (order ", out);
+        brief(isnan(R->order) ? NAN : round(100 * R->order) / 100, out);
+        fputs(" of the angles, ", out);
+        brief(isnan(R->pattern_order) ? NAN : round(100 * R->pattern_order) / 100, out);
+        fputs(" of the pattern), and errors are differences from it, not from a limit.", out);
+    }
+    if (R->finer_stops) {
+        fputs(" Half that step stops at ", out);
+        brief(R->run[R->points].percent, out);
+        fprintf(out, " percent: %s.", R->reason);
+    }
+    fputs("\n\nThe default, relaxed with steps of ", out);
+    brief(d->way.step / RG_DEG, out);
+    if (d == last) {
+        fputs(" degrees, is itself the finest that folds: what it is off by is not known. It takes ", out);
+    } else {
+        fputs(" degrees, is off by ", out);
+        brief(d->error, out);
+        fputs(" rad and ", out);
+        brief(d->pattern_error, out);
+        fputs(" of the sheet, in ", out);
+    }
+    brief(1000 * d->seconds, out);
+    fputs(" ms, ", out);
+    brief(d->passes, out);
+    fputs(" passes.", out);
+    if (d != last) off_on_the_way(R, out);
+    fputs("\n\n| step, deg | outcome | angles off, rad | changed by | pattern off | changed by | closure, rad | ms | passes | steps |\n"
+          "|---|---|---|---|---|---|---|---|---|---|\n", out);
+    for (int32_t k = 0; k < R->points; k++) {
+        const rg_run *r = &R->run[k];
+        const double numbers[] = {r->error, R->change[k], r->pattern_error, R->pattern_change[k], r->closure, 1000 * r->seconds, r->passes};
+        fputs("| ", out);
+        brief(r->way.step / RG_DEG, out);
+        fprintf(out, " | %s |", rg_chart_reached(c, r) ? k + 1 == R->points ? "reference" : "reached" : "stopped");
+        for (int j = 0; j < 7; j++) fputc(' ', out), brief(numbers[j], out), fputs(" |", out);
+        fprintf(out, " %lld |\n", (long long)r->steps);
+    }
+    fputs("\n", out);
+}
+
+/* Straight on, all that is to be said is how far it comes. */
+static void straight_on(const rg_chart *c, FILE *out)
+{
+    int32_t tried = 0, reached = 0;
+    double farthest = 0;
+    for (int32_t i = c->relaxed.points + 1; i < c->runs; i++) {
+        tried++;
+        reached += rg_chart_reached(c, &c->run[i]);
+        farthest = fmax(farthest, c->run[i].percent);
+    }
+    fprintf(out, "Straight on, %d of %d runs stop short, the farthest at ", (int)(tried - reached), (int)tried);
+    brief(farthest, out);
+    fputs(" percent.\n\n", out);
+}
+
 static void model(const char *name, const rg_model *o, FILE *out)
 {
     fprintf(out, "| %s | %d | %d | ", name, (int)o->unknowns, (int)o->constraints);
@@ -200,6 +291,13 @@ void rg_chart_words(const rg_chart *c, const char *title, FILE *out)
 {
     fprintf(out, "## %s\n\n%d creases%s, %d constraints, %d frames.\n", title, (int)c->N,
             c->triangulated ? ", facets cut into triangles" : "", 3 * (int)c->M, (int)c->settings.frames);
+    if (c->relaxed.folds) {
+        relaxed(c, out);
+        models(c, out);
+        fputs("\n", out);
+        straight_on(c, out);
+        return;
+    }
     reference(c, out);
     verdict(c, out);
     orders(c, out);
