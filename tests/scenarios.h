@@ -139,13 +139,15 @@ static inline void judge(cell *c, int reached)
     else c->verdict = reached ? REACHED : STOPPED;
 }
 
-/* The settings of a column: a method and nothing else, or the program as it comes. */
+/* The settings of a column: a method and nothing else, or the program as it comes, but for what it does about facets that cross, which
+ * is another matter. */
 static inline rg_settings column(rg_method method, rg_triangulation t)
 {
     rg_settings s = rg_settings_default();
     s.method = method;
     s.tol = STABLE_TOL;
     s.triangulate = t;
+    s.contact = RG_CONTACT_REPORT;
     if (method != RG_METHOD_AUTO) s.adjust = 0;
     return s;
 }
