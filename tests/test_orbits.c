@@ -39,7 +39,7 @@ static void ways_of(const rg_freedom *f, const rg_vec2 *X, double *u)
     for (int32_t i = 0; i < f->U; i++) u[i] = rg_vec2_dot(rg_vec2_sub(X[f->vertex[i]], f->mesh->X[f->vertex[i]]), f->direction[i]);
 }
 
-typedef struct whole_and_orbits { rg_symmetry G; rg_freedom f; rg_joint J; rg_orbits O; } whole_and_orbits;
+typedef struct whole_and_orbits { rg_symmetry G; rg_freedom f; rg_coupled J; rg_orbits O; } whole_and_orbits;
 
 static double size(int32_t n, const double *x)
 {
@@ -57,7 +57,7 @@ static void agrees(const rg_motion *m, int32_t k, int kawasaki, unsigned *seed)
     whole_and_orbits s;
     assert_int_equal(rg_symmetry_find(&s.G, &mem, mesh), RG_OK);
     assert_int_equal(rg_freedom_init(&s.f, &mem, mesh, 1), RG_OK);
-    assert_int_equal(rg_joint_init(&s.J, &mem, mesh, &s.f, kawasaki), RG_OK);
+    assert_int_equal(rg_coupled_init(&s.J, &mem, mesh, &s.f, kawasaki), RG_OK);
     assert_int_equal(rg_orbits_init(&s.O, &s.J, &s.G), RG_OK);
     const int32_t N = mesh->N, U = s.f.U, n = N + U, rows = s.J.A.rows;
     assert_true(s.G.order > 1 && s.O.A.columns < n * 3 / 4 && s.O.A.rows < rows * 3 / 4);
@@ -75,26 +75,26 @@ static void agrees(const rg_motion *m, int32_t k, int kawasaki, unsigned *seed)
     rg_freedom_mean(&s.f, &s.G, z + N, d);
 
     const double some = rg_orbits_assemble(&s.O, rg_motion_angles(m, k), u, NULL);
-    const double all = rg_joint_assemble(&s.J, rg_motion_angles(m, k), u, NULL);
+    const double all = rg_coupled_assemble(&s.J, rg_motion_angles(m, k), u, NULL);
     below(all, 1e-8);
     near(some, all, 1e-8);
     rg_orbits_renew(&s.O, scale);
     rg_orbits_solve(&s.O, z, NULL, x);
-    rg_joint_renew(&s.J, scale);
-    rg_step_mul(&s.J.A, z, should);
-    rg_step_mul(&s.J.A, x, is);
+    rg_coupled_renew(&s.J, scale);
+    rg_least_mul(&s.J.A, z, should);
+    rg_least_mul(&s.J.A, x, is);
     for (int32_t i = 0; i < rows; i++) near(is[i], should[i], 1e-7 * size(rows, should) + 1e-9);
     near(rg_symmetry_off(&s.G, x), 0, 0);
     memcpy(whole, x, (size_t)n * sizeof *x);
     rg_freedom_mean(&s.f, &s.G, whole + N, d);
     for (int32_t i = 0; i < n; i++) near(whole[i], x[i], 1e-9 * size(n, x));
-    rg_step_solve(&s.J.A, should, whole);
+    rg_least_solve(&s.J.A, should, whole);
     near(size(n, x), size(n, whole), 1e-6 * size(n, whole));
 
     free(u), free(scale), free(z), free(x), free(whole), free(is), free(should), free(d);
     rg_orbits_free(&s.O);
     rg_orbits_free(&s.O);
-    rg_joint_free(&s.J);
+    rg_coupled_free(&s.J);
     rg_freedom_free(&s.f);
     rg_symmetry_free(&s.G);
 }
@@ -121,11 +121,11 @@ static void memory_runs_short(void **state)
     const rg_memory mem = {counted_resize, &c}, plain = rg_mem_default(NULL);
     rg_symmetry G;
     rg_freedom f;
-    rg_joint J;
+    rg_coupled J;
     rg_orbits O;
     assert_int_equal(rg_symmetry_find(&G, &plain, &m->mesh), RG_OK);
     assert_int_equal(rg_freedom_init(&f, &plain, &m->mesh, 1), RG_OK);
-    assert_int_equal(rg_joint_init(&J, &mem, &m->mesh, &f, 0), RG_OK);
+    assert_int_equal(rg_coupled_init(&J, &mem, &m->mesh, &f, 0), RG_OK);
     const long held = c.out;
     for (long k = 0;; k++) {
         c.left = k;
@@ -135,7 +135,7 @@ static void memory_runs_short(void **state)
         assert_int_equal(c.out, held);
     }
     rg_orbits_free(&O);
-    rg_joint_free(&J);
+    rg_coupled_free(&J);
     assert_int_equal(c.out, 0);
     rg_freedom_free(&f);
     rg_symmetry_free(&G);

@@ -1,5 +1,5 @@
 /* newton.h -- drift worked off.
- * Paper    eq. (14)        Uses  system.h        Used by  start.c integrate.c onward.c */
+ * Paper    eq. (14)        Uses  system.h        Used by  start.c integrate.c fixed.c */
 #ifndef RG_NEWTON_H
 #define RG_NEWTON_H
 

@@ -1,60 +1,8 @@
 #include "fold/relax.h"
+#include "fold/tuning.h"
 
 #include <stdio.h>
-
 #include <string.h>
-
-/* Progress below which creases may be beyond a limit or on the wrong side: the flat start, where the linear step must be
- * free to be wrong for a moment. */
-static const double FREE_UNTIL = 0.03, WRONG_FROM = 0.02;
-/* A crease this near its target (radians) slows down; how much of what is left it wishes for in a full step. */
-static const double NEAR = 0.03, NEAR_PART = 0.9;
-/* Part of the way back to where it wishes to be that the pattern goes in a step. */
-static const double RETURN = 0.5;
-/* What a held crease gives way, against any other; how far beyond half a turn one may be, radians. */
-static const double HELD_GIVES = 3e-4, BEYOND = 0.05 * RG_DEG;
-/* How readily a crease on the wrong side of flat gives way: it stands by its wish, so that the others have to. */
-static const double WRONG_GIVES = 0.25;
-/* How readily a crease beyond its limit gives way, and the part of the way back it wishes for. */
-static const double BEYOND_GIVES = 0.1, BACK = 0.3;
-/* So many halvings end, from flat paper, in a step so short that it closes to tolerance as it is: what is wrong with its
- * direction is of second order there, and is worked off by the steps that follow. */
-static const int32_t ROUNDS = 6, HALVINGS = 16, CORRECTIONS = 12;
-/* Near a singular state a correction leaves a quarter of the residual. */
-static const int32_t CORRECTIONS_AT_END = 40;
-/* Whatever step is asked for: a longer one would find closed states that nothing leads to. */
-static const double MOST_STEP = 10 * RG_DEG;
-/* No facet shrinks below this part of its area. */
-static const double LEAST_AREA = 0.1;
-/* A correction this much longer than the step it corrects, plus a little, has left the branch. At the free start, where
- * directions are right to first order only, more is allowed. */
-static const double FARTHEST_CORRECTION = 0.3, FARTHEST_AT_START = 0.7, LITTLE = 1e-3;
-/* Where its image is closed, a vertex is open by no more than so many times what directions are off their images, a sum over its
- * edges. If that is within tolerance, one vertex of each orbit tells all, and what is solved is one of each orbit; of other
- * drawings, steps and corrections are averaged. */
-static const double OF_THE_DRAWING = 30;
-/* Even corrections go on while each leaves at most this part of what was open. Then creases give way this much less than
- * vertices: what closing by the creases does not reach, or what a drawing is uneven by and is then closed vertex by vertex, takes
- * ways of the pattern too small to be seen, while near flat creases would turn by its square root. */
-static const double STILL_CLOSES = 0.1, STIFF = 0.01;
-static const double LEAST_STEP = 1e-7, LEAST_H = 1e-4;
-/* A run that for so many steps betters neither the mean nor the least by so much is stuck. Of 650 runs that arrived 95 % took
- * at most 106 steps, and all at most 238. */
-static const int32_t MOST_IDLE = 25, MOST_STEPS = 240;
-static const double BETTER_MEAN = 0.002, BETTER_LEAST = 0.01;
-/* Arrived: every crease within this part of its way, the pattern within that part of its reach. */
-static const double ARRIVED = 0.007, RETURNED = 0.05;
-/* Near a singular end what closes is homogeneous: so many nodes, each this much nearer to the end. */
-static const int32_t END_NODES = 5;
-static const double NEARER = 0.5;
-/* Progress of a state that is read off is exact to this. */
-static const double SAME_PROGRESS = 1e-9;
-/* Part of the tolerance that it is closed to. */
-static const double CLOSE_ENOUGH = 0.01;
-/* Part of the wish for progress that must be left over for it to be held as one more row. */
-static const double LEAST_LEFT = 1e-6;
-/* Ways of the pattern that count as none; and how far from where it should be a crease may end for the pattern to close. */
-static const double FIXED = 1e-12, END_OFF = 1 * RG_DEG;
 
 static double way(const rg_relax *F, int32_t i) { return F->target[i] - F->from[i]; }
 static int is_driven(const rg_relax *F, int32_t i) { return F->slope[i] != 0; }
@@ -121,7 +69,7 @@ rg_status rg_relax_init(rg_relax *F, const rg_mesh *m, const rg_settings *s, con
     rg_status status = rg_freedom_init(&F->freedom, &mem, m, how->gain > 0 || how->compliance > 0);
     F->U = F->freedom.U;
     F->n = F->N + F->U;
-    if (status == RG_OK) status = rg_joint_init(&F->J, &mem, m, &F->freedom, how->kawasaki);
+    if (status == RG_OK) status = rg_coupled_init(&F->J, &mem, m, &F->freedom, how->kawasaki);
     if (status == RG_OK) status = rg_adjust_init(&F->adjust, &mem, &F->freedom);
     if (status == RG_OK) status = rg_limit_init(&F->limit, &mem, m);
     if (status == RG_OK) status = make_room(F);
@@ -162,7 +110,7 @@ void rg_relax_free(rg_relax *F)
     if (!F->mem.resize) return;
     rg_orbits_free(&F->orbits);
     rg_freedom_free(&F->freedom);
-    rg_joint_free(&F->J);
+    rg_coupled_free(&F->J);
     rg_adjust_free(&F->adjust);
     rg_limit_free(&F->limit);
     void *block[] = {F->from, F->target, F->slope, F->end, F->pull, F->z, F->trial, F->wish, F->dz, F->scale, F->chord,
@@ -185,18 +133,18 @@ static void even_out(rg_relax *F, double *z)
 static double assemble(rg_relax *F, const double *z, int evenly, double *off)
 {
     F->assemblies++;
-    return evenly && F->by_orbits ? rg_orbits_assemble(&F->orbits, z, z + F->N, off) : rg_joint_assemble(&F->J, z, z + F->N, off);
+    return evenly && F->by_orbits ? rg_orbits_assemble(&F->orbits, z, z + F->N, off) : rg_coupled_assemble(&F->J, z, z + F->N, off);
 }
 
 static void renew(rg_relax *F, int evenly)
 {
     const int by_orbits = evenly && F->by_orbits;
-    const rg_step *A = by_orbits ? &F->orbits.A : &F->J.A;
+    const rg_least *A = by_orbits ? &F->orbits.A : &F->J.A;
     /* A factorisation is worth its flops; filling and solving go with the entries. */
     F->work += 1.5e-9 * A->L.S.flops + 6e-7 * A->start[A->columns];
     for (int32_t i = 0; evenly && i < F->N; i++) F->scale[i] = F->scale[F->symmetry->crease_orbit[i]];
     if (by_orbits) rg_orbits_renew(&F->orbits, F->scale);
-    else rg_joint_renew(&F->J, F->scale);
+    else rg_coupled_renew(&F->J, F->scale);
 }
 
 /* x = A^+ (A y + r) in scaled unknowns; y, r NULL: nothing. eqs. (14), (15), (19) */
@@ -207,10 +155,10 @@ static void solve(rg_relax *F, int evenly, const double *y, const double *r, dou
         rg_orbits_solve(&F->orbits, y, r, x);
         return;
     }
-    if (y) rg_step_mul(&F->J.A, y, b);
+    if (y) rg_least_mul(&F->J.A, y, b);
     for (int32_t i = 0; r && i < F->J.A.rows; i++) F->J.r[i] = r[i] + (y ? b[i] : 0);
     for (int32_t i = 0; !r && i < F->J.A.rows; i++) F->J.r[i] = b[i];
-    rg_step_solve(&F->J.A, F->J.r, x);
+    rg_least_solve(&F->J.A, F->J.r, x);
 }
 
 /* ---------------------------------------------------------------------------------------------- closing ---- */
@@ -530,7 +478,7 @@ static void stop(rg_relax *F, const char *why)
 {
     double least;
     progress(F, F->z, &least);
-    const int arrived = least >= 0.99 && F->s_end >= 1 && F->nodes > 1, moved = arrived && !has_returned(F);
+    const int arrived = least >= 1 - ARRIVED && F->s_end >= 1 && F->nodes > 1, moved = arrived && !has_returned(F);
     F->outcome = arrived && !moved ? RG_FOLDED : RG_STOPPED;
     snprintf(F->reason, sizeof F->reason, "%s", moved ? "folded, but with no way back to the pattern given" : why);
 }
@@ -538,7 +486,7 @@ static void stop(rg_relax *F, const char *why)
 /* The folded state itself, where everything is near it and the branch leads there. */
 static int land(rg_relax *F, double least)
 {
-    if (F->s_end < 1 || !(least >= 1 - ARRIVED) || !has_returned(F) || F->nodes < 2) return 0;
+    if (F->s_end < 1 || !(least >= 1 - LANDS_FROM) || !has_returned(F) || F->nodes < 2) return 0;
     for (int32_t i = 0; i < F->N; i++)
         if (!isnan(F->target[i]) && !(fabs(F->z[i] - F->target[i]) <= F->step)) return 0;
     double *node = F->node + (size_t)F->nodes * (size_t)F->n;

@@ -32,7 +32,7 @@ typedef struct rg_relax {
     double step, tol, s_end;  /* radians, radians, 0 ... 1 */
     int32_t N, U, n;          /* creases, ways of vertices, N + U */
     rg_freedom freedom;
-    rg_joint J;
+    rg_coupled J;
     rg_adjust adjust;
     rg_limit limit;
     const rg_symmetry *symmetry; /* borrowed, on mesh: kept in every step; NULL: none */

@@ -3,7 +3,7 @@
 #include "base/status.h"
 #include "fold/apart.h"
 #include "fold/integrate.h"
-#include "fold/onward.h"
+#include "fold/fixed.h"
 #include "fold/start.h"
 
 #include <stdio.h>
@@ -225,10 +225,10 @@ static int32_t step(rg_straight *f)
     } else if (creeps(f)) {
         rg_straight_stop(f, "the facets leave hardly any way on: it goes on in steps too small to get anywhere");
     } else {
-        if (f->settings.method == RG_METHOD_EULER) rg_onward_euler(f);
+        if (f->settings.method == RG_METHOD_EULER) rg_fixed_euler(f);
         else if (f->steps == 1 && f->s == 0) leave_flat(f);
         else if (f->smooth) step_adaptive(f);
-        else rg_onward_newton(f);
+        else rg_fixed_newton(f);
         if (f->outcome == RG_RUNNING && f->s >= rg_straight_frame_progress(f, f->frame)) return f->frame;
     }
     return -1;

@@ -1,10 +1,9 @@
 #include "fold/system.h"
+#include "fold/tuning.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Within this of its target every crease counts as arrived: the exit status's 1 %. */
-static const double ARRIVED = 0.01;
 
 void rg_straight_accept(rg_straight *f, const double *rho, double s)
 {

@@ -1,6 +1,6 @@
 /* system.h -- one system of creases on its way from flat to folded, straight on: its state, its aim, what it works on.
  * Paper    eqs. (10), (14), section 4        Uses  drive.h limit.h path.h project.h
- * Used by  start.c newton.c integrate.c onward.c apart.c straight.c */
+ * Used by  start.c newton.c integrate.c fixed.c apart.c straight.c */
 #ifndef RG_SYSTEM_H
 #define RG_SYSTEM_H
 

@@ -1,5 +1,5 @@
 /* loop.h -- one vertex: walking round it, from facet to facet, back to the start.
- * Paper    eqs. (1)-(6), (13), Fig. 3        Used by  constraint.c joint.c measure.c */
+ * Paper    eqs. (1)-(6), (13), Fig. 3        Used by  constraint.c coupled.c measure.c */
 #ifndef RG_LOOP_H
 #define RG_LOOP_H
 

@@ -9,7 +9,7 @@ void rg_orbits_free(rg_orbits *O)
 {
     if (!O->mem.resize) return;
     const rg_memory mem = O->mem;
-    rg_step_free(&O->A);
+    rg_least_free(&O->A);
     void *block[] = {O->vertex, O->kawasaki, O->column, O->part, O->way, O->direction, O->at, O->at_own, O->at_far, O->b, O->y};
     for (int i = 0; i < 11; i++) rg_mem_free(&mem, block[i]);
     memset(O, 0, sizeof *O);
@@ -145,14 +145,14 @@ static rg_status make_pattern(rg_orbits *O, int32_t rows, int32_t columns)
     }
     if (s == RG_OK) {
         lay_out(O, &f);
-        s = rg_step_init(&O->A, &O->mem, rows, columns, f.start, f.row);
+        s = rg_least_init(&O->A, &O->mem, rows, columns, f.start, f.row);
     }
     void *block[] = {f.start, f.fill, f.row, f.seen, f.where};
     for (int i = 0; i < 5; i++) rg_mem_free(&O->mem, block[i]);
     return s;
 }
 
-rg_status rg_orbits_init(rg_orbits *O, rg_joint *J, const rg_symmetry *G)
+rg_status rg_orbits_init(rg_orbits *O, rg_coupled *J, const rg_symmetry *G)
 {
     const rg_mesh *m = J->mesh;
     const rg_memory *mem = &J->mem;
@@ -190,7 +190,7 @@ rg_status rg_orbits_init(rg_orbits *O, rg_joint *J, const rg_symmetry *G)
 
 double rg_orbits_assemble(rg_orbits *O, const double *rho, const double *u, double *off)
 {
-    return rg_joint_assemble_some(O->J, O->vertex, O->count, rho, u, off);
+    return rg_coupled_assemble_some(O->J, O->vertex, O->count, rho, u, off);
 }
 
 /* How much the unknowns of vertex v's ways are scaled. */
@@ -199,7 +199,7 @@ static double scale_of(const rg_orbits *O, int32_t v, const double *scale)
     return scale[O->J->N + O->J->freedom->way[O->G->vertex_orbit[v]][0]];
 }
 
-/* As in joint.c: the direction of a loop entry turns by g . (dX of its far end - dX of the vertex). */
+/* As in coupled.c: the direction of a loop entry turns by g . (dX of its far end - dX of the vertex). */
 static void add_turn(rg_orbits *O, const int32_t at[2], int32_t v, rg_vec2 g, rg_vec3 normal, double sign, const double *scale)
 {
     for (int i = 0; i < 2; i++) {
@@ -213,14 +213,14 @@ static void add_turn(rg_orbits *O, const int32_t at[2], int32_t v, rg_vec2 g, rg
 
 void rg_orbits_renew(rg_orbits *O, const double *scale)
 {
-    rg_joint *J = O->J;
+    rg_coupled *J = O->J;
     const rg_mesh *m = J->mesh;
     memset(O->A.x, 0, (size_t)O->A.start[O->A.columns] * sizeof *O->A.x);
     for (int32_t n = 0; n < O->count; n++) {
         const int32_t k = O->vertex[n], v = m->inner_vertex[k], first = m->loop_start[k];
         const int kept = O->kawasaki[n] >= 0;
         double sum;
-        if (kept && J->U) rg_joint_alternate(J, k, &sum, J->sign);
+        if (kept && J->U) rg_coupled_alternate(J, k, &sum, J->sign);
         for (int32_t j = first; j < m->loop_start[k + 1]; j++) {
             const int32_t i = m->loop_crease[j];
             const double of = O->part[i] * scale[O->G->crease_orbit[i]];
@@ -229,13 +229,13 @@ void rg_orbits_renew(rg_orbits *O, const double *scale)
             if (!J->U) continue;
             rg_vec2 g;
             rg_vec3 normal;
-            rg_joint_turn(J, k, j, &g, &normal);
+            rg_coupled_turn(J, k, j, &g, &normal);
             const double part = kept ? J->sign[j - first] : 0;
             add_turn(O, O->at_far[j], J->far[j], g, normal, part, scale);
             add_turn(O, O->at_own[k], v, (rg_vec2){-g.x, -g.y}, normal, part, scale);
         }
     }
-    rg_step_renew(&O->A);
+    rg_least_renew(&O->A);
 }
 
 /* y = Q^T z */
@@ -270,13 +270,13 @@ void rg_orbits_solve(rg_orbits *O, const double *z, const double *r, double *x)
     memset(O->b, 0, (size_t)O->A.rows * sizeof *O->b);
     if (z) {
         gather(O, z, O->y);
-        rg_step_mul(&O->A, O->y, O->b);
+        rg_least_mul(&O->A, O->y, O->b);
     }
     for (int32_t n = 0; r && n < O->count; n++) {
         const int32_t k = O->vertex[n];
         for (int i = 0; i < 3; i++) O->b[3 * n + i] += r[3 * k + i];
         if (O->kawasaki[n] >= 0) O->b[O->kawasaki[n]] += r[O->J->kawasaki[k]];
     }
-    rg_step_solve(&O->A, O->b, O->y); /* eqs. (14), (15), (19) */
+    rg_least_solve(&O->A, O->b, O->y); /* eqs. (14), (15), (19) */
     scatter(O, O->y, x);
 }

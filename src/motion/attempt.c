@@ -1,16 +1,13 @@
 #include "motion/attempt.h"
 #include "base/clock.h"
 #include "base/status.h"
+#include "fold/tuning.h"
 #include "motion/diagnose.h"
 #include "motion/rest.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Beyond half a turn by more than that, facets at a crease have passed through each other. */
-static const double MOST_OVER = RG_DEG;
-/* A crease that did less than this part of its way has not left flat. */
-static const double LEFT_FLAT = 1e-6;
 
 void rg_attempt_free(rg_attempt *t)
 {
@@ -306,7 +303,7 @@ rg_status rg_attempt_relaxed(rg_attempt *t, rg_mesh *m, const rg_settings *setti
         t->work = F->work;
         t->method = "relaxed";
         t->solver = "cholesky";
-        const rg_step *A = &F->J.A, *by_orbits = &F->orbits.A;
+        const rg_least *A = &F->J.A, *by_orbits = &F->orbits.A;
         t->cost = (rg_cost){F->steps, A->solves + by_orbits->solves, A->iterations + by_orbits->iterations,
                             A->factorizations + by_orbits->factorizations, F->assemblies, 0};
     }

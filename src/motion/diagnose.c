@@ -1,4 +1,5 @@
 #include "motion/diagnose.h"
+#include "fold/tuning.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +8,7 @@
 static const double STRONG = 0.5;
 static const int32_t MOST_VERTICES = 12;
 /* A crease that is let this much of its wish or less, and is short of its target by more than 1 %, is blocked. */
-static const double HELD = 0.01, ARRIVED = 0.01;
+static const double HELD = 0.01;
 static const double SOLVE_TOLERANCE = 1e-8;
 
 typedef struct force { double size; int32_t k; } force;

@@ -1,6 +1,7 @@
 #include "motion/search.h"
 #include "base/race.h"
 #include "base/status.h"
+#include "fold/tuning.h"
 #include "mesh/symmetry.h"
 #include "motion/cuts.h"
 
@@ -44,21 +45,6 @@ static const rung LADDER[] = {
     {"relaxed 4", 0, SPLIT, {4, 0.1, 0}, 0, 1, RG_EFFORT_THOROUGH},
 };
 enum { RUNGS = sizeof LADDER / sizeof *LADDER, MOST_GROUPS = 8, MOST_JOBS = MOST_GROUPS * RUNGS };
-/* Work of one try, about seconds of a slow machine, by effort. */
-static const double MOST_WORK[] = {4, 12, 300};
-/* What folds straight on, triangulated, takes a hundred steps or so. */
-static const int32_t MOST_STEPS_TRIANGULATED = 250;
-/* Retraction: how often half the compliance is tried, and fewer cuts, of a relaxation and straight on. A facet that bends by less
- * (radians) may stay whole, if no vertex goes much farther. */
-static const int32_t LESS_COMPLIANCE[] = {0, 2, 5}, FEWER_CUTS[] = {0, 3, 8}, FEWER_STRAIGHT[] = {0, 8, 24};
-static const double HARDLY_BENT = 10 * RG_DEG, LITTLE_MORE = 1.1;
-/* Beyond half a turn by more, facets at a crease pass through each other: second best. */
-static const double OVERFOLD = 0.1 * RG_DEG;
-/* Short of the end, what moves the pattern must come this much farther than what leaves it as it is. */
-static const double WORTH_MOVING = 0.1;
-/* A second try beside the first costs its memory as well: not for larger sheets. */
-static const int32_t MOST_CREASES_AT_ONCE = 20000;
-
 void rg_cost_add(rg_cost *sum, const rg_cost *c)
 {
     sum->steps += c->steps;

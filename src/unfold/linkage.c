@@ -42,7 +42,7 @@ rg_status rg_linkage_init(rg_linkage *P, const rg_memory *mem, const rg_mesh *m)
     rg_status s = P->parent && P->crease && P->ends && P->own && P->X && P->place && P->p && P->axis && P->hinge && P->trial_X &&
                           P->trial_place && P->turn && P->slip ? RG_OK : RG_ENOMEM;
     if (s == RG_OK) s = rg_freedom_init(&P->freedom, mem, m, 1);
-    if (s == RG_OK) s = rg_joint_init(&P->J, mem, m, &P->freedom, 0);
+    if (s == RG_OK) s = rg_coupled_init(&P->J, mem, m, &P->freedom, 0);
     if (s == RG_OK) s = rg_tree_init(m, -1, &P->tree);
     if (s == RG_OK) {
         P->N = m->N;
@@ -59,7 +59,7 @@ void rg_linkage_free(rg_linkage *P)
 {
     if (!P->mem.resize) return;
     rg_tree_free(&P->tree);
-    rg_joint_free(&P->J);
+    rg_coupled_free(&P->J);
     rg_freedom_free(&P->freedom);
     void *block[] = {P->parent, P->crease, P->ends, P->own, P->X, P->place, P->p, P->axis, P->hinge, P->trial_X,
                      P->trial_place, P->turn, P->slip};

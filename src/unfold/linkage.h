@@ -1,5 +1,5 @@
 /* linkage.h -- where the vertices of a sheet of rigid triangles are, and how they move when fold angles and pattern do.
- * Paper    Fig. 1; the derivatives of it        Uses  pose.h joint.h        Used by  the other files of this room
+ * Paper    Fig. 1; the derivatives of it        Uses  pose.h coupled.h        Used by  the other files of this room
  *
  * State z = (rho, u): fold angles, and what the vertices of the pattern moved by, as ways of freedom.h. Positions follow from a
  * tree of facets. With hinge (a, b) of facet f under facet p, at the world point Q, and n = R e_z of either:
@@ -12,14 +12,14 @@
 #ifndef RG_LINKAGE_H
 #define RG_LINKAGE_H
 
-#include "kinematics/joint.h"
+#include "kinematics/coupled.h"
 #include "pose/pose.h"
 
 typedef struct rg_linkage {
     rg_memory mem;
     const rg_mesh *mesh;      /* borrowed: triangles */
     rg_freedom freedom;
-    rg_joint J;               /* closure, eqs. (12), (14), (19) */
+    rg_coupled J;               /* closure, eqs. (12), (14), (19) */
     rg_tree tree;
     int32_t N, U, n;          /* n = N + U */
     int32_t *parent;          /* [nf] -1: the fixed facet */

@@ -56,11 +56,11 @@ rg_row *rg_nearest_add(rg_nearest *q)
 /* y - what of it is not free of A: y <- y - A^+ (A y + r). */
 static void project(rg_nearest *q, double *y, const double *r)
 {
-    rg_step *A = &q->P->J.A;
-    rg_step_mul(A, y, q->right);
+    rg_least *A = &q->P->J.A;
+    rg_least_mul(A, y, q->right);
     for (int32_t i = 0; r && i < A->rows; i++) q->right[i] += r[i];
     if (A->rows > 0) {
-        rg_step_solve(A, q->right, q->scratch); /* eq. (15) */
+        rg_least_solve(A, q->right, q->scratch); /* eq. (15) */
         for (int32_t i = 0; i < q->P->n; i++) y[i] -= q->scratch[i];
     }
     q->work += 8 * (double)A->start[A->columns] + 4 * A->L.S.entries;

@@ -70,8 +70,8 @@ static double go(const rg_linkage *P, const rg_nearest *q, double *z, double lar
 
 static double stand(rg_linkage *P, rg_nearest *q, const double *z)
 {
-    const double angle = rg_joint_assemble(&P->J, z, z + P->N, NULL);
-    rg_joint_renew(&P->J, q->scale);
+    const double angle = rg_coupled_assemble(&P->J, z, z + P->N, NULL);
+    rg_coupled_renew(&P->J, q->scale);
     q->work += P->J.A.L.S.flops;
     rg_linkage_put(P, z);
     rg_nearest_clear(q);

@@ -47,10 +47,10 @@ void rg_stride_scale(const rg_linkage *P, double give, double *scale)
 int rg_stride_close(rg_linkage *P, rg_nearest *q, double *z, double tol, int32_t most)
 {
     for (int32_t i = 0;; i++) {
-        const double angle = rg_joint_assemble(&P->J, z, z + P->N, NULL);
+        const double angle = rg_coupled_assemble(&P->J, z, z + P->N, NULL);
         if (angle <= tol) return 1;
         if (i == most || !(angle < 1)) return 0;
-        rg_joint_renew(&P->J, q->scale);
+        rg_coupled_renew(&P->J, q->scale);
         q->work += 20 * P->J.A.L.S.entries + P->J.A.L.S.flops;
         rg_nearest_project(q, NULL, P->J.r);
         for (int32_t k = 0; k < P->n; k++) z[k] += q->dz[k];
@@ -61,8 +61,8 @@ int rg_stride_close(rg_linkage *P, rg_nearest *q, double *z, double tol, int32_t
 static void stand(rg_stride *s)
 {
     rg_linkage *P = s->P;
-    rg_joint_assemble(&P->J, s->z, s->z + P->N, NULL);
-    rg_joint_renew(&P->J, s->q.scale);
+    rg_coupled_assemble(&P->J, s->z, s->z + P->N, NULL);
+    rg_coupled_renew(&P->J, s->q.scale);
     s->q.work += P->J.A.L.S.flops;
     rg_linkage_put(P, s->z);
 }
@@ -326,7 +326,7 @@ static rg_status close_trial(rg_stride *s, int *closed)
     rg_linkage *P = s->P;
     *closed = 0;
     for (int i = 0; i < WITH_ROWS; i++) {
-        const double angle = rg_joint_assemble(&P->J, s->z1, s->z1 + P->N, NULL);
+        const double angle = rg_coupled_assemble(&P->J, s->z1, s->z1 + P->N, NULL);
         if (!(angle < 1)) return RG_OK;
         set_floors(s);
         const rg_status status = rg_nearest_solve(&s->q, NULL, P->J.r, 0);

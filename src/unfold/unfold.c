@@ -244,8 +244,8 @@ static rg_status forwards(rg_unfold *u, double budget, const rg_unfold_wish *wis
     /* Off flat: the closed state nearest to all creases a little folded. */
     for (int k = 0; status == RG_OK && k < OFF_FLAT_ITERATIONS; k++) {
         double most = 0;
-        rg_joint_assemble(&u->P.J, z, z + N, NULL);
-        rg_joint_renew(&u->P.J, u->q.scale);
+        rg_coupled_assemble(&u->P.J, z, z + N, NULL);
+        rg_coupled_renew(&u->P.J, u->q.scale);
         rg_linkage_put(&u->P, z);
         for (int32_t i = 0; i < n; i++) u->q.wish[i] = (i < N ? OFF_FLAT * u->end[i] : 0) - z[i];
         rg_nearest_project(&u->q, u->q.wish, u->P.J.r);

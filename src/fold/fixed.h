@@ -1,13 +1,13 @@
-/* onward.h -- one step from the state, no farther than the next frame: the methods that go on from step to step.
+/* fixed.h -- one step from the state, no farther than the next frame: the methods that go on from step to step.
  * Paper    eqs. (10), (14), section 4        Uses  system.h        Used by  straight.c */
-#ifndef RG_ONWARD_H
-#define RG_ONWARD_H
+#ifndef RG_FIXED_H
+#define RG_FIXED_H
 
 #include "fold/system.h"
 
 /* A step of newton, heun or rk4, closed, what is beyond a limit pulled back; or the end of the fold, f->reason says why. */
-void rg_onward_newton(rg_straight *f);
+void rg_fixed_newton(rg_straight *f);
 /* The paper's: one solve, no correction. */
-void rg_onward_euler(rg_straight *f);
+void rg_fixed_euler(rg_straight *f);
 
 #endif

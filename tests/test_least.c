@@ -1,4 +1,4 @@
-/* linalg/step.c: the least step that does what it must, by what defines it, for matrices of full rank and of less. */
+/* linalg/least.c: the least step that does what it must, by what defines it, for matrices of full rank and of less. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "counted.h"
-#include "linalg/step.h"
+#include "linalg/least.h"
 #include "near.h"
 
 enum { ROWS = 60, COLUMNS = 120 };
@@ -17,7 +17,7 @@ enum { ROWS = 60, COLUMNS = 120 };
 /* A dense copy, row by row. */
 typedef struct dense { int32_t rows, columns; double a[ROWS][COLUMNS]; } dense;
 
-static dense copy_of(const rg_step *A)
+static dense copy_of(const rg_least *A)
 {
     dense d = {A->rows, A->columns, {{0}}};
     for (int32_t c = 0; c < A->columns; c++)
@@ -34,9 +34,9 @@ static void times(const dense *d, const double *x, double *y)
 }
 
 /* Some rows of each column, now and then none. */
-static rg_step random_step(const rg_memory *mem, int32_t rows, int32_t columns, unsigned *seed)
+static rg_least random_step(const rg_memory *mem, int32_t rows, int32_t columns, unsigned *seed)
 {
-    rg_step A;
+    rg_least A;
     int32_t start[COLUMNS + 1] = {0}, row[COLUMNS * 5];
     for (int32_t c = 0; c < columns; c++) {
         int32_t at = start[c];
@@ -44,7 +44,7 @@ static rg_step random_step(const rg_memory *mem, int32_t rows, int32_t columns, 
             if (at - start[c] < 5 && noise(seed) > 1 - 6.0 / rows) row[at++] = i;
         start[c + 1] = at;
     }
-    assert_int_equal(rg_step_init(&A, mem, rows, columns, start, row), RG_OK);
+    assert_int_equal(rg_least_init(&A, mem, rows, columns, start, row), RG_OK);
     for (int32_t j = 0; j < start[columns]; j++) A.x[j] = noise(seed);
     return A;
 }
@@ -92,21 +92,21 @@ static void project_on_rows(const dense *d, const double *x, double *onto)
     }
 }
 
-static void is_least(rg_step *A, const double *b, double tol)
+static void is_least(rg_least *A, const double *b, double tol)
 {
     const dense d = copy_of(A);
     double x[COLUMNS], onto[COLUMNS], Ax[ROWS], back[COLUMNS];
-    rg_step_renew(A);
-    rg_step_solve(A, b, x);
+    rg_least_renew(A);
+    rg_least_solve(A, b, x);
     times(&d, x, Ax);
     for (int32_t i = 0; i < A->rows; i++) near(Ax[i], b[i], tol);
     project_on_rows(&d, x, onto);
     for (int32_t i = 0; i < A->columns; i++) near(x[i], onto[i], tol);
-    rg_step_mul_t(A, A->y, back);
+    rg_least_mul_t(A, A->y, back);
     for (int32_t i = 0; i < A->columns; i++) near(x[i], back[i], tol);
 }
 
-static void wanted(const rg_step *A, unsigned *seed, double *b)
+static void wanted(const rg_least *A, unsigned *seed, double *b)
 {
     const dense d = copy_of(A);
     double x[COLUMNS];
@@ -120,22 +120,22 @@ static void products(void **state)
     const rg_memory mem = rg_mem_default(NULL);
     unsigned seed = 3;
     for (int round = 0; round < 20; round++) {
-        rg_step A = random_step(&mem, 1 + 3 * round, 2 + 5 * round, &seed);
+        rg_least A = random_step(&mem, 1 + 3 * round, 2 + 5 * round, &seed);
         const dense d = copy_of(&A);
         double x[COLUMNS], y[ROWS], z[COLUMNS], Ax[ROWS], Aty[COLUMNS];
         for (int32_t i = 0; i < A.columns; i++) x[i] = noise(&seed);
         for (int32_t i = 0; i < A.rows; i++) y[i] = noise(&seed);
-        rg_step_mul(&A, x, Ax);
+        rg_least_mul(&A, x, Ax);
         times(&d, x, z);
         for (int32_t i = 0; i < A.rows; i++) near(Ax[i], z[i], 1e-14);
-        rg_step_mul_t(&A, y, Aty);
+        rg_least_mul_t(&A, y, Aty);
         for (int32_t c = 0; c < A.columns; c++) {
             double sum = 0;
             for (int32_t i = 0; i < A.rows; i++) sum += d.a[i][c] * y[i];
             near(Aty[c], sum, 1e-14);
         }
-        rg_step_free(&A);
-        rg_step_free(&A);
+        rg_least_free(&A);
+        rg_least_free(&A);
     }
 }
 
@@ -146,14 +146,14 @@ static void wide_and_narrow(void **state)
     unsigned seed = 4;
     for (int round = 0; round < 40; round++) { /* more rows than columns: never of full rank */
         const int32_t rows = 2 + round, columns = round % 2 ? 3 + round / 2 : 5 + 2 * round;
-        rg_step A = random_step(&mem, rows, columns, &seed);
+        rg_least A = random_step(&mem, rows, columns, &seed);
         double b[ROWS];
         for (int again = 0; again < 3; again++) {
             wanted(&A, &seed, b);
             is_least(&A, b, 1e-8);
             for (int32_t j = 0; j < A.start[A.columns]; j++) A.x[j] = noise(&seed);
         }
-        rg_step_free(&A);
+        rg_least_free(&A);
     }
 }
 
@@ -166,11 +166,11 @@ static void zero_rows_and_double_rows(void **state)
     for (int round = 0; round < 20; round++) {
         const int32_t m = 3 * (2 + round % 8), n = 2 * m + round;
         int32_t start[COLUMNS + 1], row[COLUMNS * 3];
-        rg_step A;
+        rg_least A;
         for (int32_t c = 0; c <= n; c++) start[c] = 3 * c;
         for (int32_t c = 0; c < n; c++)
             for (int32_t i = 0; i < 3; i++) row[3 * c + i] = 3 * (c % (m / 3)) + i;
-        assert_int_equal(rg_step_init(&A, &mem, m, n, start, row), RG_OK);
+        assert_int_equal(rg_least_init(&A, &mem, m, n, start, row), RG_OK);
         for (int32_t c = 0; c < n; c++) {
             A.x[3 * c] = noise(&seed);
             A.x[3 * c + 1] = c % 3 ? A.x[3 * c] : noise(&seed);
@@ -181,12 +181,12 @@ static void zero_rows_and_double_rows(void **state)
         is_least(&A, b, 1e-9);
         memset(b, 0, sizeof b);
         is_least(&A, b, 0);
-        rg_step_free(&A);
+        rg_least_free(&A);
     }
 }
 
 /* Rows of length 1, where there are any entries. */
-static void even_out(rg_step *A)
+static void even_out(rg_least *A)
 {
     double square[ROWS] = {0};
     for (int32_t j = 0; j < A->start[A->columns]; j++) square[A->row[j]] += A->x[j] * A->x[j];
@@ -201,13 +201,13 @@ static void out_of_reach(void **state)
     unsigned seed = 6;
     for (int round = 0; round < 30; round++) {
         const int32_t rows = 4 + round;
-        rg_step A = random_step(&mem, rows, 2 + round / 3, &seed);
+        rg_least A = random_step(&mem, rows, 2 + round / 3, &seed);
         even_out(&A);
         const dense d = copy_of(&A);
         double b[ROWS], x[COLUMNS], Ax[ROWS], onto[COLUMNS], was = 0, is = 0;
         for (int32_t i = 0; i < rows; i++) b[i] = noise(&seed);
-        rg_step_renew(&A);
-        rg_step_solve(&A, b, x);
+        rg_least_renew(&A);
+        rg_least_solve(&A, b, x);
         times(&d, x, Ax);
         for (int32_t i = 0; i < rows; i++) was += b[i] * b[i], is += (b[i] - Ax[i]) * (b[i] - Ax[i]);
         below(is, was * (1 + 1e-9));
@@ -218,7 +218,7 @@ static void out_of_reach(void **state)
             for (int32_t i = 0; i < rows; i++) left += d.a[i][c] * (b[i] - Ax[i]);
             near(left, 0, 1e-7);
         }
-        rg_step_free(&A);
+        rg_least_free(&A);
     }
 }
 
@@ -227,16 +227,16 @@ static void not_a_number(void **state)
     (void)state;
     const rg_memory mem = rg_mem_default(NULL);
     unsigned seed = 7;
-    rg_step A = random_step(&mem, 12, 30, &seed);
+    rg_least A = random_step(&mem, 12, 30, &seed);
     double b[ROWS], x[COLUMNS];
     wanted(&A, &seed, b);
     A.x[5] = NAN;
-    rg_step_renew(&A);
-    rg_step_solve(&A, b, x); /* ends */
+    rg_least_renew(&A);
+    rg_least_solve(&A, b, x); /* ends */
     A.x[5] = 0.75;
     wanted(&A, &seed, b);
     is_least(&A, b, 1e-8);
-    rg_step_free(&A);
+    rg_least_free(&A);
 }
 
 static void nothing_at_all(void **state)
@@ -246,12 +246,12 @@ static void nothing_at_all(void **state)
     const int32_t start[4] = {0, 0, 0, 0};
     double b[2] = {0.25, -1.5}, x[3] = {7, 7, 7};
     for (int32_t rows = 0; rows <= 2; rows++) {
-        rg_step A;
-        assert_int_equal(rg_step_init(&A, &mem, rows, 3, start, start), RG_OK);
-        rg_step_renew(&A);
-        rg_step_solve(&A, b, x);
+        rg_least A;
+        assert_int_equal(rg_least_init(&A, &mem, rows, 3, start, start), RG_OK);
+        rg_least_renew(&A);
+        rg_least_solve(&A, b, x);
         for (int i = 0; i < 3; i++) near(x[i], 0, 0);
-        rg_step_free(&A);
+        rg_least_free(&A);
     }
 }
 
@@ -265,10 +265,10 @@ static void memory(void **state)
     double b[9], x[10], again[10];
     for (int32_t i = 0; i <= 10; i++) start[i] = 3 * i;
     for (int32_t i = 0; i < 30; i++) row[i] = (i % 3) * 3 + i / 3 % 3;
-    rg_step A;
+    rg_least A;
     for (long k = 0;; k++) {
         c.left = k;
-        const rg_status s = rg_step_init(&A, &mem, 9, 10, start, row);
+        const rg_status s = rg_least_init(&A, &mem, 9, 10, start, row);
         if (s == RG_OK) break;
         assert_int_equal(s, RG_ENOMEM);
         assert_int_equal(c.out, 0);
@@ -277,13 +277,13 @@ static void memory(void **state)
     for (int i = 0; i < 9; i++) b[i] = noise(&seed);
     c.left = 0;
     const long asked = c.asked;
-    rg_step_renew(&A);
-    rg_step_solve(&A, b, x);
-    rg_step_renew(&A);
-    rg_step_solve(&A, b, again);
+    rg_least_renew(&A);
+    rg_least_solve(&A, b, x);
+    rg_least_renew(&A);
+    rg_least_solve(&A, b, again);
     assert_memory_equal(x, again, sizeof x);
     assert_int_equal(c.asked, asked);
-    rg_step_free(&A);
+    rg_least_free(&A);
     assert_int_equal(c.out, 0);
 }
 

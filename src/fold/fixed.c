@@ -1,4 +1,4 @@
-#include "fold/onward.h"
+#include "fold/fixed.h"
 #include "fold/newton.h"
 #include "fold/integrate.h"
 
@@ -66,7 +66,7 @@ static int try_step(rg_straight *f, double ds)
     return closed;
 }
 
-void rg_onward_newton(rg_straight *f)
+void rg_fixed_newton(rg_straight *f)
 {
     const int32_t N = f->mesh.N;
     const double goal = rg_straight_frame_progress(f, f->frame);
@@ -98,7 +98,7 @@ void rg_onward_newton(rg_straight *f)
 }
 
 /* One solve, no correction: the paper's eq. (14) and nothing else. */
-void rg_onward_euler(rg_straight *f)
+void rg_fixed_euler(rg_straight *f)
 {
     const int32_t N = f->mesh.N;
     const double goal = rg_straight_frame_progress(f, f->frame);

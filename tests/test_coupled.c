@@ -1,4 +1,4 @@
-/* kinematics/joint.c: r and A against products of rotation matrices and sums of angles written out, by differences. */
+/* kinematics/coupled.c: r and A against products of rotation matrices and sums of angles written out, by differences. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +13,7 @@
 #include "counted.h"
 #include "folded.h"
 #include "generate/generate.h"
-#include "kinematics/joint.h"
+#include "kinematics/coupled.h"
 
 enum { MOST = 40 };
 
@@ -53,13 +53,13 @@ static double kawasaki_sum(const rg_mesh *m, int32_t k, const rg_vec2 *X)
     return sum;
 }
 
-typedef struct sheet { rg_mesh m; rg_freedom f; rg_joint J; double *rho, *u, *scale; rg_vec2 *X; } sheet;
+typedef struct sheet { rg_mesh m; rg_freedom f; rg_coupled J; double *rho, *u, *scale; rg_vec2 *X; } sheet;
 
 static void open_sheet(sheet *s, int kawasaki, int movable)
 {
     const rg_memory mem = rg_mem_default(NULL);
     assert_int_equal(rg_freedom_init(&s->f, &mem, &s->m, movable), RG_OK);
-    assert_int_equal(rg_joint_init(&s->J, &mem, &s->m, &s->f, kawasaki), RG_OK);
+    assert_int_equal(rg_coupled_init(&s->J, &mem, &s->m, &s->f, kawasaki), RG_OK);
     const size_t n = (size_t)(s->m.N + s->f.U) + 1;
     s->rho = calloc(n, sizeof *s->rho);
     s->u = calloc(n, sizeof *s->u);
@@ -72,8 +72,8 @@ static void open_sheet(sheet *s, int kawasaki, int movable)
 
 static void close_sheet(sheet *s)
 {
-    rg_joint_free(&s->J);
-    rg_joint_free(&s->J);
+    rg_coupled_free(&s->J);
+    rg_coupled_free(&s->J);
     rg_freedom_free(&s->f);
     rg_mesh_free(&s->m);
     free(s->rho);
@@ -104,7 +104,7 @@ static double angle_of(turn3 F)
 static void checks_residual(sheet *s)
 {
     double *r = calloc((size_t)s->J.A.rows + 1, sizeof *r), worst = 0, most = 0, off = -1;
-    const double closure = rg_joint_assemble(&s->J, s->rho, s->u, &off);
+    const double closure = rg_coupled_assemble(&s->J, s->rho, s->u, &off);
     residuals(s, r);
     for (int32_t i = 0; i < s->J.A.rows; i++) {
         near(s->J.r[i], r[i], 1e-12);
@@ -125,8 +125,8 @@ static void checks_columns(sheet *s, unsigned *seed)
     double *unit = calloc((size_t)columns + 1, sizeof *unit), *is = calloc((size_t)rows + 1, sizeof *is);
     assert_true(more && less && unit && is);
     for (int32_t i = 0; i < columns; i++) s->scale[i] = 1.25 + noise(seed);
-    below(rg_joint_assemble(&s->J, s->rho, s->u, NULL), 1e-9);
-    rg_joint_renew(&s->J, s->scale);
+    below(rg_coupled_assemble(&s->J, s->rho, s->u, NULL), 1e-9);
+    rg_coupled_renew(&s->J, s->scale);
     for (int32_t c = 0; c < columns; c++) {
         double *x = c < s->m.N ? &s->rho[c] : &s->u[c - s->m.N], at = *x;
         const double by = c < s->m.N ? h : h * s->f.reach[c - s->m.N];
@@ -137,7 +137,7 @@ static void checks_columns(sheet *s, unsigned *seed)
         *x = at;
         memset(unit, 0, (size_t)columns * sizeof *unit);
         unit[c] = 1;
-        rg_step_mul(&s->J.A, unit, is);
+        rg_least_mul(&s->J.A, unit, is);
         for (int32_t i = 0; i < rows; i++) {
             const double d = s->scale[c] * (more[i] - less[i]) / (2 * by);
             near(is[i], d, 1e-7 * (1 + fabs(d)));
@@ -288,17 +288,17 @@ static void memory(void **state)
     rg_pattern *p = draw_miura(3, 1.25);
     rg_mesh m = mesh_of(p);
     rg_freedom f;
-    rg_joint J;
+    rg_coupled J;
     assert_int_equal(rg_freedom_init(&f, &mem, &m, 1), RG_OK);
     const long before = c.out;
     for (long k = 0;; k++) {
         c.left = k;
-        const rg_status s = rg_joint_init(&J, &mem, &m, &f, 1);
+        const rg_status s = rg_coupled_init(&J, &mem, &m, &f, 1);
         if (s == RG_OK) break;
         assert_int_equal(s, RG_ENOMEM);
         assert_int_equal(c.out, before);
     }
-    rg_joint_free(&J);
+    rg_coupled_free(&J);
     rg_freedom_free(&f);
     assert_int_equal(c.out, 0);
     rg_mesh_free(&m);

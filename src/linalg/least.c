@@ -1,4 +1,4 @@
-#include "linalg/step.h"
+#include "linalg/least.h"
 #include "base/lanes.h"
 
 #include <string.h>
@@ -18,7 +18,7 @@ static const int PASSES = 2;
 static const double TOLERANCE = 1e-12;
 
 /* The pattern of A A^T by columns, from that of A by rows. */
-static rg_status square(const rg_step *A, int32_t *start, int32_t **rows)
+static rg_status square(const rg_least *A, int32_t *start, int32_t **rows)
 {
     const size_t m = (size_t)A->rows, entries = (size_t)A->start[A->columns];
     int32_t *first = rg_mem_array(&A->mem, m + 2, sizeof *first), *column = rg_mem_array(&A->mem, entries, sizeof *column);
@@ -53,7 +53,7 @@ static rg_status square(const rg_step *A, int32_t *start, int32_t **rows)
     return s;
 }
 
-static rg_status plan(rg_step *A)
+static rg_status plan(rg_least *A)
 {
     int32_t *start = rg_mem_array(&A->mem, (size_t)A->rows + 1, sizeof *start), *row = NULL;
     size_t products = 0, at = 0;
@@ -72,7 +72,7 @@ static rg_status plan(rg_step *A)
     return s;
 }
 
-rg_status rg_step_init(rg_step *A, const rg_memory *mem, int32_t rows, int32_t columns, const int32_t *start,
+rg_status rg_least_init(rg_least *A, const rg_memory *mem, int32_t rows, int32_t columns, const int32_t *start,
                        const int32_t *row)
 {
     memset(A, 0, sizeof *A);
@@ -93,11 +93,11 @@ rg_status rg_step_init(rg_step *A, const rg_memory *mem, int32_t rows, int32_t c
         memcpy(A->row, row, entries * sizeof *row);
         s = plan(A);
     }
-    if (s != RG_OK) rg_step_free(A);
+    if (s != RG_OK) rg_least_free(A);
     return s;
 }
 
-void rg_step_free(rg_step *A)
+void rg_least_free(rg_least *A)
 {
     if (!A->mem.resize) return;
     const rg_memory mem = A->mem;
@@ -107,7 +107,7 @@ void rg_step_free(rg_step *A)
     memset(A, 0, sizeof *A);
 }
 
-void rg_step_renew(rg_step *A)
+void rg_least_renew(rg_least *A)
 {
     if (A->rows == 0) return;
     for (A->beta = BETA; A->beta <= BETA_LARGEST; A->beta *= BETA_GROWTH) {
@@ -121,14 +121,14 @@ void rg_step_renew(rg_step *A)
     }
 }
 
-void rg_step_mul(const rg_step *A, const double *x, double *y)
+void rg_least_mul(const rg_least *A, const double *x, double *y)
 {
     memset(y, 0, (size_t)A->rows * sizeof *y);
     for (int32_t i = 0; i < A->columns; i++)
         for (int32_t j = A->start[i]; j < A->start[i + 1]; j++) y[A->row[j]] += A->x[j] * x[i];
 }
 
-void rg_step_mul_t(const rg_step *A, const double *y, double *x)
+void rg_least_mul_t(const rg_least *A, const double *y, double *x)
 {
     for (int32_t i = 0; i < A->columns; i++) {
         double sum = 0;
@@ -137,21 +137,21 @@ void rg_step_mul_t(const rg_step *A, const double *y, double *x)
     }
 }
 
-static void precondition(rg_step *A, const double *r, double *z)
+static void precondition(rg_least *A, const double *r, double *z)
 {
     memcpy(z, r, (size_t)A->rows * sizeof *z);
     if (A->rows > 0) rg_supernodal_solve(&A->L, z);
 }
 
 /* Conjugate gradients on A A^T y = b. Zero: what is out of reach outweighs the rest, and y is what it was. */
-static int iterate(rg_step *A)
+static int iterate(rg_least *A)
 {
     const int32_t m = A->rows;
     double gamma = rg_lanes_dot(m, A->r, A->z);
     const double target = TOLERANCE * TOLERANCE * gamma;
     for (int32_t n = 0; n < MOST_ITERATIONS && gamma > target; n++) {
-        rg_step_mul_t(A, A->p, A->t);
-        rg_step_mul(A, A->t, A->q);
+        rg_least_mul_t(A, A->p, A->t);
+        rg_least_mul(A, A->t, A->q);
         const double curvature = rg_lanes_dot(m, A->p, A->q);
         if (!(curvature > OUT_OF_REACH * gamma)) return n > 0; /* nothing left to move, or NaN */
         const double alpha = gamma / curvature;
@@ -167,7 +167,7 @@ static int iterate(rg_step *A)
 }
 
 /* What no column reaches is beta z, but for rounding, as (A A^T + beta I) z = r: takes that off r. */
-static void leave_out_of_reach(rg_step *A)
+static void leave_out_of_reach(rg_least *A)
 {
     for (int pass = 0; pass < PASSES; pass++) {
         for (int32_t i = 0; i < A->rows; i++) A->r[i] -= A->beta * A->z[i];
@@ -176,7 +176,7 @@ static void leave_out_of_reach(rg_step *A)
     memcpy(A->p, A->z, (size_t)A->rows * sizeof *A->p);
 }
 
-void rg_step_solve(rg_step *A, const double *b, double *x)
+void rg_least_solve(rg_least *A, const double *b, double *x)
 {
     const int32_t m = A->rows;
     memset(A->y, 0, (size_t)m * sizeof *A->y);
@@ -188,5 +188,5 @@ void rg_step_solve(rg_step *A, const double *b, double *x)
         iterate(A);
     }
     A->solves++;
-    rg_step_mul_t(A, A->y, x);
+    rg_least_mul_t(A, A->y, x);
 }

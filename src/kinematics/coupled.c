@@ -1,9 +1,9 @@
-#include "kinematics/joint.h"
+#include "kinematics/coupled.h"
 #include "kinematics/loop.h"
 
 #include <string.h>
 
-/* A vertex counts as flat-foldable when Kawasaki's sum is off by no more: drawings by hand are, 0.6 degrees or so. */
+/* A vertex counts as flat-foldable when Kawasaki's sum is off by no more (radians, 1.15 degrees): twice what drawings by hand are. */
 static const double FLAT_FOLDABLE = 0.02;
 
 static int32_t other_end(const rg_mesh *m, int32_t crease, int32_t v)
@@ -14,7 +14,7 @@ static int32_t other_end(const rg_mesh *m, int32_t crease, int32_t v)
 
 static int is_drawn(const rg_mesh *m, int32_t crease) { return crease < m->N - m->added; }
 
-int32_t rg_joint_alternate(const rg_joint *J, int32_t k, double *sum, double *sign)
+int32_t rg_coupled_alternate(const rg_coupled *J, int32_t k, double *sum, double *sign)
 {
     const rg_mesh *m = J->mesh;
     const int32_t first = m->loop_start[k], last = m->loop_start[k + 1];
@@ -42,19 +42,19 @@ int32_t rg_joint_alternate(const rg_joint *J, int32_t k, double *sum, double *si
     return n;
 }
 
-static void number_rows(rg_joint *J, int kawasaki)
+static void number_rows(rg_coupled *J, int kawasaki)
 {
     for (int32_t k = 0; k < J->M; k++) {
         double sum;
         J->kawasaki[k] = -1;
         if (!kawasaki || !J->U) continue;
-        const int32_t n = rg_joint_alternate(J, k, &sum, NULL);
+        const int32_t n = rg_coupled_alternate(J, k, &sum, NULL);
         if (n >= 4 && n % 2 == 0 && fabs(sum) <= FLAT_FOLDABLE) J->kawasaki[k] = 3 * J->M + J->K++; /* eq. (16) */
     }
 }
 
 /* Reserves the entries of one column in rows of vertex k; fill NULL: only counts them in start. */
-static int32_t reserve(const rg_joint *J, int32_t k, int32_t column, int32_t *start, int32_t *fill, int32_t *row)
+static int32_t reserve(const rg_coupled *J, int32_t k, int32_t column, int32_t *start, int32_t *fill, int32_t *row)
 {
     const int with_kawasaki = column >= J->N && J->kawasaki[k] >= 0;
     if (!fill) {
@@ -67,7 +67,7 @@ static int32_t reserve(const rg_joint *J, int32_t k, int32_t column, int32_t *st
     return at;
 }
 
-static void lay_out(rg_joint *J, int32_t *start, int32_t *fill, int32_t *row)
+static void lay_out(rg_coupled *J, int32_t *start, int32_t *fill, int32_t *row)
 {
     const rg_mesh *m = J->mesh;
     for (int32_t k = 0; k < J->M; k++) {
@@ -81,7 +81,7 @@ static void lay_out(rg_joint *J, int32_t *start, int32_t *fill, int32_t *row)
     }
 }
 
-static rg_status make_pattern(rg_joint *J)
+static rg_status make_pattern(rg_coupled *J)
 {
     const int32_t rows = 3 * J->M + J->K, columns = J->N + J->U;
     int32_t *start = rg_mem_array(&J->mem, (size_t)columns + 1, sizeof *start), *row = NULL;
@@ -96,7 +96,7 @@ static rg_status make_pattern(rg_joint *J)
     }
     if (s == RG_OK) {
         lay_out(J, start, fill, row);
-        s = rg_step_init(&J->A, &J->mem, rows, columns, start, row);
+        s = rg_least_init(&J->A, &J->mem, rows, columns, start, row);
     }
     rg_mem_free(&J->mem, start);
     rg_mem_free(&J->mem, fill);
@@ -104,7 +104,7 @@ static rg_status make_pattern(rg_joint *J)
     return s;
 }
 
-rg_status rg_joint_init(rg_joint *J, const rg_memory *mem, const rg_mesh *m, const rg_freedom *f, int kawasaki)
+rg_status rg_coupled_init(rg_coupled *J, const rg_memory *mem, const rg_mesh *m, const rg_freedom *f, int kawasaki)
 {
     memset(J, 0, sizeof *J);
     J->mem = *mem;
@@ -136,21 +136,21 @@ rg_status rg_joint_init(rg_joint *J, const rg_memory *mem, const rg_mesh *m, con
         number_rows(J, kawasaki);
     }
     if (s == RG_OK) s = make_pattern(J);
-    if (s != RG_OK) rg_joint_free(J);
+    if (s != RG_OK) rg_coupled_free(J);
     return s;
 }
 
-void rg_joint_free(rg_joint *J)
+void rg_coupled_free(rg_coupled *J)
 {
     if (!J->mem.resize) return;
-    rg_step_free(&J->A);
+    rg_least_free(&J->A);
     void *block[] = {J->X, J->theta, J->r, J->far, J->kawasaki, J->direction, J->normal, J->sign, J->at, J->at_own, J->at_far};
     for (int i = 0; i < 11; i++) rg_mem_free(&J->mem, block[i]);
     memset(J, 0, sizeof *J);
 }
 
 /* Returns the rotation angle of F at interior vertex k. */
-static double assemble_vertex(rg_joint *J, int32_t k, const double *rho)
+static double assemble_vertex(rg_coupled *J, int32_t k, const double *rho)
 {
     const rg_mesh *m = J->mesh;
     rg_mat3 A = rg_mat3_identity();
@@ -165,7 +165,7 @@ static double assemble_vertex(rg_joint *J, int32_t k, const double *rho)
     return rg_loop_angle(A);
 }
 
-double rg_joint_assemble_some(rg_joint *J, const int32_t *vertex, int32_t count, const double *rho, const double *u, double *off)
+double rg_coupled_assemble_some(rg_coupled *J, const int32_t *vertex, int32_t count, const double *rho, const double *u, double *off)
 {
     double worst = 0, most = 0;
     if (J->U) rg_freedom_move(J->freedom, u, J->X);
@@ -176,19 +176,19 @@ double rg_joint_assemble_some(rg_joint *J, const int32_t *vertex, int32_t count,
         if (!(angle <= worst)) worst = angle;
         if (J->kawasaki[k] < 0) continue;
         double *sum = &J->r[J->kawasaki[k]];
-        rg_joint_alternate(J, k, sum, NULL);
+        rg_coupled_alternate(J, k, sum, NULL);
         if (!(fabs(*sum) <= most)) most = fabs(*sum);
     }
     if (off) *off = most;
     return worst;
 }
 
-double rg_joint_assemble(rg_joint *J, const double *rho, const double *u, double *off)
+double rg_coupled_assemble(rg_coupled *J, const double *rho, const double *u, double *off)
 {
-    return rg_joint_assemble_some(J, NULL, J->M, rho, u, off);
+    return rg_coupled_assemble_some(J, NULL, J->M, rho, u, off);
 }
 
-void rg_joint_turn(const rg_joint *J, int32_t k, int32_t j, rg_vec2 *g, rg_vec3 *normal)
+void rg_coupled_turn(const rg_coupled *J, int32_t k, int32_t j, rg_vec2 *g, rg_vec3 *normal)
 {
     const int32_t first = J->mesh->loop_start[k], last = J->mesh->loop_start[k + 1];
     const rg_vec2 d = rg_vec2_sub(J->X[J->far[j]], J->X[J->mesh->inner_vertex[k]]);
@@ -199,7 +199,7 @@ void rg_joint_turn(const rg_joint *J, int32_t k, int32_t j, rg_vec2 *g, rg_vec3 
 }
 
 /* The direction of loop entry j turns by g . (dX of its far end - dX of the vertex): adds what that does to the rows. */
-static void add_turn(rg_joint *J, const int32_t at[2], const int32_t way[2], rg_vec2 g, rg_vec3 normal, double sign,
+static void add_turn(rg_coupled *J, const int32_t at[2], const int32_t way[2], rg_vec2 g, rg_vec3 normal, double sign,
                      const double *scale)
 {
     for (int i = 0; i < 2; i++) {
@@ -211,7 +211,7 @@ static void add_turn(rg_joint *J, const int32_t at[2], const int32_t way[2], rg_
     }
 }
 
-void rg_joint_renew(rg_joint *J, const double *scale)
+void rg_coupled_renew(rg_coupled *J, const double *scale)
 {
     const rg_mesh *m = J->mesh;
     memset(J->A.x, 0, (size_t)J->A.start[J->A.columns] * sizeof *J->A.x);
@@ -225,15 +225,15 @@ void rg_joint_renew(rg_joint *J, const double *scale)
         if (!J->U) continue;
         const int kept = J->kawasaki[k] >= 0;
         double sum;
-        if (kept) rg_joint_alternate(J, k, &sum, J->sign);
+        if (kept) rg_coupled_alternate(J, k, &sum, J->sign);
         for (int32_t j = first; j < last; j++) {
             rg_vec2 g;
             rg_vec3 normal;
-            rg_joint_turn(J, k, j, &g, &normal);
+            rg_coupled_turn(J, k, j, &g, &normal);
             const double part = kept ? J->sign[j - first] : 0;
             add_turn(J, J->at_far[j], J->freedom->way[J->far[j]], g, normal, part, scale);
             add_turn(J, J->at_own[k], J->freedom->way[v], (rg_vec2){-g.x, -g.y}, normal, part, scale);
         }
     }
-    rg_step_renew(&J->A);
+    rg_least_renew(&J->A);
 }

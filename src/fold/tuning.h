@@ -1,0 +1,89 @@
+/* tuning.h -- every number that the relaxed stepper and the ladder are set by, once, with its reason.
+ * Uses  vec.h        Used by  relax.c system.c attempt.c search.c diagnose.c
+ *
+ * Measured on real patterns by many authors, each rung alone; docs/method.md says what they are for. */
+#ifndef RG_TUNING_H
+#define RG_TUNING_H
+
+#include "base/vec.h"
+#include <stdint.h>
+
+/* ---------------------------------------------------------------------------------------------- relaxation ---- */
+
+/* Progress below which creases may be beyond a limit or on the wrong side: the flat start, where the linear step must be
+ * free to be wrong for a moment. */
+static const double FREE_UNTIL = 0.03, WRONG_FROM = 0.02;
+/* A crease this near its target (radians) slows down; how much of what is left it wishes for in a full step. */
+static const double NEAR = 0.03, NEAR_PART = 0.9;
+/* Part of the way back to where it wishes to be that the pattern goes in a step. */
+static const double RETURN = 0.5;
+/* What a held crease gives way, against any other; how far beyond half a turn one may be, radians. */
+static const double HELD_GIVES = 3e-4, BEYOND = 0.05 * RG_DEG;
+/* How readily a crease on the wrong side of flat gives way: it stands by its wish, so that the others have to. */
+static const double WRONG_GIVES = 0.25;
+/* How readily a crease beyond its limit gives way, and the part of the way back it wishes for. */
+static const double BEYOND_GIVES = 0.1, BACK = 0.3;
+/* So many halvings end, from flat paper, in a step so short that it closes to tolerance as it is: what is wrong with its
+ * direction is of second order there, and is worked off by the steps that follow. */
+static const int32_t ROUNDS = 6, HALVINGS = 16, CORRECTIONS = 12;
+/* Near a singular state a correction leaves a quarter of the residual. */
+static const int32_t CORRECTIONS_AT_END = 40;
+/* Whatever step is asked for: a longer one would find closed states that nothing leads to. */
+static const double MOST_STEP = 10 * RG_DEG;
+/* No facet shrinks below this part of its area. */
+static const double LEAST_AREA = 0.1;
+/* A correction this much longer than the step it corrects, plus a little, has left the branch. At the free start, where
+ * directions are right to first order only, more is allowed. */
+static const double FARTHEST_CORRECTION = 0.3, FARTHEST_AT_START = 0.7, LITTLE = 1e-3;
+/* Where its image is closed, a vertex is open by no more than so many times what directions are off their images, a sum over its
+ * edges. If that is within tolerance, one vertex of each orbit tells all, and what is solved is one of each orbit; of other
+ * drawings, steps and corrections are averaged. */
+static const double OF_THE_DRAWING = 30;
+/* Even corrections go on while each leaves at most this part of what was open. Then creases give way this much less than
+ * vertices: what closing by the creases does not reach, or what a drawing is uneven by and is then closed vertex by vertex, takes
+ * ways of the pattern too small to be seen, while near flat creases would turn by its square root. */
+static const double STILL_CLOSES = 0.1, STIFF = 0.01;
+static const double LEAST_STEP = 1e-7, LEAST_H = 1e-4;
+/* A run that for so many steps betters neither the mean nor the least by so much is stuck. Of 650 runs that arrived 95 % took
+ * at most 106 steps, and all at most 238. */
+static const int32_t MOST_IDLE = 25, MOST_STEPS = 240;
+static const double BETTER_MEAN = 0.002, BETTER_LEAST = 0.01;
+/* Within this part of its way a crease counts as arrived: the exit status's 1 %. A relaxation lands from a little nearer, and from where
+ * the pattern is within that part of its reach. */
+static const double ARRIVED = 0.01, LANDS_FROM = 0.007, RETURNED = 0.05;
+/* Near a singular end what closes is homogeneous: so many nodes, each this much nearer to the end. */
+static const int32_t END_NODES = 5;
+static const double NEARER = 0.5;
+/* Progress of a state that is read off is exact to this. */
+static const double SAME_PROGRESS = 1e-9;
+/* Part of the tolerance that it is closed to. */
+static const double CLOSE_ENOUGH = 0.01;
+/* Part of the wish for progress that must be left over for it to be held as one more row. */
+static const double LEAST_LEFT = 1e-6;
+/* Ways of the pattern that count as none; and how far from where it should be a crease may end for the pattern to close. */
+static const double FIXED = 1e-12, END_OFF = 1 * RG_DEG;
+
+/* ---------------------------------------------------------------------------------------- ends and attempts ---- */
+
+/* Beyond half a turn, facets at a crease pass through each other: a motion ends before it is so by MOST_OVER, and one that is so by more than
+ * OVERFOLD is second best. */
+static const double MOST_OVER = 1 * RG_DEG, OVERFOLD = 0.1 * RG_DEG;
+/* A crease that did less than this part of its way has not left flat. */
+static const double LEFT_FLAT = 1e-6;
+
+/* ------------------------------------------------------------------------------------------------- ladder ---- */
+
+/* Work of one try, about seconds of a slow machine, by effort. */
+static const double MOST_WORK[] = {4, 12, 300};
+/* What folds straight on, triangulated, takes a hundred steps or so. */
+static const int32_t MOST_STEPS_TRIANGULATED = 250;
+/* Retraction: how often half the compliance is tried, and fewer cuts, of a relaxation and straight on. A facet that bends by less
+ * (radians) may stay whole, if no vertex goes much farther. */
+static const int32_t LESS_COMPLIANCE[] = {0, 2, 5}, FEWER_CUTS[] = {0, 3, 8}, FEWER_STRAIGHT[] = {0, 8, 24};
+static const double HARDLY_BENT = 10 * RG_DEG, LITTLE_MORE = 1.1;
+/* Short of the end, what moves the pattern must come this much farther than what leaves it as it is. */
+static const double WORTH_MOVING = 0.1;
+/* A second try beside the first costs its memory as well: not for larger sheets. */
+static const int32_t MOST_CREASES_AT_ONCE = 20000;
+
+#endif
