@@ -8,6 +8,7 @@
 
 #include "near.h"
 #include "chart/chart.h"
+#include "counted.h"
 #include "scenarios.h"
 
 static rg_chart *chart_of(rg_pattern *p, int32_t frames)
@@ -126,6 +127,44 @@ static void where_creases_roll(void **state)
     assert_int_equal(R->run[RG_RELAXED_DEFAULT].steps, R->best.relax->steps);
     rg_motion_destroy(m);
     rg_chart_destroy(c);
+    rg_pattern_destroy(p);
+}
+
+static rg_status measure_with(const rg_mesh *m, counted *c)
+{
+    const rg_memory mem = {counted_resize, c};
+    rg_settings s = rg_settings_default();
+    rg_relaxed R;
+    rg_watch nobody = {0};
+    rg_diag why = {0, ""};
+    s.memory = &mem;
+    s.frames = 3;
+    s.effort = RG_EFFORT_FAST;
+    const rg_status status = rg_relaxed_measure(&R, m, &s, &nobody, &why);
+    if (status == RG_OK && !R.folds) fail_msg("it does not fold");
+    if (status == RG_OK) rg_relaxed_free(&R);
+    return status;
+}
+
+/* Wherever memory runs short: nothing is lost, and it says so. */
+static void curve_without_memory(void **state)
+{
+    (void)state;
+    enum { PLACES = 40 };
+    rg_pattern *p = bent_miura(2, 1.25, 1.25, 1e-3, -1);
+    rg_memory mem = rg_mem_default(NULL);
+    rg_mesh m;
+    rg_diag why = {0, ""};
+    counted all = {1000000000, 0, 0};
+    assert_int_equal(rg_mesh_from_pattern(p, &mem, &m, &why), RG_OK);
+    assert_int_equal(measure_with(&m, &all), RG_OK);
+    assert_int_equal(all.out, 0);
+    for (int k = 0; k < PLACES; k++) {
+        counted c = {all.asked * k / PLACES, 0, 0};
+        assert_int_equal(measure_with(&m, &c), RG_ENOMEM);
+        assert_int_equal(c.out, 0);
+    }
+    rg_mesh_free(&m);
     rg_pattern_destroy(p);
 }
 
@@ -267,7 +306,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(degree4),  cmocka_unit_test(order_along_freedoms), cmocka_unit_test(files),
-        cmocka_unit_test(where_creases_roll), cmocka_unit_test(verdicts), cmocka_unit_test(every_frame_is_made),  cmocka_unit_test(hard_places),
+        cmocka_unit_test(where_creases_roll), cmocka_unit_test(curve_without_memory), cmocka_unit_test(verdicts), cmocka_unit_test(every_frame_is_made),  cmocka_unit_test(hard_places),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
