@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-const int rg_relaxed_percent[RG_RELAXED_PERCENTS] = {10, 25, 50, 75, 90};
+const int rg_relaxed_percent[RG_RELAXED_PERCENTS] = {10, 25, 50, 75, 90, 100};
 /* Changes above this, radians, are of paths that went different ways, and show no order. */
 static const double SAME_WAY = 0.5;
 /* Runs that take longer, in seconds, are the last; what is quicker is repeated while all its runs take less. */

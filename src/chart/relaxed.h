@@ -11,7 +11,7 @@
 #include "chart/run.h"
 #include "motion/search.h"
 
-enum { RG_REASON = 240, RG_RELAXED_POINTS = 9, RG_RELAXED_DEFAULT = 1, RG_RELAXED_PERCENTS = 5 };
+enum { RG_REASON = 240, RG_RELAXED_POINTS = 9, RG_RELAXED_DEFAULT = 1, RG_RELAXED_PERCENTS = 6 };
 
 typedef struct rg_relaxed {
     rg_memory mem;

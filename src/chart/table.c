@@ -171,7 +171,7 @@ static void off_on_the_way(const rg_relaxed *R, FILE *out)
 {
     fputs(" On the way:\n\n| percent |", out);
     for (int j = 0; j < RG_RELAXED_PERCENTS; j++) fprintf(out, " %d |", rg_relaxed_percent[j]);
-    fputs("\n|---|---|---|---|---|---|\n| angles, rad |", out);
+    fputs("\n|---|---|---|---|---|---|---|\n| angles, rad |", out);
     for (int j = 0; j < RG_RELAXED_PERCENTS; j++) fputc(' ', out), brief(R->off[j], out), fputs(" |", out);
     fputs("\n| pattern, of the sheet |", out);
     for (int j = 0; j < RG_RELAXED_PERCENTS; j++) fputc(' ', out), brief(R->pattern_off[j], out), fputs(" |", out);
