@@ -18,7 +18,7 @@ enum { MOST_NODES = 12000, NODES_OF_ENDS = 32 };
 typedef struct track { rg_frames rho, pattern; } track;
 
 /* One system's counters, in products with its A: two multiplications and additions a number, as for C. */
-static double passes(const rg_step *A)
+static double passes(const rg_least *A)
 {
     const double pass = 2.0 * A->start[A->columns];
     return 2 * (double)(A->solves + A->iterations) +
@@ -28,7 +28,7 @@ static double passes(const rg_step *A)
 /* Of the whole A, whichever system was solved. */
 static double all_passes(const rg_relax *F)
 {
-    const rg_step *A = &F->J.A, *by_orbits = &F->orbits.A;
+    const rg_least *A = &F->J.A, *by_orbits = &F->orbits.A;
     const double whole = A->start[A->columns], orbits = F->by_orbits ? by_orbits->start[by_orbits->columns] : 0;
     return RG_ASSEMBLY_PASSES * (double)F->assemblies + passes(A) + (orbits > 0 ? passes(by_orbits) * orbits / whole : 0);
 }
@@ -113,7 +113,7 @@ static rg_status fold(const rg_attempt *best, const rg_settings *settings, doubl
     r->seconds = rg_seconds() - begun;
     if (status == RG_OK) {
         const int folded = F.outcome == RG_FOLDED && (F.landed || !best->backwards);
-        const rg_step *A = &F.J.A, *by_orbits = &F.orbits.A;
+        const rg_least *A = &F.J.A, *by_orbits = &F.orbits.A;
         r->outcome = folded ? RG_FOLDED : RG_STOPPED;
         r->percent = 100 * F.s;
         r->steps = steps;
