@@ -129,7 +129,8 @@ static inline double path_wrong(const rg_motion *m)
     for (int32_t i = 0; i < m->mesh.N; i++) {
         rg_crease c;
         if (rg_motion_crease(m, i, &c) != RG_OK || c.added || isnan(c.target) || c.target == 0) continue;
-        for (int32_t k = 0; k < rg_motion_report(m)->frame_count; k++) most = fmax(most, -copysign(1, c.target) * rg_motion_angles(m, k)[i]);
+        for (int32_t k = 0; k < rg_motion_report(m)->frame_count; k++)
+            most = fmax(most, -copysign(1, c.target) * rg_motion_angles(m, k)[i]);
     }
     return most / RG_DEG;
 }

@@ -127,13 +127,17 @@ static void curves(const rg_chart *c, const axes *a, int in_passes, FILE *out)
 static void pattern_curve(const rg_chart *c, const axes *a, int in_passes, FILE *out)
 {
     for (int marks = 0; marks < 2; marks++) {
-        if (!marks) fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"20\" stroke-dasharray=\"25 45\" points=\"", COLOUR[RG_METHOD_RELAXED]);
+        if (!marks)
+            fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"20\" stroke-dasharray=\"25 45\" points=\"",
+                    COLOUR[RG_METHOD_RELAXED]);
         for (int32_t i = 1; i <= c->relaxed.points; i++) {
             const rg_run *r = &c->run[i];
             if (!is_drawn(c, r) || !(r->pattern_error > 0)) continue;
             const int x = across(a, cost(r, in_passes)), y = down(a, r->pattern_error);
-            if (marks) fprintf(out, "<circle cx=\"%d\" cy=\"%d\" r=\"62\" fill=\"white\" stroke=\"%s\" stroke-width=\"20\"/>\n", x, y, COLOUR[RG_METHOD_RELAXED]);
-            else fprintf(out, "%d,%d ", x, y);
+            if (!marks) fprintf(out, "%d,%d ", x, y);
+            else
+                fprintf(out, "<circle cx=\"%d\" cy=\"%d\" r=\"62\" fill=\"white\" stroke=\"%s\" stroke-width=\"20\"/>\n", x, y,
+                        COLOUR[RG_METHOD_RELAXED]);
         }
         if (!marks) fputs("\"/>\n", out);
     }
@@ -164,7 +168,8 @@ static void legend(const rg_chart *c, FILE *out)
         y += 210;
     }
     if (c->relaxed.folds) {
-        fprintf(out, "<path d=\"M%d %dh360\" stroke=\"%s\" stroke-width=\"20\" stroke-dasharray=\"25 45\"/>\n", x, y, COLOUR[RG_METHOD_RELAXED]);
+        fprintf(out, "<path d=\"M%d %dh360\" stroke=\"%s\" stroke-width=\"20\" stroke-dasharray=\"25 45\"/>\n", x, y,
+                COLOUR[RG_METHOD_RELAXED]);
         text(x + 440, y + 45, "start", 130, out);
         fprintf(out, "pattern, of the sheet</text>\n");
         y += 210;

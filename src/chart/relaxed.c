@@ -64,7 +64,8 @@ static rg_status begin(rg_relax *F, const rg_attempt *best, const rg_settings *s
     rg_status status = from && to ? rg_relax_init(F, &best->mesh, s, &best->relax->how, best->backwards ? from : NULL, to) : RG_ENOMEM;
     if (status == RG_OK && best->symmetry) status = rg_relax_keep(F, best->symmetry);
     if (status == RG_OK) {
-        double *node = rg_mem_array(&F->mem, (size_t)F->n * MOST_NODES, sizeof *node), *node_s = rg_mem_array(&F->mem, MOST_NODES, sizeof *node_s);
+        double *node = rg_mem_array(&F->mem, (size_t)F->n * MOST_NODES, sizeof *node);
+        double *node_s = rg_mem_array(&F->mem, MOST_NODES, sizeof *node_s);
         if (node) memcpy(node, F->node, (size_t)F->n * (size_t)F->nodes * sizeof *node);
         if (node_s) memcpy(node_s, F->node_s, (size_t)F->nodes * sizeof *node_s);
         rg_mem_free(&F->mem, F->node);
