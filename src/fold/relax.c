@@ -27,7 +27,7 @@ static double progress(const rg_relax *F, const double *rho, double *least)
 
 static rg_status make_room(rg_relax *F)
 {
-    const size_t N = (size_t)F->N, n = (size_t)F->n, room = (size_t)MOST_STEPS + 2 * (size_t)END_NODES + 4;
+    const size_t N = (size_t)F->N, n = (size_t)F->n, room = (size_t)MOST_STEPS + 2 * (size_t)END_NODES + 6;
     double **of_creases[] = {&F->from, &F->target, &F->slope, &F->end, &F->pull};
     double **of_both[] = {&F->z, &F->trial, &F->wish, &F->dz, &F->scale, &F->chord, &F->g, &F->t};
     int ok = (F->held = rg_mem_array(&F->mem, N, 1)) != NULL;
@@ -365,6 +365,25 @@ void rg_relax_wish_and_step(rg_relax *F)
     project(F, 0);
 }
 
+static int close_at(rg_relax *F, double s, double *z, double *best);
+
+/* Does the path between z and trial stay on their branch? The middle of their chord, closed at its progress, must lie as near to the chord
+ * as a step to its prediction; where it does not, states between are not shown to be of one branch, and the step is too long. */
+static int chord_holds(rg_relax *F)
+{
+    const size_t n = (size_t)F->n;
+    double *spare = F->node + (size_t)F->nodes * n, *middle = spare + n, *best = middle + n, least;
+    if (F->nodes < 2) return 1; /* the path has not begun */
+    const double size = turned(F, F->z, F->trial), s = (F->s + progress(F, F->trial, &least)) / 2;
+    memcpy(spare, F->scale, n * sizeof *spare);
+    for (size_t i = 0; i < n; i++) middle[i] = (F->z[i] + F->trial[i]) / 2;
+    int holds = close_at(F, s, middle, best);
+    for (int32_t i = 0; holds && i < F->N; i++)
+        holds = fabs(middle[i] - (F->z[i] + F->trial[i]) / 2) <= FARTHEST_CORRECTION * size / 2 + LITTLE;
+    memcpy(F->scale, spare, n * sizeof *spare);
+    return holds;
+}
+
 static int advance(rg_relax *F)
 {
     const int evenly = F->symmetry != NULL;
@@ -382,7 +401,7 @@ static int advance(rg_relax *F)
         const double most = 1.5 * F->step * F->h;
         double f = longest > most ? most / longest : 1;
         int32_t halving = 0;
-        while (!try_step(F, f, longest) || (is_last && goes_beyond(F))) {
+        while (!try_step(F, f, longest) || (is_last && goes_beyond(F)) || !chord_holds(F)) {
             if (++halving > HALVINGS) return 0;
             f /= 2;
         }
