@@ -165,7 +165,8 @@ static void crossing_is_refused(void **state)
     rg_diag why = {0, ""};
     rg_pattern *p = pattern_named("waterbomb");
     rg_motion *m = NULL;
-    const rg_settings s = rg_settings_default();
+    rg_settings s = rg_settings_default();
+    s.contact = RG_CONTACT_REPORT; /* the motion that crosses, not one that was found to be free */
     assert_int_equal(rg_motion_create(p, &s, NULL, NULL, &m, &why), RG_OK);
     assert_int_equal(rg_motion_write(m, written, NULL, &why), RG_OK);
     rg_certificate *c = judge(p);

@@ -274,14 +274,14 @@ static int is_limited(const rg_relax *F) { return F->s >= FREE_UNTIL; }
 
 static void make_wish(rg_relax *F)
 {
-    const double ds = F->step * F->h / RG_PI;
+    const double ds = F->step * F->h / RG_PI, part = fmin(1, F->step / USUAL_STEP); /* ways back are paced by the step, too */
     rg_limit_pull(&F->limit, F->z, F->pull);
     for (int32_t i = 0; i < F->N; i++) {
         F->scale[i] = 1;
         F->held[i] = 0;
         F->wish[i] = 0;
         if (isnan(F->target[i]) || i >= F->limit.first_added) {
-            F->wish[i] = BACK * F->pull[i];
+            F->wish[i] = BACK * part * F->pull[i];
             continue;
         }
         const double left = F->target[i] - F->z[i], all = way(F, i);
@@ -289,12 +289,12 @@ static void make_wish(rg_relax *F)
         F->wish[i] = on_the_way ? ds * all : NEAR_PART * F->h * left;
         if (F->s >= WRONG_FROM && left * all > 0 && fabs(left) > fabs(all)) F->scale[i] = WRONG_GIVES;
         if (is_limited(F) && F->pull[i] != 0) {
-            F->wish[i] = BACK * F->pull[i];
+            F->wish[i] = BACK * part * F->pull[i];
             F->scale[i] = BEYOND_GIVES;
         }
     }
     rg_adjust_wish(&F->adjust, F->z, F->how.gain, F->wish + F->N);
-    for (int32_t i = F->N; i < F->n; i++) F->wish[i] = RETURN * (F->wish[i] - F->z[i]);
+    for (int32_t i = F->N; i < F->n; i++) F->wish[i] = RETURN * part * (F->wish[i] - F->z[i]);
 }
 
 static void hold(rg_relax *F, int32_t i)

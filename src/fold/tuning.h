@@ -15,7 +15,8 @@
 static const double FREE_UNTIL = 0.03, WRONG_FROM = 0.02;
 /* A crease this near its target (radians) slows down; how much of what is left it wishes for in a full step. */
 static const double NEAR = 0.03, NEAR_PART = 0.9;
-/* Part of the way back to where it wishes to be that the pattern goes in a step. */
+/* Part of the way back to where it wishes to be that the pattern goes in a step of the usual length, radians; in shorter ones it is less. */
+static const double USUAL_STEP = 5 * RG_DEG;
 static const double RETURN = 0.5;
 /* What a held crease gives way, against any other; how far beyond half a turn one may be, radians. */
 static const double HELD_GIVES = 3e-4, BEYOND = 0.05 * RG_DEG;

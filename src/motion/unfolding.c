@@ -115,7 +115,7 @@ static rg_status unfold(rg_search *c, const rg_mesh *none, const rg_settings *s,
         status = take_over(&t, &u, none, s, wish.shorter, why);
         if (status == RG_OK) status = first_crossing(&t, &crossing);
         /* A part of the way is to be one of creases that have all left flat. */
-        if (status == RG_OK && crossing < 0 && (t.strays == 0 || c->best.outcome != RG_FOLDED)) adopt(c, &t, &u);
+        if (status == RG_OK && crossing < 0 && rg_search_is_folded(&t)) adopt(c, &t, &u);
     }
     c->cost.seconds += rg_seconds() - begun;
     rg_attempt_free(&t);
