@@ -65,8 +65,7 @@ END {
     if (moves) {
         printf "%d of those that fold as usual do so with their vertices moved on the way: by %.1f %% of the sheet in the middle one,\n",
             moves, 100 * moved[middle]
-        printf "by %.1f %% in the one that needs most; the line stretched or shortened most is so by %.0f %% and %.0f %%.\n\n",
-            100 * moved[moves], 100 * stretched[middle], 100 * stretched[moves]
+        printf "by %.1f %% in the one that needs most; the paper itself is never stretched.\n\n", 100 * moved[moves]
     }
     print "## As usual\n"
     print "N: creases. Closed: closed vertices (3.1). Moved: the largest displacement of a vertex, over the sheet's size. Stretched: the"

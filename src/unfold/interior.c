@@ -19,14 +19,14 @@ rg_status rg_interior_reserve(rg_interior *q, int32_t m, int32_t k)
 {
     if (m <= q->rows && k <= q->ways) return RG_OK;
     const rg_memory mem = q->mem;
-    const double work = q->work;
+    const rg_interior had = *q;
     if (m > q->rows) m += m / 2;
     else m = q->rows;
     if (k > q->ways) k += k / 2;
     else k = q->ways;
     rg_interior_free(q);
     q->mem = mem;
-    q->work = work;
+    q->work = had.work, q->most_work = had.most_work, q->stop = had.stop, q->ctx = had.ctx;
     const size_t rows = rg_interior_stride(m), ways = rg_interior_stride(k), most = (rows > ways ? rows : ways) + PAD;
     q->F = rg_mem_array(&mem, rows * ways, sizeof *q->F);
     q->S = rg_mem_array(&mem, rows * ways, sizeof *q->S);
@@ -168,7 +168,7 @@ void rg_interior_solve(rg_interior *q, int32_t m, int32_t k)
     for (; q->iterations < ITERATIONS; q->iterations++) {
         const double most = off(&p), mu = dot(m, q->x, q->slack) / m;
         if (mu < COMPLEMENTARY * scale * scale && most < KEPT * scale) break;
-        if (!factor(&p)) break;
+        if ((q->most_work > 0 && q->work > q->most_work) || (q->stop && q->stop(q->ctx, 0)) || !factor(&p)) break;
         for (int32_t i = 0; i < m; i++) q->both[i] = -q->slack[i];
         newton(&p); /* predictor */
         const double a = fmin(farthest(m, q->x, q->dx, 1), farthest(m, q->slack, q->dslack, 1));

@@ -22,7 +22,9 @@ typedef struct rg_interior {
     double *v;               /* [ways] out: F^T x */
     double *dx, *dslack, *residual, *both, *small;
     int32_t iterations;      /* of the last call */
-    double work;             /* of all calls: multiplications */
+    double work, most_work;  /* of all calls: multiplications; what ends one, 0: nothing */
+    int (*stop)(void *ctx, double done); /* NULL: nobody asks; non-zero: solve ends with what it has, and so does every call after it */
+    void *ctx;
 } rg_interior;
 
 /* Makes room for m rows of k ways, keeping nothing. RG_ENOMEM. A zeroed struct with mem set is empty. */

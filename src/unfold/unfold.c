@@ -183,6 +183,15 @@ static rg_status finish(rg_unfold *u, const double *z)
     return s == RG_OK ? keep(u, u->scratch) : s;
 }
 
+/* What ends it: the budget, also within one long solve, and who watches. */
+static void watch(rg_stride *s, double budget, const rg_unfold_wish *wish)
+{
+    s->budget = budget;
+    s->q.q.most_work = s->q.q.work + fmax(budget, 1);
+    s->q.q.stop = wish->stop;
+    s->q.q.ctx = wish->ctx;
+}
+
 /* Lands from z, then unfolds it: the path from the end to flat. */
 static rg_status walk(rg_unfold *u, const rg_end *end, const double *z, const double *target, double budget,
                       const rg_unfold_wish *wish, int *through)
@@ -192,7 +201,7 @@ static rg_status walk(rg_unfold *u, const rg_end *end, const double *z, const do
     *through = 0;
     u->count = 0;
     rg_status status = rg_stride_init(&s, &u->mem, &u->P, &end->sides, end, z, target);
-    s.budget = budget;
+    watch(&s, budget, wish);
     if (status == RG_OK) status = rg_landing_run(&s, end->z, keep, u, &left);
     const double landing = s.work + s.q.work + s.q.q.work;
     rg_stride_free(&s);
@@ -204,7 +213,7 @@ static rg_status walk(rg_unfold *u, const rg_end *end, const double *z, const do
     if (status == RG_OK) status = keep(u, z);
     u->opened = progress_of(u, z);
     if (status == RG_OK) status = rg_stride_init(&s, &u->mem, &u->P, &end->sides, end, z, target);
-    s.budget = budget - landing;
+    watch(&s, budget - landing, wish);
     while (status == RG_OK && s.state == RG_STRIDE_GOES && !is_stopped(wish, s.mean)) {
         const int32_t steps = s.steps;
         status = rg_stride_take(&s);
@@ -256,7 +265,7 @@ static rg_status forwards(rg_unfold *u, double budget, const rg_unfold_wish *wis
     if (status == RG_OK && rg_stride_close(&u->P, &u->q, z, 1e-11, READ_NEWTON)) {
         status = rg_stride_init(&s, &u->mem, &u->P, NULL, NULL, z, target);
         if (status == RG_OK) status = keep(u, z);
-        s.budget = budget;
+        watch(&s, budget, wish);
         while (status == RG_OK && s.state == RG_STRIDE_GOES && !is_stopped(wish, s.mean)) {
             const int32_t steps = s.steps;
             status = rg_stride_take(&s);
@@ -294,6 +303,7 @@ static rg_status attempt(rg_unfold *u, const try_ *t, double budget, const rg_un
     if (s == RG_OK) {
         for (int32_t i = 0; i < u->P.N; i++) target[i] = u->end[i] == 0 ? NAN : 0;
         const double before = u->q.work + u->q.q.work;
+        u->q.q.most_work = u->q.q.work + fmax(budget, 1);
         s = rg_open(&u->P, &end, &t->open, budget, &near, &u->q, z, &opened);
         const double spent = u->q.work + u->q.q.work - before;
         u->work += spent;
@@ -352,6 +362,7 @@ rg_status rg_unfold_run(rg_unfold *u, const rg_memory *mem, const rg_mesh *none,
     u->mesh.size = 1;
     s = rg_linkage_init(&u->P, mem, &u->mesh);
     if (s == RG_OK) s = rg_nearest_init(&u->q, mem, &u->P);
+    u->q.q.stop = wish->stop, u->q.q.ctx = wish->ctx;
     if (s == RG_OK) s = rg_plates_init(&u->mesh, &u->plates);
     if (s == RG_OK) s = rg_contact_work_init(&u->plates, &u->look);
     if (s != RG_OK) return s;
