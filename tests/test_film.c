@@ -406,8 +406,10 @@ static void films_go_as_they_are_told(void **state)
             GraphicsControlBlock control;
             assert_int_equal(DGifSavedExtensionToGCB(g, k, &control), GIF_OK);
             hundredths += control.DelayTime;
-            for (int j = 0; j < g->SavedImages[k].ExtensionBlockCount; j++)
-                forever |= memcmp(g->SavedImages[k].ExtensionBlocks[j].Bytes, "NETSCAPE", 8) == 0;
+            for (int j = 0; j < g->SavedImages[k].ExtensionBlockCount; j++) {
+                const ExtensionBlock *b = &g->SavedImages[k].ExtensionBlocks[j];
+                forever |= b->ByteCount >= 8 && memcmp(b->Bytes, "NETSCAPE", 8) == 0;
+            }
         }
         near(hundredths, 100.0 * last[i] / RATE, 1);
         assert_int_equal(forever, loops[i] != RG_LOOP_ONCE);
