@@ -417,3 +417,14 @@ int32_t rg_layers_levels(const rg_layers *l, int32_t *level, int32_t *cuts)
     if (cuts) *cuts = cut;
     return top + 1;
 }
+
+const char *rg_layers_state_name(rg_layers_state s)
+{
+    switch (s) {
+    case RG_LAYERS_VALID: return "valid";
+    case RG_LAYERS_NONE: return "none";
+    case RG_LAYERS_UNSOLVED: return "unsolved";
+    case RG_LAYERS_NOT_FLAT: return "not flat";
+    }
+    return "";
+}

@@ -50,4 +50,7 @@ int rg_layers_above_of_mesh(const rg_layers *l, int32_t i, int32_t j);
  * round: `cuts` (may be NULL) says how often. Two facets that overlap still have different levels. RG_ENOMEM: -1. */
 int32_t rg_layers_levels(const rg_layers *l, int32_t *level, int32_t *cuts);
 
+/* As the report says it. */
+const char *rg_layers_state_name(rg_layers_state s);
+
 #endif

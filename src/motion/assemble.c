@@ -175,13 +175,7 @@ static void tell(rg_motion *m, const rg_states *q)
     r->method = last->method, r->solver = last->solver;
     r->triangulation = m->mesh.added ? "all" : "none";
     r->why_triangulated = m->mesh.added ? "stops short without added creases" : "goes without added creases";
-    r->tries = q->tries;
-    r->steps = q->cost.steps, r->solves = q->cost.solves, r->cg_iterations = q->cost.iterations;
-    r->factorizations = q->cost.factorizations, r->assemblies = q->cost.assemblies;
-    r->seconds_solving = q->cost.seconds;
-    r->added_creases = m->mesh.added;
-    r->unknowns = m->mesh.N;
-    r->constraints = 3 * m->mesh.M;
+    rg_search_tell(m, q->tries, &q->cost);
     snprintf(r->strategy, sizeof r->strategy, "%s%s", q->by_flat_count == 0 ? "directly from state to state" : q->by_flat_count == q->count - 1 ? "through flat" : "directly and through flat",
              r->adjust_gain > 0 || r->compliance > 0 ? ", the pattern gives way" : "");
 }

@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <string.h>
 
-
 void rg_attempt_free(rg_attempt *t)
 {
     if (!t->mem.resize) return;

@@ -76,13 +76,7 @@ static rg_status adopt(rg_motion *m, rg_search *c)
     r->triangulation = c->triangulation;
     r->why_triangulated = c->why_triangulated;
     snprintf(r->strategy, sizeof r->strategy, "%s", c->strategy);
-    r->tries = c->tries;
-    r->steps = c->cost.steps, r->solves = c->cost.solves, r->cg_iterations = c->cost.iterations;
-    r->factorizations = c->cost.factorizations, r->assemblies = c->cost.assemblies;
-    r->seconds_solving = c->cost.seconds;
-    r->added_creases = m->mesh.added;
-    r->unknowns = m->mesh.N;
-    r->constraints = 3 * m->mesh.M;
+    rg_search_tell(m, c->tries, &c->cost);
 
     m->frame = rg_mem_array(&m->mem, (size_t)r->frame_count, sizeof *m->frame);
     m->blocking_at = rg_mem_array(&m->mem, (size_t)r->blocking_vertex_count, sizeof *m->blocking_at);

@@ -83,17 +83,6 @@ static rg_status choose(rg_motion *m, double *rho)
     return s;
 }
 
-static const char *state_name(rg_layers_state s)
-{
-    switch (s) {
-    case RG_LAYERS_VALID: return "valid";
-    case RG_LAYERS_NONE: return "none";
-    case RG_LAYERS_UNSOLVED: return "unsolved";
-    case RG_LAYERS_NOT_FLAT: return "not flat";
-    }
-    return "";
-}
-
 rg_status rg_ending_find(rg_motion *m, rg_diag *why)
 {
     double *angle = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *angle);
@@ -105,7 +94,7 @@ rg_status rg_ending_find(rg_motion *m, rg_diag *why)
     s = rg_layers_of_mesh(&m->mesh, angle, &m->mem, &m->layers, why);
     if (s == RG_OK) {
         rg_layers_get_info(m->layers, &info);
-        m->report.layers = state_name(info.state);
+        m->report.layers = rg_layers_state_name(info.state);
         m->report.layer_orders = info.count;
         m->report.layers_reason = m->layers->info.reason;
         if (info.state == RG_LAYERS_VALID) s = choose(m, angle);

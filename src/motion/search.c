@@ -55,6 +55,18 @@ void rg_cost_add(rg_cost *sum, const rg_cost *c)
     sum->seconds += c->seconds;
 }
 
+void rg_search_tell(rg_motion *m, int32_t tries, const rg_cost *cost)
+{
+    rg_report *r = &m->report;
+    r->tries = tries;
+    r->steps = cost->steps, r->solves = cost->solves, r->cg_iterations = cost->iterations;
+    r->factorizations = cost->factorizations, r->assemblies = cost->assemblies;
+    r->seconds_solving = cost->seconds;
+    r->added_creases = m->mesh.added;
+    r->unknowns = m->mesh.N;
+    r->constraints = 3 * m->mesh.M;
+}
+
 /* ------------------------------------------------------------------------------------------- which is better ---- */
 
 static int rank(const rg_attempt *t) { return t->outcome == RG_STOPPED ? 0 : t->overfold > OVERFOLD || t->strays > 0 ? 1 : 2; }

@@ -35,5 +35,7 @@ rg_status rg_search_run(rg_search *q, const rg_problem *p, const rg_settings *s,
 /* Is t what was asked for, with no crease past half a turn and none left behind? */
 int rg_search_is_folded(const rg_attempt *t);
 void rg_cost_add(rg_cost *sum, const rg_cost *c);
+/* Fills what m->report says of the effort and of the size of m->mesh. */
+void rg_search_tell(rg_motion *m, int32_t tries, const rg_cost *cost);
 
 #endif

@@ -178,3 +178,14 @@ double rg_pose_strain(const rg_mesh *m, const rg_vec2 *X, const rg_vec3 *x)
     }
     return worst;
 }
+
+rg_vec3 rg_pose_area(const rg_mesh *m, int32_t f, const rg_vec3 *x)
+{
+    const int32_t first = m->facet_start[f], last = m->facet_start[f + 1];
+    const rg_vec3 base = x[m->facet_vertex[first]];
+    rg_vec3 n = {0, 0, 0};
+    for (int32_t j = first + 1; j + 1 < last; j++)
+        n = rg_vec3_add(n, rg_vec3_cross(rg_vec3_sub(x[m->facet_vertex[j]], base),
+                                         rg_vec3_sub(x[m->facet_vertex[j + 1]], base)));
+    return rg_vec3_scale(0.5, n);
+}

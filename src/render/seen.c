@@ -26,15 +26,9 @@ void rg_seen_free(rg_seen *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Newell's normal: right for any facet, also where corners lie in a line. */
 static rg_vec3 normal_of(const rg_mesh *m, int32_t f, const rg_vec3 *x)
 {
-    const int32_t first = m->facet_start[f], last = m->facet_start[f + 1];
-    const rg_vec3 base = x[m->facet_vertex[first]];
-    rg_vec3 n = {0, 0, 0};
-    for (int32_t j = first + 1; j + 1 < last; j++)
-        n = rg_vec3_add(n, rg_vec3_cross(rg_vec3_sub(x[m->facet_vertex[j]], base),
-                                         rg_vec3_sub(x[m->facet_vertex[j + 1]], base)));
+    const rg_vec3 n = rg_pose_area(m, f, x);
     const double length = rg_vec3_length(n);
     return length > 0 ? rg_vec3_scale(1 / length, n) : (rg_vec3){0, 0, 1};
 }

@@ -117,22 +117,11 @@ typedef struct show {
     double wide, high;      /* of the picture */
 } show;
 
-static rg_vec3 area_of(const rg_mesh *m, int32_t f, const rg_vec3 *x)
-{
-    const int32_t first = m->facet_start[f], last = m->facet_start[f + 1];
-    const rg_vec3 base = x[m->facet_vertex[first]];
-    rg_vec3 n = {0, 0, 0};
-    for (int32_t j = first + 1; j + 1 < last; j++)
-        n = rg_vec3_add(n, rg_vec3_cross(rg_vec3_sub(x[m->facet_vertex[j]], base),
-                                         rg_vec3_sub(x[m->facet_vertex[j + 1]], base)));
-    return rg_vec3_scale(0.5, n);
-}
-
 static void look_at(const rg_mesh *m, const rg_vec3 *x, int last, show *s)
 {
     double rim = 0, rise = 0;
     for (int32_t f = 0; f < m->nf; f++) {
-        const rg_vec3 n = area_of(m, f, x);
+        const rg_vec3 n = rg_pose_area(m, f, x);
         const double a = rg_vec3_length(n), c[3] = {n.x, n.y, n.z};
         for (int i = 0; a > 0 && i < 3; i++)
             for (int j = 0; j < 3; j++) {

@@ -94,17 +94,6 @@ static void symmetry(rg_json *j, const rg_alike *a)
     rg_json_close(j);
 }
 
-static const char *state_name(rg_layers_state s)
-{
-    switch (s) {
-    case RG_LAYERS_VALID: return "valid";
-    case RG_LAYERS_NONE: return "none";
-    case RG_LAYERS_UNSOLVED: return "unsolved";
-    case RG_LAYERS_NOT_FLAT: return "not flat";
-    }
-    return "";
-}
-
 /* NULL: no sheet that could be folded. */
 static rg_status find_layers(const rg_pattern *p, rg_layers **l, rg_diag *why)
 {
@@ -119,7 +108,7 @@ static void layers(rg_json *j, const rg_pattern *p, const rg_layers *l)
     rg_layers_info i;
     if (!l) return;
     rg_layers_get_info(l, &i);
-    rg_json_string(j, "layers", state_name(i.state));
+    rg_json_string(j, "layers", rg_layers_state_name(i.state));
     rg_json_string(j, "layer_orders", i.state == RG_LAYERS_VALID ? i.count : NULL);
     rg_json_open_line(j, "layer_orders_by_part", '[');
     for (int32_t k = 0; k < i.parts; k++) rg_json_number(j, NULL, (double)rg_layers_part(l, k));
