@@ -40,7 +40,8 @@ pkgs += $(filter-out osmesa,$(gl_$(GL)))
 cppflags := -Iinclude -Isrc -D_XOPEN_SOURCE=700 -DRG_GL_$(GL)=1 -I/usr/include/suitesparse $(shell pkg-config --cflags $(pkgs) $(gl_$(GL)) 2>/dev/null)
 cflags   := -std=c11 -fPIC -fvisibility=hidden -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes \
             -Wmissing-prototypes -Wvla -Wpointer-arith -Wwrite-strings
-libs     := -lcamd -lsuitesparseconfig $(shell pkg-config --libs $(pkgs) 2>/dev/null) -lgif -lpthread -ldl -lm
+core_libs := -lcamd -lsuitesparseconfig -lpthread -lm
+libs     := $(shell pkg-config --libs $(pkgs) 2>/dev/null) -lgif -ldl $(core_libs)
 ifeq ($(GPL),1)
 cppflags += -DRG_GPL=1
 libs     := -lspqr -lcholmod -lgsl -lgslcblas $(libs)
@@ -72,6 +73,11 @@ cmd   := $(filter-out tools/make_%,$(sort $(wildcard tools/*.c)))
 tests := $(sort $(wildcard tests/test_*.c))
 bench := tests/bench/speed.c $(filter-out tests/bench/speed.c,$(sort $(wildcard tests/bench/*.c)))
 lib_o := $(src:%.c=$B/%.o)
+# The core: the rooms that know neither files nor pictures, and of them no part that a GPL library does. The same objects but for those.
+above  := read save generate verify files render write chart
+gpl    := src/linalg/rank.c src/linalg/qr.c
+core   := $(filter-out $(above:%=src/%/%),$(src))
+core_o := $(patsubst %.c,$B/%.o,$(filter-out $(gpl),$(core))) $(gpl:%.c=$B/core/%.o)
 cmd_o := $(cmd:%.c=$B/%.o)
 test_bin  := $(tests:%.c=$B/%)
 bench_bin := $(bench:%.c=$B/%)
@@ -82,7 +88,20 @@ jobs = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc 2>/dev/null
 all: build
 	@ln -sfn $B/rigami rigami
 
-build: $B/librigami.a $B/librigami.so $B/rigami
+# Shared libraries: on macOS (not tried here) they are called otherwise, know where they are installed, and what they export is told by
+# name alone, without versions.
+ifeq ($(shell uname -s),Darwin)
+so     := dylib
+so_at   = lib$1.$2.dylib
+shared  = -dynamiclib -install_name $(libdir)/$(call so_at,$1,$(SOVERSION)) -compatibility_version $(SOVERSION) \
+          -current_version $(VERSION) -Wl,-exported_symbol,'_rg_*'
+else
+so     := so
+so_at   = lib$1.so.$2
+shared  = -shared -Wl,-soname,$(call so_at,$1,$(SOVERSION)) -Wl,--no-undefined -Wl,--as-needed -Wl,--version-script=tools/install/lib$1.map
+endif
+
+build: $B/librigami.a $B/librigami.$(so) $B/librigami-core.a $B/librigami-core.$(so) $B/rigami
 
 $B/%.o: %.c
 	@mkdir -p $(@D)
@@ -98,14 +117,26 @@ $B/made/write/page.h: src/write/page.html
 $B/src/write/html.o: $B/made/write/page.h
 $B/src/write/html.o: cppflags += -I$B/made
 
+$B/core/%.o: %.c
+	@mkdir -p $(@D)
+	$(call say,cc,$< (core))
+	$Q$(compile) -URG_GPL -MMD -MP -c -o $@ $<
+
 $B/librigami.a: $(lib_o)
+$B/librigami-core.a: $(core_o)
+$B/librigami.a $B/librigami-core.a:
 	@rm -f $@
 	$(call say,ar,$@)
 	$Qar rcs $@ $^
 
-$B/librigami.so: $(lib_o)
+$B/librigami.$(so): $(lib_o) tools/install/librigami.map
 	$(call say,link,$@)
-	$Q$(link) -shared -Wl,-soname,librigami.so.$(SOVERSION) -Wl,--no-undefined -o $@ $^ $(libs) $(LDLIBS)
+	$Q$(link) $(call shared,rigami) -o $@ $(lib_o) $(libs) $(LDLIBS)
+
+# That this links says that no room of the core needs one above it.
+$B/librigami-core.$(so): $(core_o) tools/install/librigami-core.map
+	$(call say,link,$@)
+	$Q$(link) $(call shared,rigami-core) -o $@ $(core_o) $(core_libs) $(LDLIBS)
 
 $B/rigami: $(cmd_o) $B/librigami.a
 	$(call say,link,$@)

@@ -1,6 +1,7 @@
-/* pattern/convert.c, save: what is kept from format to format, what is told to be lost, and that files appear whole. */
+/* files/convert.c, save: what is kept from format to format, what is told to be lost, and that files appear whole. */
 #include "corpus.h"
 #include "counted.h"
+#include "read/value.h"
 #include "reading.h"
 
 #include <dirent.h>

@@ -1,9 +1,9 @@
 /* drawing.h -- a pattern being drawn: lines in units of its own, then fitted to a sheet.
- * Uses  read/lines.h        Used by  every file of this room */
+ * Uses  lines/lines.h        Used by  every file of this room */
 #ifndef RG_DRAWING_H
 #define RG_DRAWING_H
 
-#include "read/lines.h"
+#include "lines/lines.h"
 
 typedef struct rg_drawing {
     rg_lines *lines;

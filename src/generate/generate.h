@@ -3,7 +3,7 @@
 #ifndef RG_GENERATE_H
 #define RG_GENERATE_H
 
-#include "read/lines.h"
+#include "lines/lines.h"
 
 /* What rg_generate writes. *out is initialised here, and left freed on failure; its title says what it is. */
 rg_status rg_generate_lines(const char *kind, int32_t n, int32_t m, double angle, const rg_memory *mem, rg_lines *out,

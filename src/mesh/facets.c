@@ -58,7 +58,7 @@ static int by_number(const void *a, const void *b)
 /* Facets are numbered as the file numbers its faces; those that it does not have come last. */
 static rg_status sort_facets(const rg_pattern *p, rg_mesh *m)
 {
-    if (m->nf == 0 || !p->source.frame || !rg_value_get(p->source.frame, "faces_vertices")) return RG_OK;
+    if (m->nf == 0 || p->source.faces == 0) return RG_OK;
     const size_t corners = (size_t)m->facet_start[m->nf];
     int32_t *was = rg_mem_array(&m->mem, (size_t)m->nf, sizeof *was), *old[3] = {m->facet_start, m->facet_vertex, m->facet_edge};
     place *at = rg_mem_array(&m->mem, (size_t)m->nf, sizeof *at);

@@ -7,7 +7,6 @@
 #include "pattern/points.h"
 #include "pattern/sheet.h"
 #include "pattern/source.h"
-#include "read/read.h"
 
 #include <string.h>
 
@@ -135,18 +134,4 @@ rg_status rg_pattern_from_lines(rg_lines *lines, const rg_settings *s, rg_patter
     p->lines.room = 0;
     *pattern = p;
     return RG_OK;
-}
-
-rg_status rg_pattern_parse(const void *bytes, size_t size, const rg_settings *s, rg_pattern **pattern, rg_diag *why)
-{
-    rg_lines lines;
-    rg_status status = rg_read_bytes(bytes, size, NULL, s, 1, &lines, why);
-    return status == RG_OK ? rg_pattern_from_lines(&lines, s, pattern, why) : status;
-}
-
-rg_status rg_pattern_read(const char *path, const rg_settings *s, rg_pattern **pattern, rg_diag *why)
-{
-    rg_lines lines;
-    rg_status status = rg_read_file(path, s, 1, &lines, why);
-    return status == RG_OK ? rg_pattern_from_lines(&lines, s, pattern, why) : status;
 }

@@ -1,5 +1,5 @@
 /* build.h -- from the lines of a file to the pattern that is folded, and what is known of it.
- * Uses  pattern.h        Used by  overlay.c, rigami.h's rg_pattern_read */
+ * Uses  pattern.h        Used by  overlay.c files/pattern.c */
 #ifndef RG_BUILD_H
 #define RG_BUILD_H
 

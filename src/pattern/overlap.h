@@ -1,5 +1,5 @@
 /* overlap.h -- lines drawn over each other: each stretch between two ends becomes that of one of them.
- * Uses  pattern.h read/lines.h        Used by  planar.c
+ * Uses  pattern.h lines/lines.h        Used by  planar.c
  *
  * Without this, n lines nested in one line are cut into n^2 pieces before all but n of them are dropped. */
 #ifndef RG_OVERLAP_H

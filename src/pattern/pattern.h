@@ -1,11 +1,11 @@
 /* pattern.h -- a crease pattern as a plane graph, and what is known of it before folding.
- * Paper    sections 1, 2, 3.1        Uses  read/lines.h        Used by  mesh, write */
+ * Paper    sections 1, 2, 3.1        Uses  lines/lines.h        Used by  mesh, write */
 #ifndef RG_PATTERN_H
 #define RG_PATTERN_H
 
 #include "base/memory.h"
 #include "base/vec.h"
-#include "read/lines.h"
+#include "lines/lines.h"
 
 typedef struct rg_edge {
     int32_t v[2];
@@ -23,7 +23,9 @@ typedef struct rg_source {
     int32_t *edge, *where; /* [ne] line of the drawing, from 0, and of the file, 0: none */
     int y_down;            /* as in rg_lines */
     char *memo;            /* NULL: none */
+    int32_t faces, *face_start, *face_vertex; /* that a FOLD file lists, as in rg_lines */
     rg_value *frame;       /* FOLD: all that the file says; NULL: no such file */
+    const rg_keeper *keeper; /* of that */
 } rg_source;
 
 /* The graph after merging, splitting, dropping loose ends and dissolving straight-through vertices: what is folded.

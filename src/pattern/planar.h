@@ -1,5 +1,5 @@
 /* planar.h -- lines as drawn to a plane graph: gaps closed, crossings and T-junctions split, doubles merged.
- * Uses  points.h overlap.h read/lines.h        Used by  layers, pattern */
+ * Uses  points.h overlap.h lines/lines.h        Used by  layers, pattern */
 #ifndef RG_PLANAR_H
 #define RG_PLANAR_H
 

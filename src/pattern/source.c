@@ -68,7 +68,12 @@ rg_status rg_source_init(rg_source *s, const rg_graph *g, rg_lines *lines)
     s->lines = lines->count;
     s->y_down = lines->y_down;
     s->frame = lines->frame;
+    s->keeper = lines->keeper;
+    s->faces = lines->faces;
+    s->face_start = lines->face_start;
+    s->face_vertex = lines->face_vertex;
     lines->frame = NULL;
+    lines->face_start = lines->face_vertex = NULL;
     if (lines->memo && !(s->memo = rg_mem_string(&g->mem, lines->memo))) return RG_ENOMEM;
     return RG_OK;
 }
@@ -87,9 +92,12 @@ rg_status rg_source_copy(const rg_source *s, const rg_memory *mem, rg_source *ou
     out->vertex = copied(mem, s->vertex, s->nv);
     out->edge = copied(mem, s->edge, s->ne);
     out->where = copied(mem, s->where, s->ne);
+    out->face_start = copied(mem, s->face_start, s->faces + 1);
+    out->face_vertex = copied(mem, s->face_vertex, s->face_start ? s->face_start[s->faces] : 0);
     out->memo = s->memo ? rg_mem_string(mem, s->memo) : NULL;
-    out->frame = rg_value_share(s->frame);
-    if (!s->vertex || (out->vertex && out->edge && out->where && (out->memo || !s->memo))) return RG_OK;
+    out->frame = s->frame ? s->keeper->share(s->frame) : NULL;
+    const int faces = !s->face_start || (out->face_start && out->face_vertex);
+    if (!s->vertex || (out->vertex && out->edge && out->where && faces && (out->memo || !s->memo))) return RG_OK;
     rg_source_free(out);
     return RG_ENOMEM;
 }
@@ -100,9 +108,11 @@ void rg_source_free(rg_source *s)
         rg_mem_free(&s->mem, s->vertex);
         rg_mem_free(&s->mem, s->edge);
         rg_mem_free(&s->mem, s->where);
+        rg_mem_free(&s->mem, s->face_start);
+        rg_mem_free(&s->mem, s->face_vertex);
         rg_mem_free(&s->mem, s->memo);
     }
-    rg_value_free(s->frame);
+    if (s->frame) s->keeper->free(s->frame);
     memset(s, 0, sizeof *s);
 }
 
@@ -137,8 +147,8 @@ static int32_t find_set(const face *list, int32_t n, uint64_t set)
     return low < n && list[low].set == set ? list[low].number : -1;
 }
 
-/* The file's faces as sets of those of its vertices that are still there. */
-static rg_status file_faces(const rg_source *s, const rg_value *faces, int32_t n, face *list)
+/* The file's faces as sets of those of its vertices that are still there. list[faces]: out */
+static rg_status file_faces(const rg_source *s, face *list)
 {
     int32_t most = -1;
     for (int32_t v = 0; v < s->nv; v++) most = s->vertex[v] > most ? s->vertex[v] : most;
@@ -146,27 +156,24 @@ static rg_status file_faces(const rg_source *s, const rg_value *faces, int32_t n
     if (!there) return RG_ENOMEM;
     for (int32_t v = 0; v < s->nv; v++)
         if (s->vertex[v] >= 0) there[s->vertex[v]] = 1;
-    for (int32_t f = 0; f < n; f++) {
-        const rg_value *row = rg_value_at(faces, (size_t)f);
+    for (int32_t f = 0; f < s->faces; f++) {
         list[f] = (face){0, f};
-        for (size_t k = 0; k < rg_value_count(row); k++) {
-            int64_t v;
-            if (rg_value_integer(rg_value_at(row, k), &v) && v >= 0 && v <= most && there[v]) list[f].set += mix((int32_t)v);
+        for (int32_t k = s->face_start[f]; k < s->face_start[f + 1]; k++) {
+            const int32_t v = s->face_vertex[k];
+            if (v <= most && there[v]) list[f].set += mix(v);
         }
     }
     rg_mem_free(&s->mem, there);
-    if (n > 0) qsort(list, (size_t)n, sizeof *list, by_set);
+    if (s->faces > 0) qsort(list, (size_t)s->faces, sizeof *list, by_set);
     return RG_OK;
 }
 
 rg_status rg_source_faces(const rg_source *s, int32_t nf, const int32_t *facet_start, const int32_t *facet_vertex, int32_t *source)
 {
-    const rg_value *faces = s->frame ? rg_value_get(s->frame, "faces_vertices") : NULL;
-    const size_t count = rg_value_count(faces);
     for (int32_t f = 0; f < nf; f++) source[f] = -1;
-    if (count == 0 || count > INT32_MAX || !s->vertex) return RG_OK;
-    face *list = rg_mem_array(&s->mem, count, sizeof *list);
-    const rg_status status = list ? file_faces(s, faces, (int32_t)count, list) : RG_ENOMEM;
+    if (s->faces == 0 || !s->vertex) return RG_OK;
+    face *list = rg_mem_array(&s->mem, (size_t)s->faces, sizeof *list);
+    const rg_status status = list ? file_faces(s, list) : RG_ENOMEM;
     for (int32_t f = 0; status == RG_OK && f < nf; f++) {
         uint64_t set = 0;
         int known = 1;
@@ -175,7 +182,7 @@ rg_status rg_source_faces(const rg_source *s, int32_t nf, const int32_t *facet_s
             known &= v < s->nv && s->vertex[v] >= 0;
             if (known) set += mix(s->vertex[v]);
         }
-        if (known) source[f] = find_set(list, (int32_t)count, set);
+        if (known) source[f] = find_set(list, s->faces, set);
     }
     rg_mem_free(&s->mem, list);
     return status;

@@ -1,5 +1,5 @@
 /* source.h -- which vertex, edge and face of the file each of ours is, so that its numbers, and what it says of them, hold.
- * Uses  planar.h read/lines.h        Used by  pattern.c, mesh/facets.c, motion, write/foldfile.c */
+ * Uses  planar.h lines/lines.h        Used by  pattern.c, mesh/facets.c, motion, write/foldfile.c */
 #ifndef RG_SOURCE_H
 #define RG_SOURCE_H
 

@@ -1,5 +1,5 @@
 /* lie.h -- the other way round: from positions to fold angles and places of facets.
- * Uses  pose.h        Used by  motion.c given.c */
+ * Uses  pose.h        Used by  motion, files/motion.c */
 #ifndef RG_LIE_H
 #define RG_LIE_H
 

@@ -1,6 +1,6 @@
 #include "read/colour.h"
 #include "base/number.h"
-#include "read/lines.h"
+#include "lines/lines.h"
 
 #include <math.h>
 #include <stdlib.h>

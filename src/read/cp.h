@@ -6,7 +6,7 @@
 #ifndef RG_CP_H
 #define RG_CP_H
 
-#include "read/lines.h"
+#include "lines/lines.h"
 
 /* *out is initialised here; on failure it is left freed. RG_EFORMAT: why->line, why->text. A line with a coordinate
  * that is not a finite number is dropped with a warning. */

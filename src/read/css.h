@@ -5,7 +5,7 @@
 #ifndef RG_CSS_H
 #define RG_CSS_H
 
-#include "read/lines.h"
+#include "lines/lines.h"
 #include "read/xml.h"
 
 typedef struct rg_rule { const char *selector, *body; size_t selector_n, body_n; int32_t weight; } rg_rule;

@@ -4,6 +4,7 @@
 #include "base/unit.h"
 #include "read/locate.h"
 #include "read/plane.h"
+#include "read/value.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -622,8 +623,13 @@ rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, con
         for (int i = 0; r.part[0] > 0 && i < 3; i++) rg_value_drop(r.frame, own[i]);
         out->vertex = r.E;
         out->frame = r.frame;
+        out->keeper = &RG_VALUE_KEEPER;
+        out->face_start = r.face_start;
+        out->face_vertex = r.face_vertex;
+        out->faces = r.nf;
         r.E = NULL;
         r.frame = NULL;
+        r.face_start = r.face_vertex = NULL;
     }
     forget(&r);
     rg_value_free(root);

@@ -9,7 +9,7 @@
 #ifndef RG_FOLD_READ_H
 #define RG_FOLD_READ_H
 
-#include "read/lines.h"
+#include "lines/lines.h"
 
 /* s: file_frame, flip, targets. `keep` non-zero: also lines.frame and lines.vertex. *out is initialised here; on
  * failure it is left freed. RG_EFORMAT: why->text begins with the place in the file's tree, why->line is the line of

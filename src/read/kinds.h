@@ -8,7 +8,7 @@
 #ifndef RG_KINDS_H
 #define RG_KINDS_H
 
-#include "read/lines.h"
+#include "lines/lines.h"
 
 /* A line that is left out, as its user wants it. */
 #define RG_LEFT_OUT '-'

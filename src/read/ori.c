@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "base/status.h"
 #include "read/locate.h"
+#include "read/value.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -8,7 +8,7 @@
 #ifndef RG_ORI_H
 #define RG_ORI_H
 
-#include "read/lines.h"
+#include "lines/lines.h"
 
 /* *out is initialised here; on failure it is left freed. RG_EFORMAT: why->text begins with the place in the file's tree; why->line. */
 rg_status rg_ori_read(const void *bytes, size_t size, const rg_memory *mem, rg_lines *out, rg_diag *why);

@@ -1,9 +1,9 @@
 /* read.h -- a crease pattern file of any format: which one it is, and its lines.
- * Uses  opx.h cp.h fold.h svg.h dxf.h ori.h kinds.h        Used by  given.c build.c convert.c */
+ * Uses  opx.h cp.h fold.h svg.h dxf.h ori.h kinds.h        Used by  files */
 #ifndef RG_READ_H
 #define RG_READ_H
 
-#include "read/lines.h"
+#include "lines/lines.h"
 
 /* The format of the bytes: by s->format, else by what they begin with, else by the extension of `path` (may be NULL).
  * RG_EFORMAT: none that is known, why->text says what it looks like. */

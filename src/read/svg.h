@@ -9,7 +9,7 @@
 #ifndef RG_SVG_H
 #define RG_SVG_H
 
-#include "read/lines.h"
+#include "lines/lines.h"
 
 /* settings: targets (opacities are fold angles), kind. *out is initialised here; on failure it is left freed. RG_EFORMAT:
  * why->line, why->text. Loads nothing from anywhere. */

@@ -21,6 +21,7 @@ rg_status rg_value_parse(const void *bytes, size_t size, rg_value **root, rg_dia
 
 void rg_value_free(rg_value *v) { json_decref(v); }
 rg_value *rg_value_share(rg_value *v) { return json_incref(v); }
+const rg_keeper RG_VALUE_KEEPER = {rg_value_share, rg_value_free};
 
 rg_kind rg_value_kind(const rg_value *v)
 {

@@ -1,11 +1,9 @@
 /* value.h -- a JSON text as a tree of values.
- * Uses  jansson        Used by  fold.c save/fold.c */
+ * Uses  jansson, lines.h        Used by  fold.c save/fold.c files write/foldfile.c */
 #ifndef RG_VALUE_H
 #define RG_VALUE_H
 
-#include "rigami.h"
-
-typedef struct json_t rg_value; /* known by name only: the library's header stays in value.c */
+#include "lines/lines.h"
 
 typedef enum rg_kind {
     RG_KIND_NONE,
@@ -24,6 +22,8 @@ rg_status rg_value_parse(const void *bytes, size_t size, rg_value **root, rg_dia
 void rg_value_free(rg_value *v);
 /* The same value for another owner, who frees it too. */
 rg_value *rg_value_share(rg_value *v);
+/* These two, for who holds a value without knowing it. */
+extern const rg_keeper RG_VALUE_KEEPER;
 
 /* All of these take NULL, which is of kind RG_KIND_NONE and has nothing in it. */
 rg_kind rg_value_kind(const rg_value *v);

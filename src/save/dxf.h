@@ -1,5 +1,5 @@
 /* dxf.h -- line segments to AutoCAD's exchange format (R12, text), for cutters.
- * Used by  pattern/convert.c write/dxffile.c
+ * Used by  files/convert.c write/dxffile.c
  *
  * A layer a kind, so that a cutter can be told what to do with each: cut (border and slits, solid), score-mountain (dash dot),
  * score-valley (dashes), score-unassigned (dots), aux (thin dashes). Colours are those of ORIPA today: 3, 1, 5, 6, 8. $INSUNITS is
@@ -7,7 +7,7 @@
 #ifndef RG_SAVE_DXF_H
 #define RG_SAVE_DXF_H
 
-#include "read/lines.h"
+#include "lines/lines.h"
 #include <stdio.h>
 
 /* Writes n lines to an open file; metres: in a unit of theirs, 0: not known. */

@@ -2,6 +2,7 @@
 #include "base/file.h"
 #include "base/json.h"
 #include "base/unit.h"
+#include "read/value.h"
 
 #include <string.h>
 

@@ -1,10 +1,10 @@
 /* fold.h -- a crease pattern to FOLD 1.2.
- * Uses  base/json.h read/value.h        Used by  pattern/convert.c write/foldfile.c */
+ * Uses  base/json.h read/value.h        Used by  files/convert.c write/foldfile.c */
 #ifndef RG_SAVE_FOLD_H
 #define RG_SAVE_FOLD_H
 
 #include "base/json.h"
-#include "read/lines.h"
+#include "lines/lines.h"
 
 /* The lines as a plane graph, with faces; all lent. */
 typedef struct rg_fold_sheet {

@@ -3,7 +3,7 @@
 #ifndef RG_SAVE_OPX_H
 #define RG_SAVE_OPX_H
 
-#include "read/lines.h"
+#include "lines/lines.h"
 
 /* Writes the file whole or not at all; "-" is standard output. Every coordinate reads back as the same double; y points
  * down in the file. The format has no place for fold angles: targets are lost. Unassigned lines make it a file of main

@@ -4,6 +4,7 @@
 #include "base/number.h"
 #include "base/unit.h"
 #include "pattern/source.h"
+#include "read/value.h"
 #include "save/fold.h"
 
 #include <string.h>

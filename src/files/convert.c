@@ -4,6 +4,7 @@
 #include "pattern/faces.h"
 #include "pattern/planar.h"
 #include "read/read.h"
+#include "read/value.h"
 #include "save/cp.h"
 #include "save/dxf.h"
 #include "save/fold.h"

@@ -1,4 +1,4 @@
-#include "read/lines.h"
+#include "lines/lines.h"
 #include "base/memory.h"
 
 #include <stdarg.h>
@@ -15,9 +15,9 @@ void rg_lines_free(rg_lines *l)
 {
     if (!l->mem.resize) return;
     rg_memory mem = l->mem;
-    void *block[] = {l->line, l->title, l->author, l->editor, l->reference, l->memo, l->warning, l->vertex, l->trait};
-    for (int i = 0; i < 9; i++) rg_mem_free(&mem, block[i]);
-    rg_value_free(l->frame);
+    void *block[] = {l->line, l->title, l->author, l->editor, l->reference, l->memo, l->warning, l->vertex, l->trait, l->face_start, l->face_vertex};
+    for (int i = 0; i < 11; i++) rg_mem_free(&mem, block[i]);
+    if (l->frame) l->keeper->free(l->frame);
     memset(l, 0, sizeof *l);
 }
 

@@ -8,6 +8,7 @@
 #include "pattern/source.h"
 #include "pose/lie.h"
 #include "read/read.h"
+#include "read/value.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #define RG_LINES_H
 
 #include "base/vec.h"
-#include "read/value.h"
+#include "rigami.h"
 
 /* Assignments are FOLD's letters. */
 #define RG_BORDER 'B'
@@ -31,6 +31,14 @@ typedef struct rg_trait {
     int32_t count;
 } rg_trait;
 
+/* All that a FOLD file says, as a tree that read/value.h knows how to read. Here it is only held, handed on and let go, through its
+ * reader's own functions: what folds need not know what a file is. */
+typedef struct json_t rg_value;
+typedef struct rg_keeper {
+    rg_value *(*share)(rg_value *);
+    void (*free)(rg_value *);
+} rg_keeper;
+
 typedef struct rg_lines {
     rg_memory mem;
     rg_line *line;
@@ -49,7 +57,9 @@ typedef struct rg_lines {
     double metres;   /* in a unit of the coordinates; 0: the file does not say */
     double merge;    /* tolerance that the format is usually drawn to, a part of the size; 0: the general one */
     rg_value *frame; /* FOLD, where asked for: the frame read, with what it inherits; NULL otherwise */
+    const rg_keeper *keeper; /* of that */
     int32_t *vertex; /* ... and the numbers of each line's two ends there, [2 count] */
+    int32_t *face_start, *face_vertex, faces; /* ... and the faces listed there: vertices face_vertex[face_start[f]] and on */
 } rg_lines;
 
 void rg_lines_init(rg_lines *l, const rg_memory *mem);
