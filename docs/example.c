@@ -6,7 +6,6 @@
 
 int main(int argc, char **argv)
 {
-    rg_settings s = rg_settings_default();
     rg_diag why = {0};
     rg_pattern *pattern = NULL;
     rg_fold *fold = NULL;
@@ -15,15 +14,15 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: %s pattern.opx\n", argv[0]);
         return 2;
     }
-    if (rg_pattern_read(argv[1], &s, &pattern, &why) != RG_OK) goto out;
-    if (rg_fold_create(pattern, &s, &fold, &why) != RG_OK) goto out;
-    for (rg_step_info i = {0}; i.outcome == RG_RUNNING;) { /* the loop is yours: draw, steer or stop here */
-        if (rg_fold_step(fold, &i) != RG_OK) goto out;
+    if (rg_pattern_read(argv[1], NULL, &pattern, &why) != RG_OK) goto out;
+    if (rg_fold_create(pattern, NULL, NULL, NULL, &fold, &why) != RG_OK) goto out;
+    for (const rg_step_info *i = rg_fold_get_info(fold);; i = rg_fold_step(fold)) { /* the loop is yours: draw, steer or stop here */
         int32_t creases;
         const double *rho = rg_fold_angles(fold, &creases);
-        if (i.frame >= 0 && creases > 0)
-            printf("%3d %5.1f %%  first crease %+.4f rad  closed to %.1e rad\n", (int)i.frame, 100 * i.progress, rho[0],
-                   i.closure);
+        if (creases > 0)
+            printf("%3d %5.1f %%  first crease %+.4f rad  closed to %.1e rad\n", (int)i->frame, 100 * i->progress, rho[0],
+                   i->closure);
+        if (i->outcome != RG_RUNNING) break;
     }
     status = 0;
 out:

@@ -1,15 +1,26 @@
 /* rigami.h -- folds origami crease patterns as rigid plates, after T. Tachi, "Simulation of Rigid Origami".
  *
+ * Two layers, one header. The core makes patterns from arrays, folds, drives and measures, and needs little more than libm. The whole
+ * library adds file formats, pictures, certificates and charts: what stands between `#ifndef RIGAMI_CORE` and its `#endif`, so that
+ * whoever links the core alone and defines RIGAMI_CORE sees what there is.
+ *
  * Signs and units, here and everywhere: fold angle rho in radians, valley positive, mountain negative, 0 flat,
  * +-pi folded flat. The sheet lies in z = 0 with y up; facets run counter-clockwise seen from +z; a valley turns its
  * facets towards +z. Lengths are those of the input file.
  *
  * Errors: functions return a status, 0 is RG_OK; results go through the last pointers and are untouched on failure,
  * unless said otherwise. The library never prints, never exits and keeps no global state: distinct handles may be
- * used by distinct threads at the same time. Every destroy function takes NULL. */
+ * used by distinct threads at the same time. Every destroy function takes NULL.
+ *
+ * Growth: structs that a caller fills begin with `size` and are made by rg_..._default(), which sets it to what the caller was compiled
+ * with; members that it does not know yet are taken at their defaults. Structs that the library fills are lent by pointer and only
+ * grow at their ends. Elements of lists, and small structs passed by value (rg_diag, rg_frame, rg_crease, ...), stay as they are.
+ *
+ * Borrowed: what is lent lives as long as the handle that lends it and, of an rg_fold, until it is next moved. */
 #ifndef RIGAMI_H
 #define RIGAMI_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -23,6 +34,11 @@ extern "C" {
 #define RG_API
 #endif
 
+/* Members of one major version link with each other; minor ones add, patches mend. */
+#define RG_VERSION_MAJOR 0
+#define RG_VERSION_MINOR 1
+#define RG_VERSION_PATCH 0
+#define RG_VERSION_NUMBER (RG_VERSION_MAJOR * 10000 + RG_VERSION_MINOR * 100 + RG_VERSION_PATCH)
 #define RG_VERSION "0.1.0"
 
 /* ---------------------------------------------------------------------------------------------- base ---- */
@@ -35,7 +51,8 @@ extern "C" {
     X(RG_EFORMAT, "the input is not what its format asks for") \
     X(RG_ESHEET, "not one sheet without holes")               \
     X(RG_EWRITE, "the output cannot be written")              \
-    X(RG_EABSENT, "this build has no such part")
+    X(RG_EABSENT, "this build has no such part")              \
+    X(RG_ECANCELLED, "the caller's progress function ended it")
 
 typedef enum rg_status {
 #define X(name, words) name,
@@ -44,7 +61,9 @@ typedef enum rg_status {
 } rg_status;
 
 RG_API const char *rg_status_text(rg_status s);
+/* Of the library that is linked: RG_VERSION and RG_VERSION_NUMBER are those it was compiled against. */
 RG_API const char *rg_version(void);
+RG_API int rg_version_number(void);
 
 /* What is wrong and where: a line of the input file (1 is the first, 0: no line) and a sentence without full stop. */
 typedef struct rg_diag {
@@ -58,8 +77,14 @@ typedef struct rg_memory {
     void *ctx;
 } rg_memory;
 
+/* Called as something goes on with 0 ... 1, never less than before; a non-zero return ends it. In the thread of the caller. */
+typedef int (*rg_progress)(void *ctx, double progress);
+
+/* The target of a crease that is nobody's: it follows the others. */
+#define RG_FREE ((double)INFINITY)
+
 typedef enum rg_method {
-    RG_METHOD_AUTO,
+    RG_METHOD_AUTO,    /* adaptive straight on, and whatever else the pattern asks for */
     RG_METHOD_EULER,   /* the paper's eq. (14), one solve a step */
     RG_METHOD_NEWTON,  /* Euler steps, each closed to tolerance */
     RG_METHOD_HEUN,    /* order 2, each step closed */
@@ -94,55 +119,100 @@ typedef enum rg_pace {
     RG_PACE_STEADY   /* frames even in the largest angle that a crease turns */
 } rg_pace;
 
-#define RG_ADJUST_AUTO (-1.0)
 /* What the input's format is usually drawn to: 1e-3 for .svg, else 2e-5. A hair above 2e-5, so that 2e-5 can be asked for. */
 #define RG_MERGE_DEFAULT 2.0000000000000005e-5
 
-/* Start from rg_settings_default() and change what you need. */
-typedef struct rg_settings {
+/* How a pattern is read, from a file, from memory or from arrays. Start from rg_reading_default(); NULL where one is asked for is
+ * the same. What is out of range or NaN is refused, RG_EARG. */
+typedef struct rg_reading {
+    size_t size;                  /* of this struct, as the caller has it */
     const rg_memory *memory;      /* NULL: malloc. Must outlive what is made with it. */
-    double merge;                 /* ends nearer than this part of the sheet's size are one vertex; RG_MERGE_DEFAULT */
+    double merge;                 /* ends nearer than this part of the sheet's size are one vertex, 0 ... 0.1; RG_MERGE_DEFAULT */
     int aux_creases;              /* non-zero: auxiliary lines are creases that may fold; 0 */
+    int targets;                  /* non-zero: take the file's own fold angles where it has them; 1 */
     rg_format format;             /* of the input; auto */
     int32_t file_frame;           /* FOLD: the frame to read, 0: the key frame; -1: the first that is a crease pattern; -1 */
     int flip;                     /* non-zero: the file's y runs the other way than is usual for its format; 0 */
-    int targets;                  /* non-zero: aim at the file's own fold angles where it has them; 1 */
+    const char *const *kind;      /* what lines of a drawing are, "KEY=KIND" each: KEY a colour, layer, name or dash, KIND border, */
+    int32_t kinds;                /* cut, mountain, valley, unassigned, aux or none; the last that fits counts; borrowed; none */
+    int32_t sheet;                /* of a drawing with several sheets, the one to take, from 1, in the order of the file; 0: there is one */
+    double unit;                  /* metres in a unit of the file, where that does not say it or says it wrongly; 0: as it says */
+    rg_progress progress;         /* asked while it reads, RG_ECANCELLED where it ends it; NULL: nobody */
+    void *progress_ctx;
+} rg_reading;
+
+/* size: sizeof(rg_reading) of the caller. */
+RG_API void rg_reading_init(rg_reading *r, size_t size);
+static inline rg_reading rg_reading_default(void)
+{
+    rg_reading r;
+    rg_reading_init(&r, sizeof r);
+    return r;
+}
+
+#define RG_ADJUST_AUTO (-1.0)
+
+/* How a pattern is folded. Start from rg_settings_default(); NULL where they are asked for is the same. What is out of range or NaN
+ * is refused, RG_EARG. */
+typedef struct rg_settings {
+    size_t size;                  /* of this struct, as the caller has it */
+    const rg_memory *memory;      /* NULL: malloc. Must outlive what is made with it. */
     rg_triangulation triangulate; /* added creases; auto: none, and all where that stops short */
-    double adjust;                /* gain of crease adjustment (3.3), 0: off, RG_ADJUST_AUTO: where nothing else folds */
+    double adjust;                /* gain of crease adjustment (3.3), 0 ... 1; 0: off, RG_ADJUST_AUTO: where nothing else folds */
     rg_contact_mode contact;      /* facets that pass through each other; avoid */
     rg_effort effort;             /* how much is tried when the plain way stops short; normal */
-    int32_t layer_order;          /* which order of the flat end's layers a motion without contact has; -1: one that folds */
+    int32_t layer_order;          /* which order of the flat end's layers a motion without contact has, from 0; -1: one that folds */
     rg_symmetry_kept symmetry;    /* of the pattern with its mountains and valleys, in every state of the motion; auto */
     rg_method method;             /* auto: chosen, said in the report */
     rg_solver solver;             /* auto: by size and build */
-    double step;                  /* largest change of any crease in one step, radians; 5 degrees */
-    double tol;                   /* closure tolerance: rotation angle of F at any vertex, radians; 1e-10 */
+    double step;                  /* largest change of any crease in one step, radians, above 0, at most pi; 5 degrees */
+    double tol;                   /* closure tolerance: rotation angle of F at any vertex, radians, 1e-13 ... 0.1; 1e-10 */
     double to;                    /* how far to fold, -1 ... 1; negative: mountain and valley exchanged; 1 */
     int rest;                     /* non-zero: what undriven creases leave open ends where it rests, if that comes before; 1 */
     int32_t frames;               /* frames of the motion, both ends included, at least 2; 60 */
     rg_pace pace;                 /* of the frames; percent */
     int32_t threads;              /* at the most: 1 or 2; 0: as many as there are processors. The result is the same. */
     int32_t fixed_facet;          /* facet that stays where it is; -1: the one nearest the centre */
-    const char *const *kind;      /* what lines of a drawing are, "KEY=KIND" each: KEY a colour, layer, name or dash, KIND border, */
-    int32_t kinds;                /* cut, mountain, valley, unassigned, aux or none; the last that fits counts; borrowed; none */
-    double unit;                  /* metres in a unit of the file, where that does not say it or says it wrongly; 0: as it says */
-    int32_t sheet;                /* of a drawing with several sheets, the one to take, from 1, in the order of the file; 0: there is one */
 } rg_settings;
 
-RG_API rg_settings rg_settings_default(void);
+RG_API void rg_settings_init(rg_settings *s, size_t size);
+static inline rg_settings rg_settings_default(void)
+{
+    rg_settings s;
+    rg_settings_init(&s, sizeof s);
+    return s;
+}
 
-/* ------------------------------------------------------------------------------------ read, pattern ---- */
+/* --------------------------------------------------------------------------------------------- pattern ---- */
 
 /* A crease pattern as a plane graph. */
 typedef struct rg_pattern rg_pattern;
 
-/* Reads a crease pattern file: ORIPA's .opx, .cp, .fold, .svg or .dxf; "-" is standard input. RG_EREAD: no such file;
- * RG_EFORMAT: why->line and why->text say what is wrong. A pattern that is not one sheet without holes is read all the
- * same: rg_pattern_get_info says so, and folding it is refused. Owner: the caller, rg_pattern_destroy. */
-RG_API rg_status rg_pattern_read(const char *path, const rg_settings *s, rg_pattern **pattern, rg_diag *why);
-/* The same from memory. */
-RG_API rg_status rg_pattern_parse(const void *bytes, size_t size, const rg_settings *s, rg_pattern **pattern,
-                                  rg_diag *why);
+/* A drawing in the caller's arrays. Start from rg_drawing_default(). */
+typedef struct rg_drawing {
+    size_t size;                /* of this struct, as the caller has it */
+    int32_t vertices;           /* at least 1 */
+    const double (*at)[2];      /* [vertices] where they are, y up */
+    int32_t edges;              /* at least 1 */
+    const int32_t (*ends)[2];   /* [edges] numbers of vertices, from 0 */
+    const char *assignment;     /* [edges] B border, M mountain, V valley, U unassigned, F auxiliary line, C cut in the folded model */
+    const double *target;       /* [edges] fold angle to aim at, radians, -pi ... pi; NAN: by assignment, RG_FREE: none; NULL: all NAN */
+    double unit;                /* metres in a unit of the coordinates; 0: not known */
+    const char *title, *author; /* NULL: none */
+} rg_drawing;
+
+RG_API void rg_drawing_init(rg_drawing *d, size_t size);
+static inline rg_drawing rg_drawing_default(void)
+{
+    rg_drawing d;
+    rg_drawing_init(&d, sizeof d);
+    return d;
+}
+
+/* A pattern from arrays, which are not needed afterwards. Lines may cross, and vertices lie in one place: it is a drawing. Of `r` count
+ * memory, merge, aux_creases, targets, sheet and progress; NULL: the default. RG_EARG: why->text says which number is out of range.
+ * Owner: the caller, rg_pattern_destroy. */
+RG_API rg_status rg_pattern_create(const rg_drawing *d, const rg_reading *r, rg_pattern **pattern, rg_diag *why);
 RG_API void rg_pattern_destroy(rg_pattern *pattern);
 
 typedef struct rg_pattern_info {
@@ -167,7 +237,29 @@ typedef struct rg_pattern_info {
     const char *title, *author;       /* "" where there is none; borrowed from the pattern */
 } rg_pattern_info;
 
-RG_API void rg_pattern_get_info(const rg_pattern *p, rg_pattern_info *info);
+/* Borrowed from the pattern. */
+RG_API const rg_pattern_info *rg_pattern_get_info(const rg_pattern *p);
+
+/* The graph that is folded: what was merged, split and left out is behind it. Arrays are borrowed from the pattern. */
+typedef struct rg_plane {
+    int32_t vertices, edges, facets; /* facets: 0 where it is not one sheet */
+    const double (*at)[2];           /* [vertices], y up */
+    const int32_t (*ends)[2];        /* [edges] vertices */
+    const char *assignment;          /* [edges] B exactly on the outer border, M V U, C for a slit */
+    const double *target;            /* [edges] radians; NAN: none */
+    const int32_t *line;             /* [edges] of the file, or edge of the drawing from 1; 0: none */
+    const int32_t *facet_start;      /* [facets + 1] into facet_vertex */
+    const int32_t *facet_vertex;     /* counter-clockwise */
+} rg_plane;
+RG_API const rg_plane *rg_pattern_get_plane(const rg_pattern *p);
+/* The edge between two vertices, or nearest to a point (as the file has it, within 1 % of the sheet's size); -1: there is none. */
+RG_API int32_t rg_pattern_edge_between(const rg_pattern *p, int32_t v, int32_t w);
+RG_API int32_t rg_pattern_edge_at(const rg_pattern *p, const double x[2]);
+/* What the crease on an edge is to do when it is folded next: aim at an angle, radians, -pi ... pi; follow the others, RG_FREE; or stay
+ * flat, so that the facets on both sides are one plate. Crease i of a fold is edge rg_crease.edge. RG_EARG: no such edge or angle, or
+ * it is on the border. */
+RG_API rg_status rg_pattern_set_target(rg_pattern *p, int32_t edge, double radians);
+RG_API rg_status rg_pattern_pin(rg_pattern *p, int32_t edge);
 
 /* A closed vertex (section 3.1): creases a, c, b are adjacent around the vertex, angle(a,c) = angle(c,b), a and b have
  * opposite assignments; creases are given by their far ends. */
@@ -200,25 +292,6 @@ RG_API int32_t rg_pattern_pieces(const rg_pattern *p, const rg_piece **list);
 RG_API void rg_pattern_own(const rg_pattern *p, const double x[2], double own[2]);
 RG_API int32_t rg_pattern_warnings(const rg_pattern *p, const rg_diag **list);
 
-/* Called with each warning: what was left out, what a format cannot hold. Lent for the call. */
-typedef void (*rg_warning)(void *ctx, const rg_diag *warning);
-
-/* One crease pattern file to another: every line and its assignment, titles, fold angles, as far as the format holds them; what
- * it does not hold is told to `warn` (may be NULL). "-" is standard input and output. `to`: the format of `out`, AUTO: by its
- * extension; .opx, .cp, .fold, .svg and .dxf are written. Lines stay where they are to 1e-9 of the size, unless s->merge is other
- * than the default. s: also memory, format, file_frame, flip, targets. RG_EREAD, RG_EFORMAT: of `in`; RG_EARG: no format that
- * is written; RG_EWRITE: of `out`, which is written whole or not at all. */
-RG_API rg_status rg_convert(const char *in, const char *out, rg_format to, const rg_settings *s, rg_warning warn, void *ctx,
-                            rg_diag *why);
-
-/* -------------------------------------------------------------------------------------------- generate ---- */
-
-/* Writes an example crease pattern as .opx. `kind`: one of rg_generate_kinds(), a NULL-ended list of names. n, m: its
- * size (0: the kind's default; m = 0: the same as n; `random`: m is the seed). angle: radians, 0 for the kind's default.
- * path "-": standard output. RG_EARG: no such kind or size, why->text says so. */
-RG_API const char *const *rg_generate_kinds(void);
-RG_API rg_status rg_generate(const char *kind, int32_t n, int32_t m, double angle, const char *path, rg_diag *why);
-
 /* ---------------------------------------------------------------------------------------------- layers ---- */
 
 /* The orders in which the facets of a flat-folded pattern can lie on each other. Facets: those drawn, as rg_motion's without
@@ -250,10 +323,11 @@ typedef struct rg_layers_info {
  * front faces. */
 typedef struct rg_layers_pair { int32_t f, g, side; } rg_layers_pair;
 
-/* s: memory. RG_OK whatever is found, read rg_layers_get_info; RG_ESHEET: not one sheet without holes. Owner: the caller. */
-RG_API rg_status rg_layers_create(const rg_pattern *p, const rg_settings *s, rg_layers **layers, rg_diag *why);
+/* memory NULL: malloc. RG_OK whatever is found, read rg_layers_get_info; RG_ESHEET: not one sheet without holes. Owner: the caller. */
+RG_API rg_status rg_layers_create(const rg_pattern *p, const rg_memory *memory, rg_layers **layers, rg_diag *why);
 RG_API void rg_layers_destroy(rg_layers *l);
-RG_API void rg_layers_get_info(const rg_layers *l, rg_layers_info *info);
+/* Borrowed from the layers. */
+RG_API const rg_layers_info *rg_layers_get_info(const rg_layers *l);
 /* How many orders part i has, 0 <= i < info.parts; of orders too many to count, how many can be asked for. */
 RG_API uint64_t rg_layers_part(const rg_layers *l, int32_t i);
 /* pair[info.pairs]: out, the order that has the number which[i] within part i, each less than rg_layers_part; NULL: all 0, the first
@@ -262,41 +336,17 @@ RG_API rg_status rg_layers_order(rg_layers *l, const uint64_t *which, rg_layers_
 /* which[info.parts]: out, for order `index` of all, 0 the first; those of one part follow each other. RG_EARG: no such order. */
 RG_API rg_status rg_layers_which(const rg_layers *l, uint64_t index, uint64_t *which);
 
-/* ------------------------------------------------------------------------------------------------ fold ---- */
-
-/* One fold in progress, for callers that own the loop. */
-typedef struct rg_fold rg_fold;
-
-typedef enum rg_outcome {
-    RG_RUNNING,
-    RG_FOLDED,
-    RG_STOPPED,
-    RG_RESTS /* undriven creases leave its end open, and it has come to rest */
-} rg_outcome;
-
-typedef struct rg_step_info {
-    rg_outcome outcome; /* RG_RUNNING while there is more to come */
-    double progress;    /* 0 ... 1: mean over the driven creases of rho / target */
-    int32_t frame;      /* this step ended on that frame of settings.frames; -1: between frames */
-    double closure;     /* largest rotation angle of F over the vertices, radians */
-    int32_t solves, iterations; /* of this step; 0 where it only goes to the next frame */
-} rg_step_info;
-
-/* Looks for a motion, as rg_motion_create does, and stands at its first frame: the search happens here, as what folds a pattern is known
- * only when it has come to its end. A motion that stops short is no error: the last step says so. RG_ESHEET: not one sheet
- * without holes, why->text says where; RG_ENOMEM. Owner: the caller, rg_fold_destroy. */
-RG_API rg_status rg_fold_create(const rg_pattern *p, const rg_settings *s, rg_fold **fold, rg_diag *why);
-/* On to the next frame; allocates nothing. Frames and their bits are those of rg_motion_create with the same settings. After the last
- * one it stays there, and info->frame is -1. */
-RG_API rg_status rg_fold_step(rg_fold *f, rg_step_info *info);
-/* Fold angles, radians, one per crease; borrowed until rg_fold_destroy. */
-RG_API const double *rg_fold_angles(const rg_fold *f, int32_t *creases);
-RG_API void rg_fold_destroy(rg_fold *f);
-
 /* ---------------------------------------------------------------------------------------------- motion ---- */
 
-/* A whole motion, flat to folded, frame by frame, with its measurements. */
+/* A whole motion, flat to folded, frame by frame, with its measurements. Never changes, so that threads may share one. */
 typedef struct rg_motion rg_motion;
+
+typedef enum rg_outcome {
+    RG_RUNNING, /* there is more to come */
+    RG_FOLDED,  /* every driven crease is where it should be */
+    RG_STOPPED, /* short of that: the reason says why */
+    RG_RESTS    /* undriven creases leave its end open, and it has come to rest */
+} rg_outcome;
 
 typedef struct rg_frame {
     double percent;          /* mean over driven creases of 100 rho / target, signed, each at most 100 */
@@ -305,8 +355,20 @@ typedef struct rg_frame {
 
 typedef enum rg_contact_verdict { RG_CONTACT_UNCHECKED, RG_CONTACT_FREE, RG_CONTACT_CROSSES } rg_contact_verdict;
 
+/* One thing that the search for a motion tried. */
+typedef struct rg_try {
+    const char *rung, *direction; /* of the ladder; "forward" or "backward" */
+    double compliance;            /* how readily the pattern gave way, 0: not at all */
+    int32_t symmetry;             /* order of the group that was kept, 1: none */
+    int32_t added;                /* creases that cut facets */
+    rg_outcome outcome;
+    double percent;               /* how far it came */
+    double seconds;
+    char reason[200];             /* why it ended */
+} rg_try;
+
 typedef struct rg_report {
-    rg_pattern_info pattern;
+    const rg_pattern_info *pattern; /* borrowed */
     int32_t added_creases, unknowns, constraints, components; /* the model */
     const char *triangulation;                                /* "none", "some" or "all", and why, below */
     const char *why_triangulated;
@@ -358,42 +420,46 @@ typedef struct rg_report {
     const int32_t *state_frame;     /* [states_reached] the frame that is that state; borrowed */
     int32_t by_flat_count;          /* ways from one state to the next that went through flat paper, */
     const int32_t *by_flat;         /* and the states, from 1, that they begin at; borrowed */
+    int32_t tried_count;            /* what was tried, in its order, */
+    const rg_try *tried;            /* borrowed; of a sequence of states: none */
+    const rg_unfoldable *theorem;   /* a vertex that cannot be as it should, where that holds the motion; NULL: there is none */
 } rg_report;
-
-/* Called as the motion goes on with 0 ... 1; a non-zero return stops it there. */
-typedef int (*rg_progress)(void *ctx, double progress);
 
 /* Folds the pattern through all frames. RG_OK also when it stopped short: read rg_motion_report. */
 RG_API rg_status rg_motion_create(const rg_pattern *p, const rg_settings *s, rg_progress progress, void *ctx,
                                   rg_motion **motion, rg_diag *why);
-/* rg_fold_create, watched: `progress` is called during the search and may end it. */
-RG_API rg_status rg_fold_create_watched(const rg_pattern *p, const rg_settings *s, rg_progress progress, void *ctx, rg_fold **fold,
-                                        rg_diag *why);
-/* The motion that it walks through, with its report; borrowed until rg_fold_destroy. */
-RG_API const rg_motion *rg_fold_motion(const rg_fold *f);
+/* The same, but only `creases` are driven, each from flat to its angle, frames even in them; all others follow by the least motion that
+ * the facets allow, eq. (9), or stay flat where they are pinned. Near flat there are several ways: the assignments decide. Creases are
+ * edges of the pattern. Facets are cut where that helps, unless s->triangulate is none. s: `to`, `adjust`, `effort` do not count. */
+typedef struct rg_driven { int32_t edge; double radians; } rg_driven;
+RG_API rg_status rg_motion_create_driven(const rg_pattern *p, int32_t count, const rg_driven *driven, const rg_settings *s,
+                                         rg_progress progress, void *ctx, rg_motion **motion, rg_diag *why);
 /* Walks through states of one sheet, each folded as its pattern says: from the first, folded, to the last. Creases are matched
  * by where they lie. Where the direct way to the next state is blocked, the sheet is unfolded to flat and folded anew. All
  * states are frames of the motion, whose percent is of the whole way; settings->to is 1 or -1. One state: rg_motion_create.
  * RG_ESHEET: not states of one sheet, why->text says what differs. RG_OK also when it stopped short. */
 RG_API rg_status rg_motion_create_states(const rg_pattern *const *states, int32_t count, const rg_settings *s,
                                          rg_progress progress, void *ctx, rg_motion **motion, rg_diag *why);
-/* A motion that was written before, by this program or another one: a FOLD file with a flat crease pattern and frames that have
- * vertices_coords; nothing is folded. Facets may bend or stretch there: then angles are those between facets as they lie. The report
- * has the pattern, frames, strain and layers. RG_EREAD, RG_EFORMAT: why->text says what is missing. */
-RG_API rg_status rg_motion_read(const char *path, const rg_settings *s, rg_motion **motion, rg_diag *why);
 /* Are both of them one sheet each, and the same one? RG_ESHEET: why->text says what is wrong with `other`. */
-RG_API rg_status rg_pattern_same_sheet(const rg_pattern *first, const rg_pattern *other, const rg_settings *s, rg_diag *why);
+RG_API rg_status rg_pattern_same_sheet(const rg_pattern *first, const rg_pattern *other, rg_diag *why);
 RG_API void rg_motion_destroy(rg_motion *m);
 RG_API const rg_report *rg_motion_report(const rg_motion *m); /* borrowed */
 
-/* The folded sheet of one frame for callers that draw it themselves: sizes, facets, positions. Borrowed. */
+/* The sheet that is folded, for callers that draw it themselves: sizes, facets, creases. Its first edges are those of the pattern, its
+ * first creases those that were drawn, in the same order; added ones come last. Arrays are borrowed. */
 typedef struct rg_sheet {
     int32_t vertices, creases, facets;
     const int32_t *facet_start;  /* [facets + 1] into facet_vertex */
     const int32_t *facet_vertex; /* counter-clockwise */
     const double (*flat)[2];     /* [vertices] in the pattern */
+    int32_t edges, added;        /* creases added by triangulation: the last ones */
+    const int32_t (*ends)[2];    /* [edges] vertices */
+    const char *assignment;      /* [edges] B M V U F, C for a slit; F: added */
+    const int32_t *edge_crease;  /* [edges] its crease, -1: border */
+    const int32_t *crease_edge;  /* [creases] its edge */
+    const int32_t (*edge_facet)[2]; /* [edges] the facet left of the way from its first end to its second, and right of it; -1: none */
 } rg_sheet;
-RG_API void rg_motion_get_sheet(const rg_motion *m, rg_sheet *sheet);
+RG_API const rg_sheet *rg_motion_get_sheet(const rg_motion *m);
 /* xyz[vertices]: out, positions of that frame. RG_EARG: no such frame. */
 RG_API rg_status rg_motion_pose(const rg_motion *m, int32_t frame, double (*xyz)[3]);
 /* Fold angles of a frame, [creases], radians; borrowed; NULL: no such frame. */
@@ -406,14 +472,177 @@ typedef struct rg_crease {
     double target;       /* what was aimed at, radians; NAN: nothing */
     int added;           /* by triangulation */
     int32_t line;        /* of the file, 0: none */
+    int32_t edge;        /* of rg_sheet and, unless it is added, of rg_plane */
 } rg_crease;
 /* RG_EARG: there is no such crease. */
 RG_API rg_status rg_motion_crease(const rg_motion *m, int32_t crease, rg_crease *out);
+/* The crease between two vertices, or nearest to a point (as the file has it, within 1 % of the sheet's size; drawn ones only); -1:
+ * there is none. */
+RG_API int32_t rg_motion_crease_between(const rg_motion *m, int32_t v, int32_t w);
+RG_API int32_t rg_motion_crease_at(const rg_motion *m, const double x[2]);
 /* How many ways the sheet could go from a frame to first order: creases less the rank of C, where N - 3M is only a guess (3.2).
  * In flat and flat-folded frames more than it really can. RG_EARG: no such frame; RG_EABSENT: a build without SPQR; RG_ENOMEM. */
 RG_API rg_status rg_motion_mobility(const rg_motion *m, int32_t frame, int32_t *ways);
 /* The pattern of a frame, [vertices]: rg_sheet.flat unless creases were adjusted (3.3); borrowed; NULL: no such frame. */
 RG_API const double (*rg_motion_flat(const rg_motion *m, int32_t frame))[2];
+
+/* ------------------------------------------------------------------------------------------------ fold ---- */
+
+/* A fold that the caller moves: it has a present state, and a track of states that it has been in or will be. It is found whole by
+ * rg_fold_create, so that stepping is quick and goes both ways; from any state on it may be given new aims, and then finds its way step
+ * by step. One thread at a time for one handle. */
+typedef struct rg_fold rg_fold;
+
+typedef struct rg_step_info {
+    rg_outcome outcome; /* of the track, once its last state is reached; RG_RUNNING while there is more to come */
+    double progress;    /* 0 ... 1: mean over the driven creases of the part of its way that each is, none for more than all of it */
+    int32_t frame;      /* the state of the track that it stands on, from 0; -1: between two of them */
+    double closure;     /* largest rotation angle of F over the vertices, radians */
+    int32_t solves, iterations; /* linear solves, and iterations of conjugate gradients in them, of the call that led here */
+    int32_t frames;     /* states of the track that are known */
+    const char *reason; /* why it ended; "" while there is more to come */
+    int32_t blocking_vertex_count, blocking_crease_count;
+    const int32_t *blocking_vertices, *blocking_creases; /* of a track that stopped: what resists most, and what is held short */
+} rg_step_info;
+
+/* Looks for a motion, as rg_motion_create does, and stands at its first frame: the search happens here, as what folds a pattern is known
+ * only when it has come to its end. A motion that stops short is no error: the last step says so. `progress` may be NULL. RG_ESHEET: not
+ * one sheet without holes, why->text says where; RG_ENOMEM. Owner: the caller, rg_fold_destroy. */
+RG_API rg_status rg_fold_create(const rg_pattern *p, const rg_settings *s, rg_progress progress, void *ctx, rg_fold **fold,
+                                rg_diag *why);
+/* Stands on flat paper and looks for nothing: to be driven. Facets as drawn, or all cut where s->triangulate is all. */
+RG_API rg_status rg_fold_create_flat(const rg_pattern *p, const rg_settings *s, rg_fold **fold, rg_diag *why);
+RG_API void rg_fold_destroy(rg_fold *f);
+/* The motion that was found, with its report; of a flat one, its sheet alone. Borrowed until rg_fold_destroy. */
+RG_API const rg_motion *rg_fold_motion(const rg_fold *f);
+
+/* ---- moving. All return what there is to say of the state that was reached, borrowed until the next move. */
+
+RG_API const rg_step_info *rg_fold_get_info(const rg_fold *f);
+/* On to the next state of the track, back to the one before; allocates nothing. Frames and their bits are those of rg_motion_create with
+ * the same settings. After the last one, and before the first, it stays where it is. */
+RG_API const rg_step_info *rg_fold_step(rg_fold *f);
+RG_API const rg_step_info *rg_fold_step_back(rg_fold *f);
+/* To the state where progress is so much, 0 ... 100, or as far as the track goes. A state of the track is met to the bit; between two, the
+ * state near their chord that closes. The first call allocates. RG_EARG: no such percent; RG_ENOMEM. */
+RG_API rg_status rg_fold_go_to(rg_fold *f, double percent);
+/* To the nearest state of the track where that crease has that angle, looked for forwards first. RG_EARG: there is none. */
+RG_API rg_status rg_fold_go_to_angle(rg_fold *f, int32_t crease, double radians);
+
+/* ---- steering. What is set here changes what comes after the present state, and forgets the rest of the track. Steps then go on, even in
+ * the driven angles or, if none is driven, in progress, settings.frames from the present state to the end. The pattern stays as it
+ * is in the present state. RG_EARG: no such crease or angle, fold and track are as before; RG_ENOMEM. */
+
+/* Creases are driven: each turns evenly from its present angle to that one, whatever the others do, which follow by the least motion that
+ * the facets allow, eq. (9). What cannot follow stops it. */
+RG_API rg_status rg_fold_drive(rg_fold *f, int32_t count, const int32_t *creases, const double *radians);
+/* From now on this crease aims at an angle, radians, -pi ... pi, as far as the others let it; RG_FREE: at nothing. */
+RG_API rg_status rg_fold_set_target(rg_fold *f, int32_t crease, double radians);
+/* From now on it stays as it is, until it is driven or has a target again. */
+RG_API rg_status rg_fold_pin(rg_fold *f, int32_t crease);
+
+/* ---- the present state; all borrowed until the fold is moved next */
+
+/* Fold angles, radians, one per crease of rg_motion_get_sheet(rg_fold_motion(f)); creases may be NULL. */
+RG_API const double *rg_fold_angles(const rg_fold *f, int32_t *creases);
+/* Positions of the vertices; the pattern that the state is folded from, which is that of the sheet unless creases were moved. */
+RG_API const double (*rg_fold_positions(const rg_fold *f, int32_t *vertices))[3];
+RG_API const double (*rg_fold_flat(const rg_fold *f, int32_t *vertices))[2];
+/* Where each facet goes: x -> R x + t with R = (column[0] column[1] column[2]) and t = column[3], for x in the flat pattern, z = 0. */
+typedef struct rg_transform { double column[4][3]; } rg_transform;
+RG_API const rg_transform *rg_fold_transforms(const rg_fold *f, int32_t *facets);
+
+/* ---- keeping states */
+
+/* A state with its track and its aims. Restoring allocates nothing where the track fits, and leads to the same bits from there on; it may be
+ * done many times. A snapshot belongs to the fold that it was taken of, or to its clones. RG_EARG: another fold's. */
+typedef struct rg_snapshot rg_snapshot;
+RG_API rg_status rg_fold_snapshot(const rg_fold *f, rg_snapshot **snapshot);
+RG_API rg_status rg_fold_restore(rg_fold *f, const rg_snapshot *snapshot);
+RG_API void rg_snapshot_destroy(rg_snapshot *s);
+/* Another fold in the same state, which moves by itself and may live longer; also in another thread, if the allocator allows that. */
+RG_API rg_status rg_fold_clone(const rg_fold *f, rg_fold **clone);
+/* The track so far as a motion of its own, measured, to be written or drawn. */
+RG_API rg_status rg_fold_record(const rg_fold *f, rg_motion **motion, rg_diag *why);
+
+/* --------------------------------------------------------------------------------------------- tangent ---- */
+
+/* The linear algebra of one state: C and what it leaves free, eqs. (5)-(9), (11)-(13). The state is copied. */
+typedef struct rg_tangent rg_tangent;
+
+/* Borrowed until rg_tangent_destroy. */
+typedef struct rg_tangent_info {
+    int32_t rows, columns;     /* 3 M, three for each interior vertex in the order b, c, a; N */
+    const int32_t *row_start;  /* [rows + 1] into column and value: C by compressed rows, eq. (8) */
+    const int32_t *column;     /* creases, rising in each row */
+    const double *value;
+    const double *residual;    /* [rows] r, eqs. (12), (13) */
+    const int32_t *vertex;     /* [rows / 3] which vertex of the sheet */
+    const double *angle;       /* [rows / 3] rotation angle of F there, radians, 0 ... pi */
+} rg_tangent_info;
+
+/* Of the present state; or of a frame of a motion. RG_EARG: no such frame; RG_ENOMEM. Owner: the caller, rg_tangent_destroy. */
+RG_API rg_status rg_fold_tangent(const rg_fold *f, rg_tangent **tangent);
+RG_API rg_status rg_motion_tangent(const rg_motion *m, int32_t frame, rg_tangent **tangent);
+RG_API void rg_tangent_destroy(rg_tangent *t);
+RG_API const rg_tangent_info *rg_tangent_get_info(const rg_tangent *t);
+/* step[columns]: out, wish - C^+ C wish, the nearest velocity that the facets allow, eq. (9); may be the same array. reaction[rows]: out, y
+ * with step = wish - C^T y: how hard each vertex resists; NULL: not asked for. Allocates nothing. */
+RG_API rg_status rg_tangent_project(rg_tangent *t, const double *wish, double *step, double *reaction);
+/* An orthonormal basis of the infinitesimal motions, one after the other, [*freedoms][columns]; the degrees of freedom are how many they
+ * are, and the rank of C is columns less that. Flat and flat-folded states have more than they can go. basis may be NULL. Borrowed. The
+ * first call computes it. RG_ENOMEM. */
+RG_API rg_status rg_tangent_basis(rg_tangent *t, int32_t *freedoms, const double **basis);
+
+/* ================================================================================== the whole library ==== */
+#ifndef RIGAMI_CORE
+
+/* Where output goes that is not to be a file: called once or more with the bytes, in order, when all of them are there; a non-zero return
+ * is RG_EWRITE. */
+typedef struct rg_sink {
+    int (*write)(void *ctx, const void *bytes, size_t size);
+    void *ctx;
+} rg_sink;
+
+/* ------------------------------------------------------------------------------------------------ read ---- */
+
+/* Reads a crease pattern file: ORIPA's .opx, .cp, .fold, .svg or .dxf; "-" is standard input. RG_EREAD: no such file;
+ * RG_EFORMAT: why->line and why->text say what is wrong. A pattern that is not one sheet without holes is read all the
+ * same: rg_pattern_get_info says so, and folding it is refused. r NULL: the default. Owner: the caller, rg_pattern_destroy. */
+RG_API rg_status rg_pattern_read(const char *path, const rg_reading *r, rg_pattern **pattern, rg_diag *why);
+/* The same from memory. */
+RG_API rg_status rg_pattern_parse(const void *bytes, size_t size, const rg_reading *r, rg_pattern **pattern,
+                                  rg_diag *why);
+/* A motion that was written before, by this program or another one: a FOLD file with a flat crease pattern and frames that have
+ * vertices_coords; nothing is folded. Facets may bend or stretch there: then angles are those between facets as they lie. The report
+ * has the pattern, frames, strain and layers. RG_EREAD, RG_EFORMAT: why->text says what is missing. */
+RG_API rg_status rg_motion_read(const char *path, const rg_reading *r, rg_motion **motion, rg_diag *why);
+
+/* Called with each warning: what was left out, what a format cannot hold. Lent for the call. */
+typedef void (*rg_warning)(void *ctx, const rg_diag *warning);
+
+/* One crease pattern file to another: every line and its assignment, titles, fold angles, as far as the format holds them; what
+ * it does not hold is told to `warn` (may be NULL). "-" is standard input and output. `to`: the format of `out`, AUTO: by its
+ * extension; .opx, .cp, .fold, .svg and .dxf are written. Lines stay where they are to 1e-9 of the size, unless r->merge is other
+ * than the default. r: also memory, format, file_frame, flip, targets; NULL: the default. RG_EREAD, RG_EFORMAT: of `in`; RG_EARG: no format that
+ * is written; RG_EWRITE: of `out`, which is written whole or not at all. */
+RG_API rg_status rg_convert(const char *in, const char *out, rg_format to, const rg_reading *r, rg_warning warn, void *ctx,
+                            rg_diag *why);
+/* The same from memory to a sink; `to` is not AUTO. */
+RG_API rg_status rg_convert_to(const void *bytes, size_t size, rg_format to, const rg_sink *sink, const rg_reading *r, rg_warning warn,
+                               void *ctx, rg_diag *why);
+
+/* -------------------------------------------------------------------------------------------- generate ---- */
+
+/* Writes an example crease pattern as .opx. `kind`: one of rg_generate_kinds(), a NULL-ended list of names. n, m: its
+ * size (0: the kind's default; m = 0: the same as n; `random`: m is the seed). angle: radians, 0 for the kind's default.
+ * path "-": standard output. RG_EARG: no such kind or size, why->text says so. */
+RG_API const char *const *rg_generate_kinds(void);
+RG_API rg_status rg_generate(const char *kind, int32_t n, int32_t m, double angle, const char *path, rg_diag *why);
+/* The same to a sink; or as a pattern at once. r: as in rg_pattern_create. */
+RG_API rg_status rg_generate_to(const char *kind, int32_t n, int32_t m, double angle, const rg_sink *sink, rg_diag *why);
+RG_API rg_status rg_generate_pattern(const char *kind, int32_t n, int32_t m, double angle, const rg_reading *r, rg_pattern **pattern,
+                                     rg_diag *why);
 
 /* ------------------------------------------------------------------------------------- write, render ---- */
 
@@ -427,8 +656,9 @@ typedef enum rg_colouring {
 } rg_colouring;
 typedef enum rg_loop { RG_LOOP_BACK, RG_LOOP_FORWARD, RG_LOOP_ONCE } rg_loop;
 
-/* Start from rg_picture_default() and change what you need. */
+/* Start from rg_picture_default(); NULL where one is asked for is the same. What is out of range or NaN is refused, RG_EARG. */
 typedef struct rg_picture {
+    size_t size;                     /* of this struct, as the caller has it */
     int32_t width, height;           /* pixels; 960 x 720 */
     int aimed;                       /* 0: azimuth and elevation are chosen from the motion; non-zero: as they are here; 0 */
     double azimuth, elevation;       /* of the camera about the sheet, radians; -60 and 35 degrees */
@@ -449,9 +679,23 @@ typedef struct rg_picture {
     double hold;                     /* seconds for which an animation stands still at its end, 0 ... 60; 1 */
     double thickness;                /* of the paper in models to print (.stl), in units of the file; 0: none, a surface; 0 */
     rg_loop loop;                    /* of animations: there and back for ever, forwards for ever, or once; back */
+    rg_progress progress;            /* asked while it is written or drawn, RG_ECANCELLED where it ends it; NULL: nobody */
+    void *progress_ctx;
 } rg_picture;
 
-RG_API rg_picture rg_picture_default(void);
+RG_API void rg_picture_init(rg_picture *p, size_t size);
+static inline rg_picture rg_picture_default(void)
+{
+    rg_picture p;
+    rg_picture_init(&p, sizeof p);
+    return p;
+}
+
+/* One state as a picture of its own, with a camera that is framed on it alone: p->width x p->height pixels of red, green, blue, the upper
+ * row first. rgb: out, 3 * width * height bytes. Of p, what animations need does not count. RG_EARG: no such frame; RG_EABSENT: a
+ * build, or a machine, that cannot draw; RG_ENOMEM. */
+RG_API rg_status rg_motion_draw(const rg_motion *m, int32_t frame, const rg_picture *p, unsigned char *rgb, rg_diag *why);
+RG_API rg_status rg_fold_draw(const rg_fold *f, const rg_picture *p, unsigned char *rgb, rg_diag *why);
 
 /* RG_OK if a motion can be written to this path (by its shape and extension) in this build, else why->text says why
  * not: RG_EARG for an unknown form, RG_EABSENT for films where the program ffmpeg is missing. The forms are those of
@@ -460,15 +704,22 @@ RG_API rg_status rg_output_check(const char *path, rg_diag *why);
 /* Writes the motion in the form that the path's shape and extension ask for; each file is written to a temporary name
  * and renamed. `picture` NULL: the default. RG_EWRITE: why->text says what and why. */
 RG_API rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_picture *picture, rg_diag *why);
+/* The same to a sink. form: an extension such as ".glb" or ".png". frame: which one, of forms that hold one; -1: the last. RG_EARG: no such
+ * form or frame. */
+RG_API rg_status rg_motion_write_to(const rg_motion *m, const char *form, int32_t frame, const rg_sink *sink, const rg_picture *picture,
+                                    rg_diag *why);
 
 /* JSON texts of a report and of what is known of a pattern. `file` "-": standard output; else written whole or not
  * at all. `seconds_writing` and `peak_bytes` are the caller's own measurements. */
 RG_API rg_status rg_report_write(const rg_motion *m, double seconds_writing, double peak_bytes, const char *file,
                                  rg_diag *why);
+RG_API rg_status rg_report_write_to(const rg_motion *m, double seconds_writing, double peak_bytes, const rg_sink *sink, rg_diag *why);
 RG_API rg_status rg_info_write(const rg_pattern *p, const char *file, rg_diag *why);
+RG_API rg_status rg_info_write_to(const rg_pattern *p, const rg_sink *sink, rg_diag *why);
 /* The same for people: the verdict in a sentence and what to do next, what speaks against it, counts. `lists` non-zero: also every
  * vertex that is named in a count, creases, what the lines are drawn in, warnings. */
 RG_API rg_status rg_info_text(const rg_pattern *p, int lists, const char *file, rg_diag *why);
+RG_API rg_status rg_info_text_to(const rg_pattern *p, int lists, const rg_sink *sink, rg_diag *why);
 /* What is wrong with a vertex, where and by how much, as part of a sentence: "at (0.5, 2) five creases meet ...". */
 RG_API void rg_unfoldable_text(const rg_pattern *p, const rg_unfoldable *u, char text[240]);
 
@@ -501,16 +752,21 @@ typedef struct rg_certificate_info {
     int32_t layer_pairs, layers_shown; /* facets over each other at a flat end; of these, whose order the frame before shows */
 } rg_certificate_info;
 
-/* motion: a .fold file, "-" standard input. given: the pattern that it is to be a motion of, NULL: any. s: memory. RG_OK whatever is
+/* motion: a .fold file, "-" standard input. given: the pattern that it is to be a motion of, NULL: any. memory NULL: malloc. RG_OK whatever is
  * found: read the info; RG_EREAD, RG_EFORMAT: the file cannot be read as a motion. Owner: the caller, rg_certificate_destroy. */
-RG_API rg_status rg_certificate_create(const char *motion, const rg_pattern *given, const rg_settings *s, rg_certificate **certificate,
+RG_API rg_status rg_certificate_create(const char *motion, const rg_pattern *given, const rg_memory *memory, rg_certificate **certificate,
                                        rg_diag *why);
+/* The same of a file's bytes. */
+RG_API rg_status rg_certificate_parse(const void *bytes, size_t size, const rg_pattern *given, const rg_memory *memory,
+                                      rg_certificate **certificate, rg_diag *why);
 RG_API void rg_certificate_destroy(rg_certificate *c);
-RG_API void rg_certificate_get_info(const rg_certificate *c, rg_certificate_info *info);
+/* Borrowed from the certificate. */
+RG_API const rg_certificate_info *rg_certificate_get_info(const rg_certificate *c);
 /* The first of the faults, at most 200; borrowed. */
 RG_API int32_t rg_certificate_faults(const rg_certificate *c, const rg_fault **list);
 /* For people, a line each; or as one JSON object. `file` "-": standard output; else written whole or not at all. */
 RG_API rg_status rg_certificate_write(const rg_certificate *c, int json, const char *file, rg_diag *why);
+RG_API rg_status rg_certificate_write_to(const rg_certificate *c, int json, const rg_sink *sink, rg_diag *why);
 
 /* ----------------------------------------------------------------------------------------------- chart ---- */
 
@@ -526,6 +782,10 @@ RG_API rg_status rg_chart_create(const rg_pattern *p, const rg_settings *s, rg_p
 RG_API void rg_chart_destroy(rg_chart *c);
 /* .csv: every run; .svg: the diagram; .md and "-": what it says, in words and tables. `title`: the pattern's name. */
 RG_API rg_status rg_chart_write(const rg_chart *c, const char *title, const char *path, rg_diag *why);
+/* form: ".csv", ".svg" or ".md". */
+RG_API rg_status rg_chart_write_to(const rg_chart *c, const char *title, const char *form, const rg_sink *sink, rg_diag *why);
+
+#endif /* RIGAMI_CORE */
 
 #ifdef __cplusplus
 }

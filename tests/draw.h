@@ -43,7 +43,7 @@ static inline void draw_moved(rg_lines *l, double scale, double angle, double dx
 }
 
 /* Takes the lines over. */
-static inline rg_pattern *pattern_with(rg_lines *l, const rg_settings *s)
+static inline rg_pattern *pattern_with(rg_lines *l, const rg_reading *s)
 {
     rg_pattern *p = NULL;
     rg_diag why = {0, ""};
@@ -55,7 +55,7 @@ static inline rg_pattern *pattern_with(rg_lines *l, const rg_settings *s)
 
 static inline rg_pattern *pattern_of(rg_lines *l)
 {
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     return pattern_with(l, &s);
 }
 

@@ -30,8 +30,9 @@ static inline rg_motion *motion_by(rg_lines *l, int32_t frames, folding fold, vo
         fold(&m->mesh, t, m->rho + (size_t)k * (size_t)m->mesh.N, ctx);
         m->frame[k].percent = 100 * t;
     }
-    rg_pattern_get_info(p, &m->report.pattern);
-    m->report.pattern.title = m->report.pattern.author = "";
+    m->info = *rg_pattern_get_info(p);
+    m->info.title = m->info.author = "";
+    m->report.pattern = &m->info;
     m->report.frame_count = frames;
     m->report.frames = m->frame;
     rg_pattern_destroy(p);

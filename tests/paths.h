@@ -72,7 +72,6 @@ static inline rg_pattern *path_pattern(const path_of *of)
 {
     char name[1024];
     const char *folder = getenv("RIGAMI_CORPUS");
-    const rg_settings s = rg_settings_default();
     rg_pattern *p = NULL;
     rg_diag why = {0, ""};
     if (of->draw) return of->draw();
@@ -81,7 +80,7 @@ static inline rg_pattern *path_pattern(const path_of *of)
         printf("SKIPPED: no %s (RIGAMI_CORPUS names another place)\n", name);
         return NULL;
     }
-    if (rg_pattern_read(name, &s, &p, &why) != RG_OK) fprintf(stderr, "%s: %s\n", name, why.text), exit(1);
+    if (rg_pattern_read(name, NULL, &p, &why) != RG_OK) fprintf(stderr, "%s: %s\n", name, why.text), exit(1);
     return p;
 }
 

@@ -17,15 +17,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-static inline rg_status read_text(const char *text, size_t n, rg_format format, const rg_settings *given, rg_lines *l, rg_diag *why)
+static inline rg_status read_text(const char *text, size_t n, rg_format format, const rg_reading *given, rg_lines *l, rg_diag *why)
 {
-    rg_settings s = given ? *given : rg_settings_default();
+    rg_reading s = given ? *given : rg_reading_default();
     if (format != RG_FORMAT_AUTO) s.format = format;
     *why = (rg_diag){-1, ""};
     return rg_read_bytes(text, n, NULL, &s, 0, l, why);
 }
 
-static inline rg_lines read_ok(const char *text, rg_format format, const rg_settings *s)
+static inline rg_lines read_ok(const char *text, rg_format format, const rg_reading *s)
 {
     rg_lines l;
     rg_diag why;
@@ -36,7 +36,7 @@ static inline rg_lines read_ok(const char *text, rg_format format, const rg_sett
 }
 
 /* Refused at that line (-1: any), with those words in one line of message. */
-static inline void refused(const char *text, rg_format format, const rg_settings *s, int line, const char *words)
+static inline void refused(const char *text, rg_format format, const rg_reading *s, int line, const char *words)
 {
     rg_lines l;
     rg_diag why;

@@ -49,7 +49,7 @@ static const double STABLE_TOL = 1e-10;
 static inline rg_pattern *of_kind(const char *kind, int32_t n)
 {
     char path[] = "/tmp/rigami-stability-XXXXXX";
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     rg_pattern *p = NULL;
     rg_diag why = {0, ""};
     s.merge = 1e-9;
@@ -72,7 +72,7 @@ static inline rg_pattern *vertex(int n, const double *at, const char *a)
         draw(&l, RG_BORDER, cos(t), sin(t), cos(next), sin(next));
         draw(&l, a[i] == 'M' ? RG_MOUNTAIN : RG_VALLEY, 0, 0, cos(t), sin(t));
     }
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     s.merge = 1e-9;
     return pattern_with(&l, &s);
 }
@@ -102,7 +102,7 @@ static inline rg_pattern *bent_miura(int n, double width, double narrow, double 
             if (c < n) draw(&l, r == 0 || r == n ? RG_BORDER : right > 0 ? RG_VALLEY : RG_MOUNTAIN, X[r][c].x, X[r][c].y, X[r][c + 1].x, X[r][c + 1].y);
             if (r < n) draw(&l, c == 0 || c == n ? RG_BORDER : zigzag > 0 ? RG_VALLEY : RG_MOUNTAIN, X[r][c].x, X[r][c].y, X[r + 1][c].x, X[r + 1][c].y);
         }
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     s.merge = 1e-9;
     return pattern_with(&l, &s);
 }
@@ -212,7 +212,7 @@ static inline void run_twice(rg_pattern *p, rg_method method, cell *c)
         done &= rg_motion_create(p, &s, NULL, NULL, &m[i], &why) == RG_OK;
     }
     rg_sheet sheet = {0};
-    if (done) rg_motion_get_sheet(m[0], &sheet);
+    if (done) sheet = *rg_motion_get_sheet(m[0]);
     int same = done;
     c->off = 0;
     for (int32_t k = 0; done && k < s.frames; k++) {

@@ -106,7 +106,7 @@ static void inside_angles_shrink(void **state)
         sheet s;
         open_sheet(&s, generated(kinds[k % 7], 0), k >= 7);
         rg_pattern_info info;
-        rg_pattern_get_info(s.p, &info);
+        info = *rg_pattern_get_info(s.p);
         assert_int_equal(s.a.count, info.closed_vertices);
         for (int32_t i = 0; i < s.a.count; i++) {
             const rg_vec2 at = s.m.X[s.m.inner_vertex[s.a.k[i]]], d = s.a.direction[i];

@@ -48,7 +48,7 @@ static rg_pattern *drawn(const star *s, const rg_memory *mem)
         if (s->kind == PLAIN || s->kind == EXCHANGED)
             n += (size_t)snprintf(text + n, sizeof text - n, "%d %.17g %.17g %.17g %.17g\n", s->kind == PLAIN ? 2 : 3, o.x, o.y, q.x, q.y);
     }
-    rg_settings settings = rg_settings_default();
+    rg_reading settings = rg_reading_default();
     rg_pattern *p = NULL;
     rg_diag why = {0, ""};
     settings.memory = mem;
@@ -136,10 +136,9 @@ static void many(void **state)
 static rg_alike alike_file(const char *path)
 {
     rg_pattern *p = NULL;
-    rg_settings s = rg_settings_default();
     rg_diag why = {0, ""};
     rg_alike a;
-    if (rg_pattern_read(path, &s, &p, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
+    if (rg_pattern_read(path, NULL, &p, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
     assert_int_equal(rg_alike_find(p, &a), RG_OK);
     rg_pattern_destroy(p);
     return a;
@@ -198,7 +197,7 @@ static void short_edges(void **state)
     for (int i = 0; i < 3; i++)
         for (int side = 0; side < 2; side++) draw(&l, RG_BORDER, x[i], 0.7 * side, x[i + 1], 0.7 * side);
     for (int i = 0; i < 4; i++) draw(&l, i % 3 ? RG_VALLEY : RG_BORDER, x[i], 0, x[i], 0.7);
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     s.merge = 1e-9;
     rg_pattern *p = pattern_with(&l, &s);
     rg_alike a;

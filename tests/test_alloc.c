@@ -92,11 +92,18 @@ static rg_settings with(const job *j, rg_memory *mem)
     return s;
 }
 
+static rg_reading reading_with(rg_memory *mem)
+{
+    rg_reading r = rg_reading_default();
+    r.memory = mem;
+    return r;
+}
+
 static rg_status parse(void *ctx, counted *c, rg_diag *why)
 {
     const job *j = ctx;
     rg_memory mem = {counted_resize, c};
-    rg_settings s = with(j, &mem);
+    const rg_reading s = reading_with(&mem);
     rg_pattern *p = NULL;
     rg_status status = rg_pattern_parse(j->text, strlen(j->text), &s, &p, why);
     assert_int_equal(p != NULL, status == RG_OK);
@@ -108,7 +115,7 @@ static rg_status read_file(void *ctx, counted *c, rg_diag *why)
 {
     const job *j = ctx;
     rg_memory mem = {counted_resize, c};
-    rg_settings s = with(j, &mem);
+    const rg_reading s = reading_with(&mem);
     rg_pattern *p = NULL;
     rg_status status = rg_pattern_read(j->path, &s, &p, why);
     assert_int_equal(p != NULL, status == RG_OK);
@@ -119,10 +126,9 @@ static rg_status read_file(void *ctx, counted *c, rg_diag *why)
 /* With memory of its own, so that what is refused later is not the reading. */
 static rg_pattern *pattern_of(const job *j)
 {
-    rg_settings s = j->settings;
     rg_pattern *p = NULL;
     rg_diag why;
-    if (rg_pattern_parse(j->text, strlen(j->text), &s, &p, &why) != RG_OK) fail_msg("%s", why.text);
+    if (rg_pattern_parse(j->text, strlen(j->text), NULL, &p, &why) != RG_OK) fail_msg("%s", why.text);
     return p;
 }
 
@@ -153,7 +159,7 @@ static rg_status create_motion(void *ctx, counted *c, rg_diag *why)
     if (m) {
         double xyz[200][3];
         rg_sheet sheet;
-        rg_motion_get_sheet(m, &sheet);
+        sheet = *rg_motion_get_sheet(m);
         assert_true(sheet.vertices <= 200);
         j->folded = rg_motion_report(m)->folded_percent;
         const long asked = c->asked;
@@ -171,16 +177,14 @@ static rg_status find_layers(void *ctx, counted *c, rg_diag *why)
 {
     job *j = ctx;
     rg_memory mem = {counted_resize, c};
-    rg_settings s = with(j, &mem);
     rg_pattern *p = NULL;
     rg_layers *l = NULL;
-    rg_settings plain = j->settings;
-    if (rg_pattern_read(j->path, &plain, &p, why) != RG_OK) fail_msg("%s", why->text);
-    rg_status status = rg_layers_create(p, &s, &l, why);
+    if (rg_pattern_read(j->path, NULL, &p, why) != RG_OK) fail_msg("%s", why->text);
+    rg_status status = rg_layers_create(p, &mem, &l, why);
     assert_int_equal(l != NULL, status == RG_OK);
     if (l) {
         rg_layers_info info;
-        rg_layers_get_info(l, &info);
+        info = *rg_layers_get_info(l);
         uint64_t *which = calloc((size_t)info.parts + 1, sizeof *which);
         rg_layers_pair *pair = calloc((size_t)info.pairs, sizeof *pair);
         assert_int_equal(info.state, RG_LAYERS_VALID);

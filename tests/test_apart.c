@@ -150,7 +150,7 @@ static void components_are_the_classes_of_reach(void **state)
             if (what == 2) draw(&l, 'M', 2 + 4 * k, 0, 2 + 4 * k, 2);
         }
         rg_settings s = rg_settings_default();
-        rg_pattern *p = pattern_with(&l, &s);
+        rg_pattern *p = pattern_of(&l);
         rg_straight *f = fold_of(p, &s);
         const rg_mesh *m = &f->mesh;
         int reach[16][16] = {{0}}, classes = 0;

@@ -68,7 +68,7 @@ static void any_angles(vertex *w, unsigned *seed)
 static rg_pattern_info info_of(const rg_pattern *p)
 {
     rg_pattern_info info;
-    rg_pattern_get_info(p, &info);
+    info = *rg_pattern_get_info(p);
     return info;
 }
 

@@ -51,11 +51,11 @@ static int heard(const told *t, const char *words)
     return 0;
 }
 
-static told convert(const char *in, const char *out, const rg_settings *given)
+static told convert(const char *in, const char *out, const rg_reading *given)
 {
     told t = {0};
     rg_diag why = {0, ""};
-    rg_settings s = given ? *given : rg_settings_default();
+    rg_reading s = given ? *given : rg_reading_default();
     const rg_status status = rg_convert(in, out, RG_FORMAT_AUTO, &s, hear, &t, &why);
     if (status != RG_OK) print_error("%s to %s: line %d: %s\n", in, out, why.line, why.text);
     assert_int_equal(status, RG_OK);
@@ -64,7 +64,7 @@ static told convert(const char *in, const char *out, const rg_settings *given)
 
 static rg_lines read_lines(const char *path, int keep)
 {
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     rg_lines l;
     rg_diag why = {0, ""};
     const rg_status status = rg_read_file(path, &s, keep, &l, &why);
@@ -359,7 +359,7 @@ static void extras(void **state)
     assert_non_null(strstr(now, "\"V\"]"));
     assert_true(heard(&t, "4 keys"));
     free(now);
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     s.file_frame = 1;
     snprintf(text, sizeof text, whole, "[0,3,1],[1,2,0]");
     write_text("e.fold", text);
@@ -376,7 +376,7 @@ static void gaps(void **state)
 {
     (void)state;
     write_text("gap.cp", "1 0 0 4 0\n1 4 0 4 4\n1 4.00002 4 0 4\n1 0 4 0 0\n2 0 0 4 4\n");
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     told t = convert(at("gap.cp"), at("gap.fold"), NULL);
     assert_true(heard(&t, "miss each other by up to 2e-05"));
     rg_lines l = read_lines(at("gap.fold"), 0);
@@ -412,7 +412,7 @@ static int files_in_folder(void)
 static void files_are_whole_or_not_there(void **state)
 {
     (void)state;
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     rg_diag why = {0, ""};
     write_text("good.cp", "1 0 0 1 1\n");
     write_text("bad.cp", "1 0 0 1 1\n2 0 0\n");
@@ -427,7 +427,7 @@ static void files_are_whole_or_not_there(void **state)
     assert_non_null(strstr(why.text, ".opx, .cp, .fold, .svg or .dxf"));
     s.merge = NAN;
     assert_int_equal(rg_convert(at("good.cp"), at("old.fold"), RG_FORMAT_AUTO, &s, NULL, NULL, &why), RG_EARG);
-    s = rg_settings_default();
+    s = rg_reading_default();
     char *text = load(at("old.fold"));
     assert_string_equal(text, "old");
     free(text);
@@ -456,7 +456,7 @@ static void memory_runs_short(void **state)
         for (; status == RG_ENOMEM; k++) {
             counted c = {.left = k};
             const rg_memory mem = {counted_resize, &c};
-            rg_settings s = rg_settings_default();
+            rg_reading s = rg_reading_default();
             rg_diag why = {0, ""};
             s.memory = &mem;
             write_text(names[i], "old");

@@ -43,7 +43,7 @@ static void counts_agree(void **state)
     assert_true(next_row(f, &head));
     while (next_row(f, &r)) {
         if (strncmp(r.cell[0], "malformed/", 10) == 0) continue;
-        rg_settings s = rg_settings_default();
+        rg_reading s = rg_reading_default();
         rg_pattern *p = NULL;
         rg_pattern_info info;
         rg_diag why = {0, ""};
@@ -54,7 +54,7 @@ static void counts_agree(void **state)
             bad++;
             continue;
         }
-        rg_pattern_get_info(p, &info);
+        info = *rg_pattern_get_info(p);
         /* A line that ends in the middle of a facet is no crease of a rigid sheet and is left out, with its end; the other
          * program counts both. */
         const double loose = atof(cell(&head, &r, "dangling"));
@@ -99,7 +99,7 @@ static void foldability_agrees(void **state)
         char name[200], at[300];
         int M, N;
         if (sscanf(text, "| %199s | %*[^|]| %d | %d |", name, &M, &N) != 3) continue;
-        rg_settings s = rg_settings_default();
+        rg_reading s = rg_reading_default();
         rg_pattern *p = NULL;
         rg_pattern_info info;
         rg_diag why = {0, ""};
@@ -110,7 +110,7 @@ static void foldability_agrees(void **state)
             bad++;
             continue;
         }
-        rg_pattern_get_info(p, &info);
+        info = *rg_pattern_get_info(p);
         /* The table counts vertices that only break a straight line, which are dissolved here: as many of M as of N. */
         const int32_t dissolved = info.edges - info.creases - info.boundary_edges;
         bad += differ(name, "M", info.interior_vertices, M, dissolved) + differ(name, "N - M", info.creases - info.interior_vertices, N - M, 0);
@@ -145,7 +145,7 @@ static void malformed_files(void **state)
     int bad = 0;
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         char path[4096], at[200];
-        rg_settings s = rg_settings_default();
+        rg_reading s = rg_reading_default();
         rg_pattern *p = NULL;
         rg_pattern_info info = {0};
         rg_diag why = {0, ""};
@@ -159,7 +159,7 @@ static void malformed_files(void **state)
             print_error("%s:%d: %s\n", files[i].name, why.line, why.text);
             bad++;
         } else {
-            rg_pattern_get_info(p, &info);
+            info = *rg_pattern_get_info(p);
             bad += differ(files[i].name, "V", info.vertices, files[i].V, 0) + differ(files[i].name, "E", info.edges, files[i].E, 0);
             bad += differ(files[i].name, "F", info.facets, files[i].F, 0) + differ(files[i].name, "disk", info.is_disk, files[i].disk, 0);
         }

@@ -25,7 +25,7 @@ static rg_motion *fold(const char *path, double to, rg_triangulation t)
     s.frames = 9;
     s.to = to;
     s.triangulate = t;
-    if (rg_pattern_read(path, &s, &p, &why) != RG_OK || rg_motion_create(p, &s, NULL, NULL, &m, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
+    if (rg_pattern_read(path, NULL, &p, &why) != RG_OK || rg_motion_create(p, &s, NULL, NULL, &m, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
     rg_pattern_destroy(p);
     return m;
 }

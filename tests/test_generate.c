@@ -256,7 +256,7 @@ static void one_disk(const made *k)
     drawn g = look_at(&l);
     rg_pattern_info info;
     rg_pattern *p = pattern_of(&l);
-    rg_pattern_get_info(p, &info);
+    info = *rg_pattern_get_info(p);
     if (!info.is_disk) fail_msg("%s: %s", k->kind, info.not_disk);
     assert_int_equal(info.facets, g.lines - g.vertices + 1);
     assert_int_equal(info.vertices, g.vertices);
@@ -339,7 +339,7 @@ static void flat_foldable(const made *k)
     rg_pattern *p = pattern_of(&l);
     const rg_unfoldable *none;
     assert_int_equal(rg_pattern_unfoldable(p, &none), 0);
-    rg_pattern_get_info(p, &info);
+    info = *rg_pattern_get_info(p);
     assert_int_equal(info.maekawa_violations, 0);
     below(info.kawasaki_max_deg, 1e-9);
     forget(&g);

@@ -15,20 +15,18 @@
 
 static rg_pattern *read_pattern(const char *path)
 {
-    rg_settings s = rg_settings_default();
     rg_pattern *p = NULL;
     rg_diag why = {0, ""};
-    if (rg_pattern_read(path, &s, &p, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
+    if (rg_pattern_read(path, NULL, &p, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
     return p;
 }
 
 static rg_layers *layers_of(const rg_pattern *p, rg_layers_info *info)
 {
-    rg_settings s = rg_settings_default();
     rg_layers *l = NULL;
     rg_diag why = {0, ""};
-    if (rg_layers_create(p, &s, &l, &why) != RG_OK) fail_msg("%s", why.text);
-    rg_layers_get_info(l, info);
+    if (rg_layers_create(p, NULL, &l, &why) != RG_OK) fail_msg("%s", why.text);
+    *info = *rg_layers_get_info(l);
     return l;
 }
 
@@ -350,7 +348,7 @@ static void reasons(void **state)
             rg_layers *l = NULL;
             rg_layers_info info;
             assert_int_equal(rg_layers_of_mesh(&m, angle, &mem, &l, &why), RG_OK);
-            rg_layers_get_info(l, &info);
+            info = *rg_layers_get_info(l);
             assert_int_equal(info.state, RG_LAYERS_NONE); /* Maekawa does not hold where the crease ends */
             assert_in_range(info.where_count, 2, 8);
             for (int32_t q = 0; q < info.where_count; q++) { /* and that is where it says */
@@ -405,7 +403,7 @@ static void every_index_is_another_order(void **state)
 
 /* ------------------------------------------------------------------------------------------ what else may be ---- */
 
-static rg_layers *layers_of_drawing(rg_lines *lines, const rg_settings *s, rg_layers_info *info)
+static rg_layers *layers_of_drawing(rg_lines *lines, const rg_reading *s, rg_layers_info *info)
 {
     rg_pattern *p = pattern_with(lines, s);
     rg_layers *l = layers_of(p, info);
@@ -425,7 +423,7 @@ static void one_crease(void **state)
 {
     (void)state;
     for (int valley = 0; valley < 2; valley++) {
-        rg_settings s = rg_settings_default();
+        rg_reading s = rg_reading_default();
         rg_layers_info info;
         rg_layers_pair pair;
         rg_lines l = drawing();
@@ -445,7 +443,7 @@ static void one_crease(void **state)
 static void no_crease(void **state)
 {
     (void)state;
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     rg_layers_info info;
     rg_lines l = drawing();
     draw_box(&l, 0, 0, 3, 1);
@@ -464,7 +462,7 @@ static void flat_creases_are_paper(void **state)
     (void)state;
     for (int way = 0; way < 4; way++) {
         const int creases = way & 1, zigzag = way & 2;
-        rg_settings s = rg_settings_default();
+        rg_reading s = rg_reading_default();
         rg_layers_info info;
         rg_lines l = drawing();
         s.aux_creases = 1;
@@ -483,7 +481,7 @@ static void flat_creases_are_paper(void **state)
         rg_layers_destroy(y);
     }
     /* Two flat creases on each other. */
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     rg_layers_info info;
     rg_lines l = drawing();
     s.aux_creases = 1;
@@ -501,7 +499,7 @@ static void flat_creases_are_paper(void **state)
 static void undriven_creases(void **state)
 {
     (void)state;
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     rg_layers_info info;
     rg_lines l = drawing();
     s.aux_creases = 1;
@@ -531,7 +529,7 @@ static void undriven_creases(void **state)
 static void ends_that_are_not_flat(void **state)
 {
     (void)state;
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     rg_layers_info info;
     rg_lines l = drawing();
     draw_box(&l, 0, 0, 3, 1);
@@ -580,7 +578,7 @@ static void moved_and_triangulated(void **state)
     for (int32_t i = 0; i < cut.N; i++) angle[i] = cut.target[cut.crease_edge[i]];
     rg_layers *t = NULL;
     assert_int_equal(rg_layers_of_mesh(&cut, angle, &mem, &t, &why), RG_OK);
-    rg_layers_get_info(t, &same);
+    same = *rg_layers_get_info(t);
     assert_int_equal(same.facets, info.facets);
     assert_int_equal(same.pairs, info.pairs);
     assert_string_equal(same.count, info.count);

@@ -96,7 +96,7 @@ static void patchworks(void **state)
         draw_moved(&l, 1.25, 0.7 * round, 3, -2);
         rg_pattern *p = pattern_of(&l);
         rg_pattern_info info;
-        rg_pattern_get_info(p, &info);
+        info = *rg_pattern_get_info(p);
         if (info.is_disk) {
             rg_mesh m = mesh_of(p);
             is_mesh(&m, n * n * 1.25 * 1.25);

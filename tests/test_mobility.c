@@ -39,7 +39,7 @@ static rg_motion *motion_of(const char *kind, int32_t n, rg_triangulation triang
     s.to = to;
     s.adjust = 0;
     assert_int_equal(rg_generate_lines(kind, n, 0, 0, &mem, &l, &why), RG_OK);
-    rg_pattern *p = pattern_with(&l, &s);
+    rg_pattern *p = pattern_of(&l);
     assert_int_equal(rg_motion_create(p, &s, NULL, NULL, &m, &why), RG_OK);
     rg_pattern_destroy(p);
     return m;

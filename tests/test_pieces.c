@@ -17,7 +17,7 @@
 static rg_pattern_info info_of(const rg_pattern *p)
 {
     rg_pattern_info i;
-    rg_pattern_get_info(p, &i);
+    i = *rg_pattern_get_info(p);
     return i;
 }
 
@@ -46,7 +46,7 @@ static rg_lines two_sheets(void)
 static void one_of_several(void **state)
 {
     (void)state;
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     for (int32_t k = 0; k <= 2; k++) {
         rg_lines l = two_sheets();
         s.sheet = k;
@@ -78,7 +78,7 @@ static void loose_ends(void **state)
     (void)state;
     for (int again = 0; again < 2; again++) {
         static double merge;
-        rg_settings s = rg_settings_default();
+        rg_reading s = rg_reading_default();
         rg_lines l = drawing();
         draw_box(&l, 0, 0, 7, 5);
         draw(&l, 'M', 2.5, 0.0625, 2.5, 4.9375);
@@ -115,7 +115,7 @@ static void slits_are_counted(void **state)
 
 static rg_pattern *parsed(const char *text)
 {
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     rg_pattern *p = NULL;
     rg_diag why = {0, ""};
     if (rg_pattern_parse(text, strlen(text), &s, &p, &why) != RG_OK) print_error("%s\n", why.text);

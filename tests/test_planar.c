@@ -17,7 +17,7 @@
 
 static rg_graph graph_of(rg_lines *l, double merge)
 {
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     rg_graph g;
     rg_diag why = {0, ""};
     s.merge = merge;
@@ -392,7 +392,7 @@ static void merged_and_kept(void **state)
         rg_graph_free(&g);
         rg_pattern *p = pattern_of(&l);
         rg_pattern_info info;
-        rg_pattern_get_info(p, &info);
+        info = *rg_pattern_get_info(p);
         near(info.kept_min, nearest, 1e-15);
         near(info.merged_max, gap, 1e-12);
         near(info.size, 1, 0);
@@ -518,7 +518,7 @@ static void counts_do_not_depend_on_place_turn_and_size(void **state)
             }
             draw_moved(&l, moves[way].scale, moves[way].angle, moves[way].dx, moves[way].dy);
             rg_pattern *p = pattern_of(&l);
-            rg_pattern_get_info(p, &info);
+            info = *rg_pattern_get_info(p);
             if (way == 0) first = info;
             assert_int_equal(info.vertices, first.vertices);
             assert_int_equal(info.edges, first.edges);
@@ -618,7 +618,7 @@ static void too_many_in_one_place(void **state)
 static void what_is_left_out_is_said(void **state)
 {
     (void)state;
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     for (int aux = 0; aux < 2; aux++) {
         rg_lines l = drawing();
         rg_graph g;
@@ -659,7 +659,7 @@ static void faults_do_not_flood(void **state)
 static void no_lines_and_hopeless_ones(void **state)
 {
     (void)state;
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     rg_graph g;
     rg_diag why;
     rg_lines l = drawing();
@@ -687,15 +687,16 @@ static void merge_out_of_range(void **state)
 {
     (void)state;
     static const double merge[] = {-1e-9, 0.1, 1, NAN, INFINITY};
+    static const double corner[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    static const int32_t side[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
     for (int i = 0; i < 5; i++) {
-        rg_settings s = rg_settings_default();
-        rg_lines l = drawing();
+        rg_reading s = rg_reading_default();
+        rg_drawing d = rg_drawing_default();
         rg_pattern *p = NULL;
-        draw_box(&l, 0, 0, 1, 1);
+        d.vertices = d.edges = 4, d.at = corner, d.ends = side, d.assignment = "BBBB";
         s.merge = merge[i];
-        assert_int_equal(rg_pattern_from_lines(&l, &s, &p, NULL), RG_EARG);
+        assert_int_equal(rg_pattern_create(&d, &s, &p, NULL), RG_EARG);
         assert_null(p);
-        assert_null(l.line);
     }
 }
 

@@ -28,7 +28,7 @@ enum { SAMPLES = sizeof samples / sizeof *samples };
 
 static rg_format format_of(const char *text, size_t n, const char *path, rg_diag *why)
 {
-    const rg_settings s = rg_settings_default();
+    const rg_reading s = rg_reading_default();
     rg_format format;
     return rg_read_format(text, n, path, &s, &format, why) == RG_OK ? format : RG_FORMAT_AUTO;
 }
@@ -94,7 +94,7 @@ static void what_is_no_crease_pattern(void **state)
         assert_int_equal(read_text(no[i].text, no[i].n, RG_FORMAT_AUTO, NULL, &l, &why), RG_EFORMAT);
         if (!strstr(why.text, no[i].words)) fail_msg("%s", why.text);
     }
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     rg_lines l;
     rg_diag why;
     assert_int_equal(rg_read_file("no/such/file.cp", &s, 0, &l, &why), RG_EREAD);
@@ -125,7 +125,7 @@ static void memory_runs_short(void **state)
             for (; status == RG_ENOMEM; k++) {
                 counted c = {.left = k};
                 const rg_memory mem = {counted_resize, &c};
-                rg_settings s = rg_settings_default();
+                rg_reading s = rg_reading_default();
                 rg_lines l;
                 rg_diag why = {0, ""};
                 s.memory = &mem;

@@ -14,7 +14,7 @@ static void codes_and_direction(void **state)
     for (int i = 0; i < 5; i++) assert_int_equal(l.line[i].where, i + 1);
     assert_int_equal(l.warnings, 0);
     rg_lines_free(&l);
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     s.flip = 1;
     l = read_ok("2 1 2 3 4\n", RG_FORMAT_CP, &s);
     is_line(&l, 0, 'M', 1, 2, 3, 4, NAN);

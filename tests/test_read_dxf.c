@@ -51,7 +51,7 @@ static void ends_of_lines_and_blanks(void **state)
                          "  0\r\nENDSEC\r\n  0\r\nEOF", RG_FORMAT_DXF, NULL);
     is_line(&l, 0, 'M', 1.5, 2, 3, 4, NAN);
     rg_lines_free(&l);
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     s.flip = 1;
     l = read_ok(DXF(LINE("0", "62\n1\n")), RG_FORMAT_AUTO, &s);
     is_line(&l, 0, 'M', 1.5, -2, 3, -4, NAN);
@@ -203,7 +203,7 @@ static void kinds(void **state)
 {
     (void)state;
     const char *const said[] = {"dashes=valley", "colour:red=none", "#0000ff=aux", "dash:DashDot=mountain"};
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     s.kind = said;
     s.kinds = 4;
     rg_lines l = read_ok(LAYERS(LINE("dashes", "") LINE("0", "62\n1\n") LINE("0", "420\n255\n") LINE("dashes", "6\nDASHDOT\n") LINE("0", "")),

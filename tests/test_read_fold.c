@@ -16,7 +16,7 @@ static void letters(const char *text, const char *want)
 }
 
 /* The target of the last edge, degrees. */
-static void last_target(const char *text, const rg_settings *s, double want)
+static void last_target(const char *text, const rg_reading *s, double want)
 {
     rg_lines l = read_ok(text, RG_FORMAT_FOLD, s);
     const double target = l.line[l.count - 1].target;
@@ -65,7 +65,7 @@ static void what_is_missing(void **state)
 static void angles(void **state)
 {
     (void)state;
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     last_target(ONE("\"V\"", "180"), NULL, NAN); /* the assignment says that already */
     last_target(ONE("\"M\"", "-180"), NULL, NAN);
     last_target(ONE("\"M\"", "-30.5"), NULL, -30.5);
@@ -102,7 +102,7 @@ static void nearly_flat(void **state)
     rg_lines_free(&l);
     snprintf(text, sizeof text, form, 0.0, 0.4);
     refused(text, RG_FORMAT_FOLD, NULL, 1, "a folded form");
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     s.merge = 0.01; /* and it is for the user to say how far */
     l = read_ok(text, RG_FORMAT_FOLD, &s);
     assert_true(warned(&l, "off a plane"));
@@ -162,7 +162,7 @@ static void sides(void **state)
     is_line(&l, 4, 'V', 0, 0, 4, 4, 60);
     assert_true(warned(&l, "clockwise"));
     rg_lines_free(&l);
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     s.flip = 1;
     l = read_ok("{" SQUARE CLOCKWISE MARKED "}", RG_FORMAT_FOLD, &s);
     is_line(&l, 4, 'M', 0, 0, 4, -4, -60);
@@ -213,7 +213,7 @@ static void planes_and_folded_forms(void **state)
 static void frames(void **state)
 {
     (void)state;
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     const char *text = "{\"file_title\":\"whole\"," SPACE "," NO_COORDS ",\"file_frames\":["
         "{\"frame_inherit\":true,\"frame_parent\":0,\"vertices_coords\":[[0,0],[2,0],[2,2],[0,2]],\"frame_title\":\"one\"},"
         "{\"frame_inherit\":true,\"frame_parent\":1,\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"V\"]},"
@@ -287,7 +287,7 @@ static void lines_of_the_file(void **state)
     refused("{\n\"note\":\"] } \\\" [ {\", \"more\":{\"edges_vertices\":[1,\n{\"a\":[]}]},\n\"vertices_coords\":[[0,0],\n[1,0]],\n"
             "\"edges_vertices\" :\n[ [0,1] ,\n[0,\n7]]}", RG_FORMAT_FOLD, NULL, 9, "edges_vertices[1][1]");
     refused("{\"vertices_coords\":[[0,0],[1,0]],\n\"file_frames\":[{},\n{\"frame_parent\":1,\"frame_inherit\":true}]}", RG_FORMAT_FOLD, NULL, 1, "no");
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     s.file_frame = 2;
     const char *inherits = "{\"file_frames\":[\n{\"vertices_coords\":[[0,0],\n[1,0]],\n\"edges_vertices\":[[0,1],\n[1,2]]},\n"
                            "{\"frame_parent\":1,\"frame_inherit\":true,\n\"edges_assignment\":[\"M\"]}]}";

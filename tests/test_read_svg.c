@@ -149,7 +149,7 @@ static void styles(void **state)
     assert_int_equal(l.count, sizeof want / sizeof *want);
     for (int32_t i = 0; i < l.count; i++) is_line(&l, i, want[i].letter, 0, 0, want[i].x, 0, want[i].target);
     rg_lines_free(&l);
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     s.targets = 0;
     l = read_ok(SVG("<line stroke='red' opacity='.5' x2='1'/>"), RG_FORMAT_SVG, &s);
     is_line(&l, 0, 'M', 0, 0, 1, 0, NAN);
@@ -257,7 +257,7 @@ static void names_dashes_data(void **state)
     assert_int_equal(l.warnings, 0);
     rg_lines_free(&l);
     const char *const said[] = {"rim=unassigned", "Mountain=aux", "6 2 1 2=valley", "#00f=none"};
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     s.kind = said;
     s.kinds = 4;
     l = read_ok(text, RG_FORMAT_SVG, &s);

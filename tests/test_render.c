@@ -193,7 +193,7 @@ static void facets_that_run_in_circles_are_apart_too(void **state)
     rg_pattern *cp = NULL;
     rg_motion *m = NULL;
     s.frames = 9;
-    if (rg_pattern_read("patterns/four-crane.opx", &s, &cp, &why) != RG_OK) fail_msg("%s", why.text);
+    if (rg_pattern_read("patterns/four-crane.opx", NULL, &cp, &why) != RG_OK) fail_msg("%s", why.text);
     if (rg_motion_create(cp, &s, NULL, NULL, &m, &why) != RG_OK) fail_msg("%s", why.text);
     pile p = pile_after(m, 9);
     for (int32_t v = 0; v < m->mesh.nv; v++) near(p.x[v].z / m->mesh.size, 0, 1e-4);
@@ -397,7 +397,7 @@ static void film_of(const char *path, int32_t every)
     rg_motion *m = NULL;
     s.frames = 41;
     s.effort = RG_EFFORT_FAST;
-    if (rg_pattern_read(path, &s, &cp, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
+    if (rg_pattern_read(path, NULL, &cp, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
     if (rg_motion_create(cp, &s, NULL, NULL, &m, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
     check_film(m, path, every);
     rg_motion_destroy(m);
@@ -487,7 +487,7 @@ static void symmetry_is_seen(void **state)
     rg_pattern *cp = NULL;
     rg_motion *m = NULL;
     s.frames = 9;
-    if (rg_pattern_read("patterns/fish.opx", &s, &cp, &why) != RG_OK) fail_msg("%s", why.text);
+    if (rg_pattern_read("patterns/fish.opx", NULL, &cp, &why) != RG_OK) fail_msg("%s", why.text);
     if (rg_motion_create(cp, &s, NULL, NULL, &m, &why) != RG_OK) fail_msg("%s", why.text);
     for (int32_t k = 0; k < 9; k += 2) {
         rg_picture picture = plain(200, 150);

@@ -27,7 +27,7 @@ static rg_pattern *turned(rg_lines *l, int way)
 static rg_pattern_info info_of(const rg_pattern *p)
 {
     rg_pattern_info info;
-    rg_pattern_get_info(p, &info);
+    info = *rg_pattern_get_info(p);
     return info;
 }
 

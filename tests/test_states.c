@@ -23,11 +23,10 @@ enum { MOST_STATES = 4 };
 static rg_pattern *read_pattern(const char *name)
 {
     char path[200];
-    rg_settings s = rg_settings_default();
     rg_pattern *p = NULL;
     rg_diag why = {0, ""};
     snprintf(path, sizeof path, "patterns/%s.opx", name);
-    if (rg_pattern_read(path, &s, &p, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
+    if (rg_pattern_read(path, NULL, &p, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
     return p;
 }
 
@@ -72,7 +71,7 @@ typedef double point[3];
 static point *pose(const rg_motion *m, int32_t frame)
 {
     rg_sheet sheet;
-    rg_motion_get_sheet(m, &sheet);
+    sheet = *rg_motion_get_sheet(m);
     point *x = calloc((size_t)sheet.vertices, sizeof *x);
     assert_non_null(x);
     assert_int_equal(rg_motion_pose(m, frame, x), RG_OK);
@@ -92,8 +91,8 @@ static void same_shape(int32_t n, point *a, point *b, double tol)
 static void same_pose(const rg_motion *a, int32_t i, const rg_motion *b, int32_t j)
 {
     rg_sheet of_a, of_b;
-    rg_motion_get_sheet(a, &of_a);
-    rg_motion_get_sheet(b, &of_b);
+    of_a = *rg_motion_get_sheet(a);
+    of_b = *rg_motion_get_sheet(b);
     point *x = pose(a, i), *y = pose(b, j), *same = calloc((size_t)of_b.vertices, sizeof *same);
     assert_non_null(same);
     for (int32_t v = 0; v < of_b.vertices; v++) {
@@ -102,7 +101,7 @@ static void same_pose(const rg_motion *a, int32_t i, const rg_motion *b, int32_t
         assert_true(at < of_a.vertices);
         memcpy(same[v], x[at], sizeof *same);
     }
-    same_shape(of_b.vertices, same, y, 1e-9 * a->report.pattern.size);
+    same_shape(of_b.vertices, same, y, 1e-9 * a->report.pattern->size);
     free(x);
     free(y);
     free(same);
@@ -176,12 +175,12 @@ static void reflect(const rg_pattern *state, int32_t n, const double (*flat)[2],
 static void is_state(const walk *w, int32_t frame, const rg_pattern *state)
 {
     rg_sheet sheet;
-    rg_motion_get_sheet(w->m, &sheet);
+    sheet = *rg_motion_get_sheet(w->m);
     point *ours = pose(w->m, frame), *truth = calloc((size_t)sheet.vertices, sizeof *truth);
     assert_non_null(truth);
     for (int32_t v = 0; v < sheet.vertices; v++) memcpy(truth[v], sheet.flat[v], sizeof sheet.flat[v]);
     if (state) reflect(state, sheet.vertices, sheet.flat, truth);
-    same_shape(sheet.vertices, ours, truth, 1e-6 * w->r->pattern.size);
+    same_shape(sheet.vertices, ours, truth, 1e-6 * w->r->pattern->size);
     free(ours);
     free(truth);
 }
@@ -406,7 +405,7 @@ static void refused(const rg_pattern *first, const rg_pattern *other, const char
     const rg_pattern *const both[] = {first, other};
     rg_motion *m = NULL;
     rg_diag why = {0, ""};
-    assert_int_equal(rg_pattern_same_sheet(first, other, &s, &why), RG_ESHEET);
+    assert_int_equal(rg_pattern_same_sheet(first, other, &why), RG_ESHEET);
     if (!strstr(why.text, words)) fail_msg("%s", why.text);
     assert_int_equal(rg_motion_create_states(both, 2, &s, NULL, NULL, &m, &why), RG_ESHEET);
     if (strncmp(why.text, "state 2: ", 9) || !strstr(why.text, words)) fail_msg("%s", why.text);
@@ -537,13 +536,12 @@ static void memory_refused(void **state)
 static void overlays(void **state)
 {
     (void)state;
-    const rg_settings s = rg_settings_default();
     rg_pattern *a = read_pattern("preliminary"), *b = read_pattern("fish");
     rg_mesh coarse[2] = {mesh_of(a), mesh_of(b)}, fine;
     rg_lines l = drawing();
     rg_diag why;
     for (int k = 0; k < 2; k++) assert_int_equal(rg_overlay_draw(&l, &coarse[k], 0, NULL), RG_OK);
-    assert_int_equal(rg_overlay_mesh(&l, &s, &fine, &why), RG_OK);
+    assert_int_equal(rg_overlay_mesh(&l, RG_MERGE_DEFAULT, &fine, &why), RG_OK);
     for (int k = 0; k < 2; k++) {
         rg_overlay o;
         assert_int_equal(rg_overlay_init(&o, &fine, &coarse[k], 1e-6 * fine.size), RG_OK);

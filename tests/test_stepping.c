@@ -35,21 +35,22 @@ static void as_a_whole_motion(void **state)
         s.frames = 17;
         s.contact = RG_CONTACT_REPORT;
         assert_int_equal(rg_motion_create(p, &s, NULL, NULL, &m, &why), RG_OK);
-        assert_int_equal(rg_fold_create(p, &s, &f, &why), RG_OK);
+        assert_int_equal(rg_fold_create(p, &s, NULL, NULL, &f, &why), RG_OK);
         const rg_report *r = rg_motion_report(m);
         int32_t frames = 0, creases = 0;
-        while (info.outcome == RG_RUNNING) {
-            assert_int_equal(rg_fold_step(f, &info), RG_OK);
-            assert_int_equal(info.frame, frames);
-            near(info.progress, r->frames[frames].percent / 100, 0);
+        for (const rg_step_info *i = rg_fold_get_info(f);; i = rg_fold_step(f)) {
+            assert_int_equal(i->frame, frames);
+            near(i->progress, r->frames[frames].percent / 100, 0);
             const double *rho = rg_fold_angles(f, &creases);
             assert_memory_equal(rho, rg_motion_angles(m, frames), (size_t)creases * sizeof *rho);
             frames++;
+            info = *i;
+            if (i->outcome != RG_RUNNING) break;
         }
         assert_int_equal(frames, r->frame_count);
         assert_int_equal(info.outcome, r->outcome);
-        assert_int_equal(rg_fold_step(f, &info), RG_OK); /* it stays there */
-        assert_int_equal(info.frame, -1);
+        info = *rg_fold_step(f); /* it stays there */
+        assert_int_equal(info.frame, frames - 1);
         assert_int_equal(info.outcome, r->outcome);
         rg_fold_destroy(f);
         rg_motion_destroy(m);
@@ -72,9 +73,9 @@ static void watched(void **state)
     rg_fold *f = NULL;
     rg_step_info info = {0};
     int calls = 0;
-    assert_int_equal(rg_fold_create_watched(p, &s, at_once, &calls, &f, NULL), RG_OK);
+    assert_int_equal(rg_fold_create(p, &s, at_once, &calls, &f, NULL), RG_OK);
     assert_true(calls > 0);
-    while (info.outcome == RG_RUNNING) assert_int_equal(rg_fold_step(f, &info), RG_OK);
+    for (info = *rg_fold_get_info(f); info.outcome == RG_RUNNING;) info = *rg_fold_step(f);
     assert_int_equal(info.outcome, RG_STOPPED);
     rg_fold_destroy(f);
     rg_pattern_destroy(p);

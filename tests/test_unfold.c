@@ -16,11 +16,10 @@
 
 static void mesh_of(const char *path, rg_mesh *m)
 {
-    const rg_settings s = rg_settings_default();
     const rg_memory mem = rg_mem_default(NULL);
     rg_pattern *p = NULL;
     rg_diag why;
-    assert_int_equal(rg_pattern_read(path, &s, &p, &why), RG_OK);
+    assert_int_equal(rg_pattern_read(path, NULL, &p, &why), RG_OK);
     assert_int_equal(rg_mesh_from_pattern(p, &mem, m, &why), RG_OK);
     rg_pattern_destroy(p);
 }

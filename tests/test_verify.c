@@ -27,9 +27,8 @@ static rg_pattern *pattern_named(const char *name)
     char path[200];
     rg_pattern *p = NULL;
     rg_diag why = {0, ""};
-    const rg_settings s = rg_settings_default();
     snprintf(path, sizeof path, "patterns/%s.opx", name);
-    if (rg_pattern_read(path, &s, &p, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
+    if (rg_pattern_read(path, NULL, &p, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
     return p;
 }
 
@@ -40,8 +39,7 @@ static rg_certificate *judge(const rg_pattern *given)
 {
     rg_certificate *c = NULL;
     rg_diag why = {0, ""};
-    const rg_settings s = rg_settings_default();
-    if (rg_certificate_create(written, given, &s, &c, &why) != RG_OK) fail_msg("%s", why.text);
+    if (rg_certificate_create(written, given, NULL, &c, &why) != RG_OK) fail_msg("%s", why.text);
     return c;
 }
 
@@ -52,7 +50,7 @@ static int is_valid(const json_t *j, char text[200], int *frame)
     rg_certificate_info info;
     write_json(j);
     rg_certificate *c = judge(NULL);
-    rg_certificate_get_info(c, &info);
+    info = *rg_certificate_get_info(c);
     const int32_t n = rg_certificate_faults(c, &list);
     snprintf(text, 200, "%s", n > 0 ? list[0].text : "");
     *frame = n > 0 ? list[0].frame : -1;
@@ -127,7 +125,7 @@ static void motions_are_valid(void **state)
         rg_certificate *c = judge(p);
         const rg_fault *list;
         if (rg_certificate_faults(c, &list) > 0) fail_msg("%s, frame %d: %s", names[n], (int)list[0].frame, list[0].text);
-        rg_certificate_get_info(c, &info);
+        info = *rg_certificate_get_info(c);
         assert_true(info.valid && info.ends_flat && info.layer_pairs > 5);
         assert_int_equal(info.frames, 60);
         assert_int_equal(info.faults, 0);
@@ -171,7 +169,7 @@ static void crossing_is_refused(void **state)
     assert_int_equal(rg_motion_write(m, written, NULL, &why), RG_OK);
     rg_certificate *c = judge(p);
     rg_certificate_info info;
-    rg_certificate_get_info(c, &info);
+    info = *rg_certificate_get_info(c);
     assert_false(info.valid);
     near(info.contact_depth, rg_motion_report(m)->contact_depth, 1e-9);
     const rg_fault *list;
@@ -190,7 +188,7 @@ static void another_pattern_is_refused(void **state)
     write_json(motion[0]);
     rg_certificate *c = judge(fish);
     rg_certificate_info info;
-    rg_certificate_get_info(c, &info);
+    info = *rg_certificate_get_info(c);
     assert_false(info.valid);
     rg_certificate_destroy(c);
     rg_pattern_destroy(fish);
@@ -328,7 +326,6 @@ static void what_is_no_motion_cannot_be_read(void **state)
 {
     (void)state;
     static const char *const text[] = {"", "[]", "{}", "{\"vertices_coords\": [[0, 0]]}", "not JSON at all"};
-    const rg_settings s = rg_settings_default();
     for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
         FILE *f = fopen(written, "w");
         assert_non_null(f);
@@ -336,20 +333,20 @@ static void what_is_no_motion_cannot_be_read(void **state)
         fclose(f);
         rg_certificate *c = NULL;
         rg_diag why = {0, ""};
-        assert_int_equal(rg_certificate_create(written, NULL, &s, &c, &why), RG_EFORMAT);
+        assert_int_equal(rg_certificate_create(written, NULL, NULL, &c, &why), RG_EFORMAT);
         assert_null(c);
         assert_true(why.text[0]);
     }
     rg_certificate *c = NULL;
     rg_diag why = {0, ""};
-    assert_int_equal(rg_certificate_create("/nowhere/at/all.fold", NULL, &s, &c, &why), RG_EREAD);
+    assert_int_equal(rg_certificate_create("/nowhere/at/all.fold", NULL, NULL, &c, &why), RG_EREAD);
     /* Each key that a motion needs is missed. */
     const char *const key[] = {"vertices_coords", "edges_vertices", "edges_assignment", "edges_foldAngle", "faces_vertices", "file_frames"};
     for (size_t k = 0; k < sizeof key / sizeof *key; k++) {
         json_t *j = json_deep_copy(motion[1]);
         json_object_del(j, key[k]);
         write_json(j);
-        assert_int_equal(rg_certificate_create(written, NULL, &s, &c, &why), RG_EFORMAT);
+        assert_int_equal(rg_certificate_create(written, NULL, NULL, &c, &why), RG_EFORMAT);
         assert_non_null(strstr(why.text, key[k]));
         json_decref(j);
     }
@@ -362,10 +359,8 @@ static void starves_cleanly(void **state)
     for (long left = 0;; left += left < 60 ? 1 : 17) {
         counted count = {left, 0, 0};
         const rg_memory mem = {counted_resize, &count};
-        rg_settings s = rg_settings_default();
-        s.memory = &mem;
         rg_certificate *c = NULL;
-        const rg_status status = rg_certificate_create(written, NULL, &s, &c, NULL);
+        const rg_status status = rg_certificate_create(written, NULL, &mem, &c, NULL);
         rg_certificate_destroy(c);
         assert_int_equal(count.out, 0);
         if (status == RG_OK) break;

@@ -726,7 +726,7 @@ static void svg_marks_what_locks(void **state)
     rg_motion *m = motion_by(&l, 2, all_alike, NULL);
     int32_t centre = 0;
     while (hypot(m->mesh.X[centre].x - 1.2, m->mesh.X[centre].y - 1.1) > 1e-9) centre++;
-    assert_int_equal(m->report.pattern.closed_vertices, 1);
+    assert_int_equal(m->report.pattern->closed_vertices, 1);
     m->report.blocking_vertices = &centre;
     m->report.blocking_vertex_count = 1;
     m->title = rg_mem_string(&m->mem, "a < b & c");

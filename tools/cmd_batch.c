@@ -48,7 +48,7 @@ static void put_report(const task *t, int exit, const rg_report *r, FILE *out)
     fprintf(out, ",%d,%d,%s", (int)t->sheet, exit, r->outcome == RG_FOLDED ? "folded" : r->outcome == RG_RESTS ? "rests" : "stopped");
     put_number(r->folded_percent, out);
     put_number(r->least_folded_percent, out);
-    fprintf(out, ",%d,%d,%d,%d,", (int)r->pattern.creases, (int)r->pattern.interior_vertices, (int)r->pattern.closed_vertices, (int)r->added_creases);
+    fprintf(out, ",%d,%d,%d,%d,", (int)r->pattern->creases, (int)r->pattern->interior_vertices, (int)r->pattern->closed_vertices, (int)r->added_creases);
     put_text(r->strategy, out);
     fprintf(out, ",%d", (int)r->tries);
     const double numbers[] = {r->adjust_gain, r->max_closure_residual, r->max_edge_strain, r->max_facet_gap, r->max_overfold_deg, r->max_adjustment,
@@ -127,7 +127,7 @@ static int child(const options *o, const char *folder, const task *t)
     one.output = output;
     one.outputs = o->forms;
     one.report = report;
-    one.settings.sheet = t->sheet;
+    one.reading.sheet = t->sheet;
     one.progress = 0;
     one.quiet = 0;
     if (o->limit > 0) alarm((unsigned)o->limit);

@@ -18,7 +18,7 @@ int cmd_convert(const options *o)
         say(o->outputs ? "convert: one -o OUT is enough" : "convert: -o OUT is missing; - is standard output");
         return ENDS_USAGE;
     }
-    const rg_status s = rg_convert(r.file, o->output[0], (rg_format)o->as, &o->settings, pass_on, &r, &why);
+    const rg_status s = rg_convert(r.file, o->output[0], (rg_format)o->as, &o->reading, pass_on, &r, &why);
     if (s == RG_OK) return ENDS_WELL;
     return say_status(s, s == RG_EARG ? "convert" : s == RG_EWRITE ? NULL : r.file, &why);
 }

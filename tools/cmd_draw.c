@@ -19,7 +19,7 @@ int cmd_draw(const options *o)
     }
     int status = places_check(o);
     if (status != ENDS_WELL) return status;
-    const rg_status s = rg_motion_read(o->operand[0], &o->settings, &m, &why);
+    const rg_status s = rg_motion_read(o->operand[0], &o->reading, &m, &why);
     if (s != RG_OK) return say_status(s, o->operand[0], &why);
     progress_init(&bar, o->quiet && o->progress < 0 ? 0 : o->progress);
     status = places_write(o, m, &bar);

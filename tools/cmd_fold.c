@@ -39,7 +39,7 @@ static double tidy(double x, double size) { return fabs(x) > 1e-9 * size ? x : 0
 /* Of a motion that reaches its end through itself: from where on, and which facets first. Of one that stopped short, -v says it. */
 static void say_contact(const char *name, const rg_report *r)
 {
-    const double size = r->pattern.size;
+    const double size = r->pattern->size;
     say("%s: reaches its end only by passing through itself, from %.0f %%: facets %d at (%.6g, %.6g) and %d at (%.6g, %.6g)", name,
         r->first_contact_percent, (int)r->contact_facets[0], tidy(r->contact_at[0][0], size), tidy(r->contact_at[0][1], size),
         (int)r->contact_facets[1], tidy(r->contact_at[1][0], size), tidy(r->contact_at[1][1], size));
@@ -83,7 +83,7 @@ static int fold_states(const options *o, const states *q, progress *bar, rg_moti
 {
     rg_diag why = {0, ""};
     for (int i = 0; i < q->count && q->count > 1; i++) {
-        const rg_status same = rg_pattern_same_sheet(q->pattern[0], q->pattern[i], &o->settings, &why);
+        const rg_status same = rg_pattern_same_sheet(q->pattern[0], q->pattern[i], &why);
         if (same != RG_OK) return say_status(same, o->operand[q->operand[i]], &why);
     }
     interrupt_hold();

@@ -65,9 +65,9 @@ static const rule rules[] = {
      "frames from start to end, both included, evenly spaced in folded percent (60)"},
     {FOR_FOLD | FOR_CHART, "to", 0, "PCT", REAL, AT(settings.to), -100, 100, 0.01, NULL,
      "how far to fold, in percent; negative: mountain and valley exchanged (100)"},
-    {FOR_FOLD | FOR_CHART, "targets", 0, NULL, SWITCH, AT(settings.targets), 1, 0, 1, NULL,
+    {FOR_FOLD | FOR_CHART, "targets", 0, NULL, SWITCH, AT(reading.targets), 1, 0, 1, NULL,
      "aim at the file's own fold angles where it has them (on)"},
-    {FOR_FOLD | FOR_CHART, "no-targets", 0, NULL, SWITCH, AT(settings.targets), 0, 0, 1, NULL, "aim at 180 degrees everywhere"},
+    {FOR_FOLD | FOR_CHART, "no-targets", 0, NULL, SWITCH, AT(reading.targets), 0, 0, 1, NULL, "aim at 180 degrees everywhere"},
     {FOR_FOLD, "method", 0, "NAME", CHOICE, AT(method), 0, 0, 1, methods, "how steps are made (auto):"},
     {FOR_FOLD, "step", 0, "DEG", ABOVE, AT(settings.step), 0, 180, DEG, NULL, "largest step of any crease, degrees (5)"},
     {FOR_FOLD | FOR_CHART, "tol", 0, "T", REAL, AT(settings.tol), 1e-13, 0.1, 1, NULL, "closure tolerance, radians (1e-10)"},
@@ -94,18 +94,18 @@ static const rule rules[] = {
      "the output's format; auto: by its name; ori is read only (auto):"},
     {FOR_FOLD, "frame", 0, "K[-L]", FRAMES, 0, NOTHING,
      "FOLD files: the frame to read, 0 is the key frame (the first crease pattern); several, such as 1-4, 1,3 or all, are states of one sheet"},
-    {FOR_INFO | FOR_CONVERT | FOR_CHART, "frame", 0, "K", WHOLE, AT(settings.file_frame), 0, INT32_MAX, 1, NULL,
+    {FOR_INFO | FOR_CONVERT | FOR_CHART, "frame", 0, "K", WHOLE, AT(reading.file_frame), 0, INT32_MAX, 1, NULL,
      "FOLD files: the frame to read, 0 is the key frame (the first crease pattern)"},
-    {READS | FOR_DRAW, "flip", 0, NULL, SWITCH, AT(settings.flip), 1, 0, 1, NULL,
+    {READS | FOR_DRAW, "flip", 0, NULL, SWITCH, AT(reading.flip), 1, 0, 1, NULL,
      "the file's y runs the other way than is usual for its format"},
     {FOR_BATCH, "merge", 0, "[=TOL]", JOIN, 0, 0, 0.1, 1, NULL,
      "fold nothing: join what the parts have in DIR to one table; with =TOL, as in rigami fold: ends nearer than this are one vertex"},
-    {READS | FOR_DRAW, "merge", 0, "TOL", REAL, AT(settings.merge), 0, 0.1, 1, NULL,
+    {READS | FOR_DRAW, "merge", 0, "TOL", REAL, AT(reading.merge), 0, 0.1, 1, NULL,
      "ends nearer than this part of the sheet's size are one vertex (2e-5; .svg: 1e-3)"},
-    {READS, "aux", 0, NULL, SWITCH, AT(settings.aux_creases), 1, 0, 1, NULL, "auxiliary lines are creases that may fold"},
+    {READS, "aux", 0, NULL, SWITCH, AT(reading.aux_creases), 1, 0, 1, NULL, "auxiliary lines are creases that may fold"},
     {READS, "line", 0, "KEY=KIND", KIND, 0, NOTHING,
      "drawings: what lines of a colour, layer, name or dash are: border, cut, mountain, valley, unassigned, aux or none; may be given many times"},
-    {FOR_FOLD | FOR_INFO | FOR_CHART, "sheet", 0, "N", WHOLE, AT(settings.sheet), 1, INT32_MAX, 1, NULL,
+    {FOR_FOLD | FOR_INFO | FOR_CHART, "sheet", 0, "N", WHOLE, AT(reading.sheet), 1, INT32_MAX, 1, NULL,
      "of several sheets in a drawing the one to take, in the order of the file"},
     {PICTURES, "size", 0, "WxH", SIZE, 0, 1, 16384, 1, NULL, "pictures: width and height in pixels (960x720)"},
     {PICTURES, "camera", 0, "AZ,EL[,ZOOM[,X,Y]]", CAMERA, 0, NOTHING,
@@ -300,7 +300,7 @@ static int set_adjust(const rule *r, const char *text, rg_settings *s)
 static int set_join(const rule *r, const char *text, options *o)
 {
     o->merge = text == NULL;
-    return text ? set_number(&(rule){.name = r->name, .kind = REAL, .low = r->low, .high = r->high, .unit = 1}, text, &o->settings.merge) : ENDS_WELL;
+    return text ? set_number(&(rule){.name = r->name, .kind = REAL, .low = r->low, .high = r->high, .unit = 1}, text, &o->reading.merge) : ENDS_WELL;
 }
 
 static int set_part(const rule *r, const char *text, options *o)
@@ -337,7 +337,7 @@ static int set_frames(const rule *r, const char *text, options *o)
         if (m) one->last = (int32_t)atol(c + 1), c += m + 1;
         if (one->last < one->first) break;
         if (*c == 0) {
-            if (o->ranges == 1 && one->first == one->last) o->settings.file_frame = one->first;
+            if (o->ranges == 1 && one->first == one->last) o->reading.file_frame = one->first;
             return ENDS_WELL;
         }
         if (*c != ',') break;
@@ -353,7 +353,7 @@ static int set(options *o, const rule *r, const char *text)
     case CHOICE: return set_choice(r, text, to);
     case TEXT: *(const char **)to = text; return ENDS_WELL;
     case OUTPUT: o->output[o->outputs++] = text; return ENDS_WELL;
-    case KIND: o->kind[o->settings.kinds++] = text; return ENDS_WELL;
+    case KIND: o->kind[o->reading.kinds++] = text; return ENDS_WELL;
     case FORM: o->form[o->forms++] = text; return ENDS_WELL;
     case JOIN: return set_join(r, text, o);
     case PART: return set_part(r, text, o);
@@ -474,8 +474,8 @@ static int only_animations(const options *o)
 
 static void settle(options *o)
 {
-    o->settings.format = (rg_format)o->format;
-    o->settings.unit = metres[o->unit];
+    o->reading.format = (rg_format)o->format;
+    o->reading.unit = metres[o->unit];
     o->settings.method = (rg_method)o->method;
     o->settings.solver = (rg_solver)o->solver;
     o->settings.triangulate = (rg_triangulation)o->triangulate;
@@ -491,13 +491,13 @@ int options_parse(options *o, const command *c, int argc, char **argv)
 {
     struct option longs[RULES + 1];
     char shorts[3 * RULES + 3];
-    *o = (options){.settings = rg_settings_default(), .picture = rg_picture_default(), .progress = -1, .pace = -1,
+    *o = (options){.settings = rg_settings_default(), .reading = rg_reading_default(), .picture = rg_picture_default(), .progress = -1, .pace = -1,
                    .effort = RG_EFFORT_NORMAL};
     o->operand = calloc((size_t)argc + 1, sizeof *o->operand);
     o->output = calloc((size_t)argc + 1, sizeof *o->output);
     o->kind = calloc((size_t)argc + 1, sizeof *o->kind);
     o->form = calloc((size_t)argc + 1, sizeof *o->form);
-    o->settings.kind = o->kind;
+    o->reading.kind = o->kind;
     if (!o->operand || !o->output || !o->kind || !o->form) {
         say("out of memory");
         return ENDS_UNWRITTEN;

@@ -13,6 +13,7 @@ typedef struct frame_range { int32_t first, last; } frame_range; /* of a FOLD fi
 
 typedef struct options {
     rg_settings settings;
+    rg_reading reading;
     rg_picture picture;
     double angle; /* of gen, radians; 0: the kind's own */
     const char **operand, **output, **kind, **form; /* kind: of --line; form: of --write */

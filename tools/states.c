@@ -33,10 +33,10 @@ static int add_frames(const options *o, int operand, states *s)
         int32_t last = r->last;
         for (int32_t k = r->first; status == ENDS_WELL && (k <= last || (last < r->first && k == r->first)); k++) {
             rg_pattern_info info;
-            one.settings.file_frame = k;
+            one.reading.file_frame = k;
             status = add(&one, operand, s);
             if (status != ENDS_WELL || last >= r->first) continue;
-            rg_pattern_get_info(s->pattern[s->count - 1], &info);
+            info = *rg_pattern_get_info(s->pattern[s->count - 1]);
             last = info.file_frames;
         }
     }

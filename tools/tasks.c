@@ -57,7 +57,7 @@ static int32_t sheets_of(const options *o, const char *file)
     rg_pattern *p = NULL;
     rg_pattern_info i = {.sheets = 0};
     rg_diag why;
-    if (o->settings.sheet == 0 && rg_pattern_read(file, &o->settings, &p, &why) == RG_OK) rg_pattern_get_info(p, &i);
+    if (o->reading.sheet == 0 && rg_pattern_read(file, &o->reading, &p, &why) == RG_OK) i = *rg_pattern_get_info(p);
     rg_pattern_destroy(p);
     return i.sheets > 1 ? i.sheets : 0;
 }
@@ -74,7 +74,7 @@ static int add(const options *o, int i, char *const *names, tasks *q)
     for (int32_t k = sheets ? 1 : 0; k <= sheets; k++) {
         char name[200];
         task *t = &q->task[q->count++];
-        *t = (task){.file = file, .sheet = sheets ? k : o->settings.sheet};
+        *t = (task){.file = file, .sheet = sheets ? k : o->reading.sheet};
         name_of(file, name);
         if (!is_alone(names, o->operands, name)) {
             snprintf(name, sizeof name, "%.199s", file);

@@ -20,7 +20,7 @@ static int is_same(const rg_pattern *p, const rg_unfoldable *u, const double at[
 /* Theorems are of folding flat; targets of what the file itself asks for. */
 static int speaks_against(const options *o, const rg_unfoldable *u)
 {
-    return (u->theorem == RG_TARGETS) ? o->settings.targets : fabs(o->settings.to) == 1;
+    return (u->theorem == RG_TARGETS) ? o->reading.targets : fabs(o->settings.to) == 1;
 }
 
 /* A vertex that cannot be as it should: one that holds the fold, else any. NULL: there is none. */
@@ -30,7 +30,7 @@ static const rg_unfoldable *culprit(const options *o, const rg_pattern *p, const
     const int32_t n = rg_pattern_unfoldable(p, &u);
     for (int32_t k = 0; k < r->blocking_vertex_count; k++)
         for (int32_t i = 0; i < n; i++)
-            if (speaks_against(o, &u[i]) && is_same(p, &u[i], r->blocking_at[k], r->pattern.size)) return &u[i];
+            if (speaks_against(o, &u[i]) && is_same(p, &u[i], r->blocking_at[k], r->pattern->size)) return &u[i];
     for (int32_t i = 0; i < n; i++)
         if (speaks_against(o, &u[i]) && (!any || (u[i].theorem == RG_TARGETS && any->theorem != RG_TARGETS))) any = &u[i];
     return any;
@@ -66,7 +66,7 @@ static void because(const options *o, const rg_pattern *p, const rg_report *r, c
     if (interrupt_came()) {
         snprintf(why, TEXT, "interrupted");
         next[0] = 0;
-    } else if (r->pattern.creases == 0 && r->pattern.lost_creases > 0) {
+    } else if (r->pattern->creases == 0 && r->pattern->lost_creases > 0) {
         snprintf(why, TEXT, "%s", r->reason);
         snprintf(next, TEXT, "draw them up to the lines that they should meet, or join them with --merge as the warnings say");
     } else if (u) {
@@ -77,7 +77,7 @@ static void because(const options *o, const rg_pattern *p, const rg_report *r, c
         else snprintf(next, TEXT, "mend the vertex, or fold part of the way: --to %.0f", fmax(1, floor(fabs(r->folded_percent))));
     } else if (r->blocking_vertex_count > 0) {
         const double *at = r->blocking_at[0];
-        const int closed = is_closed(p, at, r->pattern.size);
+        const int closed = is_closed(p, at, r->pattern->size);
         snprintf(why, TEXT, closed ? "the vertex at (%.6g, %.6g) holds the facets round it: a crease halves the angle of two that fold opposite ways"
                                    : "the facets round the vertex at (%.6g, %.6g) hold each other, each as stiff as a plate", at[0], at[1]);
         next_thing(o, r, next, TEXT);
@@ -95,7 +95,7 @@ void verdict_say(const options *o, const char *name, const rg_pattern *p, const 
     const rg_report *r = rg_motion_report(m);
     char why[TEXT] = "", next[TEXT] = "";
     because(o, p, r, why, next);
-    if (r->pattern.creases == 0) say("%s: nothing is folded: %s%s%s", name, why, next[0] ? ". Next: " : "", next);
+    if (r->pattern->creases == 0) say("%s: nothing is folded: %s%s%s", name, why, next[0] ? ". Next: " : "", next);
     else say("%s: stopped at %.1f %% folded: %s%s%s", name, r->folded_percent, why, next[0] ? ". Next: " : "", next);
 }
 

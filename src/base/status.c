@@ -19,6 +19,11 @@ const char *rg_version(void)
     return RG_VERSION;
 }
 
+int rg_version_number(void)
+{
+    return RG_VERSION_NUMBER;
+}
+
 rg_status rg_fail(rg_status s, rg_diag *why, int line, const char *format, ...)
 {
     if (why) {

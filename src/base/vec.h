@@ -17,6 +17,14 @@ static inline double rg_vec2_dot(rg_vec2 a, rg_vec2 b) { return a.x * b.x + a.y 
 static inline double rg_vec2_cross(rg_vec2 a, rg_vec2 b) { return a.x * b.y - a.y * b.x; }
 static inline double rg_vec2_length(rg_vec2 a) { return hypot(a.x, a.y); }
 
+/* How far x is off the segment from a to b. */
+static inline double rg_vec2_off_segment(rg_vec2 a, rg_vec2 b, rg_vec2 x)
+{
+    const rg_vec2 along = rg_vec2_sub(b, a), to = rg_vec2_sub(x, a);
+    const double part = fmin(1, fmax(0, rg_vec2_dot(along, to) / rg_vec2_dot(along, along)));
+    return rg_vec2_length((rg_vec2){to.x - part * along.x, to.y - part * along.y});
+}
+
 /* Twice the signed area of the triangle a b c; positive when it turns counter-clockwise. */
 static inline double rg_vec2_turn(rg_vec2 a, rg_vec2 b, rg_vec2 c)
 {

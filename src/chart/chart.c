@@ -1,5 +1,6 @@
 #include "chart/chart.h"
 #include "base/file.h"
+#include "base/settings.h"
 #include "base/status.h"
 
 #include <stdio.h>
@@ -179,9 +180,12 @@ static rg_status fill(rg_chart *c, const rg_mesh *none, const rg_mesh *all, watc
     return s;
 }
 
-rg_status rg_chart_create(const rg_pattern *p, const rg_settings *settings, rg_progress progress, void *ctx, rg_chart **chart,
+rg_status rg_chart_create(const rg_pattern *p, const rg_settings *given, rg_progress progress, void *ctx, rg_chart **chart,
                           rg_diag *why)
 {
+    rg_settings mine, *const settings = &mine;
+    const rg_status taken = rg_settings_take(given, settings, why);
+    if (taken != RG_OK) return taken;
     const rg_memory mem = rg_mem_default(settings->memory);
     rg_mesh none, all = {0};
     watch w = {progress, ctx, 0, 5 * 3 + 3, 0};

@@ -1,5 +1,6 @@
 #include "base/memory.h"
 #include "base/number.h"
+#include "base/settings.h"
 #include "base/status.h"
 #include "pattern/faces.h"
 #include "pattern/planar.h"
@@ -120,6 +121,7 @@ static rg_status letter_edges(plane *p, const rg_memory *mem)
         const int inside = p->faces.area[p->faces.face[2 * e]] > 0 && p->faces.area[p->faces.face[2 * e + 1]] > 0;
         p->letter[e] = a == RG_CUT ? RG_FLAT : a == RG_BORDER && inside ? 'C' : a;
         if (isfinite(edge->target) && a != RG_BORDER && a != RG_FLAT && a != RG_CUT) p->angle[e] = rg_number_degrees(edge->target);
+        else if (a == RG_MOUNTAIN || a == RG_VALLEY) p->angle[e] = NAN; /* free */
     }
     return RG_OK;
 }
@@ -237,7 +239,7 @@ static rg_status number_faces(plane *p, const rg_lines *l)
 
 /* The graph to write. Where nobody asked for a tolerance, lines stay where they are, unless the drawing's own format is
  * a rough one; *gaps: out, whether ends miss each other that a reader would join. */
-static rg_status draw(rg_lines *l, const rg_settings *s, rg_graph *g, int *gaps, rg_diag *why)
+static rg_status draw(rg_lines *l, const rg_reading *s, rg_graph *g, int *gaps, rg_diag *why)
 {
     const int32_t warnings = l->warnings;
     *gaps = 0;
@@ -263,7 +265,7 @@ static rg_status draw(rg_lines *l, const rg_settings *s, rg_graph *g, int *gaps,
     return status;
 }
 
-static rg_status write_fold(rg_lines *l, const rg_settings *settings, const char *path, rg_diag *why)
+static rg_status write_fold(rg_lines *l, const rg_reading *settings, const char *path, rg_diag *why)
 {
     plane p;
     int gaps;
@@ -290,7 +292,7 @@ static rg_status write_fold(rg_lines *l, const rg_settings *settings, const char
 
 /* ----------------------------------------------------------------------------------------------------- convert ---- */
 
-static rg_status write(rg_lines *l, rg_format to, const rg_settings *s, const char *path, rg_diag *why)
+static rg_status write(rg_lines *l, rg_format to, const rg_reading *s, const char *path, rg_diag *why)
 {
     static const char *const names[] = {"", ".opx", ".cp", ".fold", ".svg", ".dxf"};
     const rg_status status = warn_of_losses(l, to, names[to]);
@@ -304,17 +306,18 @@ static rg_status write(rg_lines *l, rg_format to, const rg_settings *s, const ch
     }
 }
 
-rg_status rg_convert(const char *in, const char *out, rg_format to, const rg_settings *s, rg_warning warn, void *ctx,
+rg_status rg_convert(const char *in, const char *out, rg_format to, const rg_reading *given, rg_warning warn, void *ctx,
                      rg_diag *why)
 {
+    rg_reading mine, *const s = &mine;
+    rg_status status = rg_reading_take(given, s, why);
+    if (status != RG_OK) return status;
     if (to == RG_FORMAT_AUTO) to = rg_read_extension(out);
     if (to != RG_FORMAT_OPX && to != RG_FORMAT_CP && to != RG_FORMAT_FOLD && to != RG_FORMAT_SVG && to != RG_FORMAT_DXF)
         return rg_fail(RG_EARG, why, 0, strcmp(out, "-") == 0 ? "%s: standard output has no name to tell the format by"
                                                               : "%s: crease patterns are written as .opx, .cp, .fold, .svg or .dxf", out);
-    if (!(s->merge >= 0 && s->merge < 0.1))
-        return rg_fail(RG_EARG, why, 0, "the merge tolerance is not between 0 and 0.1 of the sheet");
     rg_lines l;
-    rg_status status = rg_read_file(in, s, to == RG_FORMAT_FOLD, &l, why);
+    status = rg_read_file(in, s, to == RG_FORMAT_FOLD, &l, why);
     if (status != RG_OK) return status;
     status = write(&l, to, s, out, why);
     if (status == RG_ENOMEM) rg_fail(status, why, 0, "out of memory");

@@ -2,6 +2,7 @@
  * lie; where they and the flat pattern say all that the positions say, these are forgotten and the motion is one of plates as any
  * other. Else (sheets that stretch or bend) the positions are kept. */
 #include "base/clock.h"
+#include "base/settings.h"
 #include "base/status.h"
 #include "motion/ending.h"
 #include "motion/motion.h"
@@ -185,10 +186,8 @@ static rg_status build(rg_motion *m, const rg_value *root, const rg_pattern *p, 
 {
     rg_report *r = &m->report;
     given g = {.m = m, .root = root, .why = why};
-    rg_pattern_get_info(p, &r->pattern);
-    r->pattern.title = m->title = rg_mem_string(&m->mem, r->pattern.title);
-    r->pattern.author = m->author = rg_mem_string(&m->mem, r->pattern.author);
-    rg_status s = m->title && m->author ? rg_source_copy(&p->source, &m->mem, &m->source) : RG_ENOMEM;
+    rg_status s = rg_motion_name(m, p);
+    if (s == RG_OK) s = rg_source_copy(&p->source, &m->mem, &m->source);
     if (s == RG_OK) s = rg_mesh_from_pattern(p, &m->mem, &m->mesh, why);
     if (s == RG_OK && !m->source.frame) s = rg_fail(RG_EFORMAT, why, 0, "no FOLD file: only those hold motions");
     for (int32_t v = 0; s == RG_OK && v < m->mesh.nv; v++)
@@ -196,6 +195,7 @@ static rg_status build(rg_motion *m, const rg_value *root, const rg_pattern *p, 
             s = rg_fail(RG_EFORMAT, why, 0, "lines of the pattern cross at (%.6g, %.6g) where the file has no vertex", m->mesh.X[v].x, m->mesh.X[v].y);
     if (s != RG_OK) return s;
     name_flat_lines(m);
+    rg_motion_lend(m);
     g.nv = (int32_t)rg_value_count(rg_value_get(m->source.frame, "vertices_coords"));
     m->target = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *m->target);
     m->from = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *m->from);
@@ -216,11 +216,13 @@ static rg_status build(rg_motion *m, const rg_value *root, const rg_pattern *p, 
     return s;
 }
 
-rg_status rg_motion_read(const char *path, const rg_settings *settings, rg_motion **motion, rg_diag *why)
+rg_status rg_motion_read(const char *path, const rg_reading *reading, rg_motion **motion, rg_diag *why)
 {
     const double begun = rg_seconds();
-    const rg_memory mem = rg_mem_default(settings->memory);
-    rg_settings with = *settings;
+    rg_reading with;
+    rg_status s = rg_reading_take(reading, &with, why);
+    if (s != RG_OK) return s;
+    const rg_memory mem = rg_mem_default(with.memory);
     rg_pattern *p = NULL;
     rg_motion *m = NULL;
     rg_value *root = NULL;
@@ -228,13 +230,14 @@ rg_status rg_motion_read(const char *path, const rg_settings *settings, rg_motio
     size_t size = 0;
     with.aux_creases = 1; /* what was added to bend is drawn flat */
     with.format = RG_FORMAT_FOLD;
-    rg_status s = rg_read_whole(path, &mem, &bytes, &size, why);
+    s = rg_read_whole(path, &mem, &bytes, &size, why);
     if (s == RG_OK) s = rg_pattern_parse(bytes, size, &with, &p, why);
     if (s == RG_OK) s = rg_value_parse(bytes, size, &root, why);
     if (s == RG_OK && !(m = rg_mem_array(&mem, 1, sizeof *m))) s = RG_ENOMEM;
     if (s == RG_OK) {
         m->mem = mem;
-        m->settings = with;
+        m->settings = rg_settings_default();
+        m->settings.memory = with.memory;
         s = build(m, root, p, why);
     }
     rg_value_free(root);

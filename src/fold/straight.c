@@ -21,15 +21,6 @@ static const double LEAST_GAIN = 1e-3, LEAST_PART = 0.01;
 /* Where there are more equations than creases they must agree this well, or what is open at vertices holds the sheet. */
 static const double LOOSEST = 1e-6;
 
-static rg_status check_settings(const rg_settings *s, rg_diag *why)
-{
-    if (!(s->step > 0 && s->step <= RG_PI)) return rg_fail(RG_EARG, why, 0, "the step must be above 0 and at most 180 degrees");
-    if (!(s->tol >= 1e-13 && s->tol <= 0.1)) return rg_fail(RG_EARG, why, 0, "the tolerance must be within 1e-13, which rounding leaves, and 0.1");
-    if (!(fabs(s->to) <= 1)) return rg_fail(RG_EARG, why, 0, "the end must be within -100 and 100 percent");
-    if (s->frames < 2) return rg_fail(RG_EARG, why, 0, "there must be at least 2 frames");
-    return RG_OK;
-}
-
 /* The one system of all creases, and what its time loop works on. */
 static rg_status make_system(rg_straight *f, rg_diag *why)
 {
@@ -53,12 +44,12 @@ static const rg_apart_of OF_SYSTEMS = {rg_straight_from_mesh_together, rg_straig
 static rg_status create(rg_mesh *m, const rg_settings *settings, int apart, rg_straight **fold, rg_diag *why)
 {
     rg_memory mem = rg_mem_default(settings->memory);
-    rg_status s = check_settings(settings, why);
-    rg_straight *f = s == RG_OK ? rg_mem_array(&mem, 1, sizeof *f) : NULL;
+    rg_straight *f = rg_mem_array(&mem, 1, sizeof *f);
     if (!f) {
         rg_mesh_free(m);
-        return s != RG_OK ? s : RG_ENOMEM;
+        return RG_ENOMEM;
     }
+    rg_status s = RG_OK;
     f->mem = mem;
     f->self = f;
     f->settings = *settings;
@@ -262,7 +253,8 @@ rg_status rg_straight_step(rg_straight *f, rg_step_info *info)
     }
     f->seconds_solving += rg_seconds() - from;
     const rg_cost is = rg_straight_cost(f);
-    *info = (rg_step_info){f->outcome, f->s, frame, f->closure, (int32_t)(is.solves - was.solves),
-                           (int32_t)(is.iterations - was.iterations)};
+    *info = (rg_step_info){.outcome = f->outcome, .progress = f->s, .frame = frame, .closure = f->closure, .frames = f->settings.frames,
+                           .solves = (int32_t)(is.solves - was.solves), .iterations = (int32_t)(is.iterations - was.iterations),
+                           .reason = f->outcome == RG_RUNNING ? "" : f->reason};
     return RG_OK;
 }

@@ -31,7 +31,7 @@ typedef struct place { double mirror; rg_vec2 to; } place;
 static const place here = {1, {0, 0}};
 
 /* Groups of an assignment and pairs of points: "B AB BC, M Op". */
-static void draw(rg_drawing *d, place at, const char *lines)
+static void draw(rg_sketch *d, place at, const char *lines)
 {
     char assignment = 0;
     for (const char *c = lines; *c; c++) {
@@ -48,25 +48,25 @@ static void draw(rg_drawing *d, place at, const char *lines)
 }
 
 /* Two corners stay whole; the sheet is halved along the others' diagonal and along both middle lines. */
-void rg_preliminary_draw(rg_drawing *d)
+void rg_preliminary_draw(rg_sketch *d)
 {
     draw(d, here, "B As sB Be eC Cn nD Dw wA, V Os Oe On Ow, M OA OC");
 }
 
 /* Kite folds from A and C; the corners B and D between them become flaps that point to C. */
-void rg_fish_draw(rg_drawing *d)
+void rg_fish_draw(rg_sketch *d)
 {
     draw(d, here, "B AB Bf fC Cg gD DA, V AF CF Ff AG CG Gg, M FB GD");
 }
 
 /* Both flaps lifted: the petal folds' hinges are mountains, and the edges lie in one piece along them. */
-void rg_bird_draw(rg_drawing *d)
+void rg_bird_draw(rg_sketch *d)
 {
     draw(d, here, "B AB BC CD DA, V OS OE ON OW SA SB EB EC NC ND WD WA, M SE NW OA OC");
 }
 
 /* All four flaps squashed and petal-folded; those at s and n then folded in half, so that four lie on either side. */
-void rg_frog_draw(rg_drawing *d)
+void rg_frog_draw(rg_sketch *d)
 {
     draw(d, here, "B As sB Be eC Cn nD Dw wA, M OA OB OC OD");
     draw(d, here, "V O1 O2 O3 O4 O5 O6 O7 O8 A1 s1 s2 B2 B3 e3 e4 C4 C5 n5 n6 D6 D7 w7 w8 A8");
@@ -76,7 +76,7 @@ void rg_frog_draw(rg_drawing *d)
 /* Four bird bases, their edges folded; the flaps in the middle and at the corners of the sheet are lifted. Two of the bases
  * have theirs folded in half: twelve creases of the bases and the four edges meet in the middle, less two diagonals left
  * whole, eight of them valleys. */
-void rg_four_crane_draw(rg_drawing *d)
+void rg_four_crane_draw(rg_sketch *d)
 {
     static const char *const shared = "V OS OE ON OW SA SB EB EC NC ND WD WA, M OA OC";
     for (int i = 0; i < 4; i++) {

@@ -30,7 +30,7 @@ static ring ring_of(const rg_vec2 v[3])
 }
 
 /* on[k], over[k]: where those creases of vertex k end; side[k]: the assignment of the side after it. */
-static void draw_ring(rg_drawing *d, const ring *r, const rg_vec2 on[3], const rg_vec2 over[3], const char side[3])
+static void draw_ring(rg_sketch *d, const ring *r, const rg_vec2 on[3], const rg_vec2 over[3], const char side[3])
 {
     for (int k = 0; k < 3; k++) {
         rg_drawing_line(d, r->v[k], r->v[(k + 1) % 3], side[k]);
@@ -41,7 +41,7 @@ static void draw_ring(rg_drawing *d, const ring *r, const rg_vec2 on[3], const r
 
 /* A triangle twist: all sides alike, sectors of 60 and 120 degrees, pleats to the edges at right angles. All six inside angles
  * are corners of facets of four corners, outside the triangle. */
-void rg_closed_split_draw(rg_drawing *d)
+void rg_closed_split_draw(rg_sketch *d)
 {
     static const double far = 2; /* edges of the sheet from its centre; corners of the triangle: 1 */
     rg_vec2 v[3], on[3], over[3];
@@ -61,7 +61,7 @@ void rg_closed_split_draw(rg_drawing *d)
 /* A triangle of 90, 30 and 60 degrees, its last side opposite to the others: now the inside angles are two corners of the
  * triangle itself, and corners of facets that are triangles too, because the creases that bound them meet at the sheet's
  * edge. None of them can be split. */
-void rg_closed_adjust_draw(rg_drawing *d)
+void rg_closed_adjust_draw(rg_sketch *d)
 {
     const rg_vec2 v[3] = {{0, 0}, {1, 0}, {0, 1 / sqrt(3)}};
     const ring r = ring_of(v);

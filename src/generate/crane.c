@@ -28,7 +28,7 @@ static rg_vec2 placed(int half, rg_vec2 p)
     return half & 2 ? (rg_vec2){-p.y, -p.x} : p;
 }
 
-static void line(rg_drawing *d, int half, rg_vec2 a, rg_vec2 b, char assignment)
+static void line(rg_sketch *d, int half, rg_vec2 a, rg_vec2 b, char assignment)
 {
     rg_drawing_line(d, placed(half, a), placed(half, b), assignment);
 }
@@ -48,7 +48,7 @@ static rg_vec2 crossing(const reverse *f, int k)
 }
 
 /* A ray from its end in the body to the tip, in pieces. */
-static void draw_ray(rg_drawing *d, int half, int k, int folds, rg_vec2 end, char assignment)
+static void draw_ray(rg_sketch *d, int half, int k, int folds, rg_vec2 end, char assignment)
 {
     for (int f = 0; f <= folds; f++) {
         const rg_vec2 next = f < folds ? crossing(&neck[f], k) : A;
@@ -58,7 +58,7 @@ static void draw_ray(rg_drawing *d, int half, int k, int folds, rg_vec2 end, cha
     }
 }
 
-static void draw_half(rg_drawing *d, int half, int folds)
+static void draw_half(rg_sketch *d, int half, int folds)
 {
     const rg_vec2 S = rg_meet(A, direction(22.5), O, UP), E = {-S.y, 0}; /* the bird base's vertices beside B */
     const rg_vec2 W = rg_meet(A, direction(11.25), S, rg_vec2_sub(B, S));
@@ -81,7 +81,7 @@ static void draw_half(rg_drawing *d, int half, int folds)
     if (half < 2) line(d, half, R, placed(2, R), RG_MOUNTAIN);
 }
 
-void rg_crane_draw(rg_drawing *d)
+void rg_crane_draw(rg_sketch *d)
 {
     for (int half = 0; half < 4; half++) draw_half(d, half, half < 2 ? FOLDS : 1);
 }

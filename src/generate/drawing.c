@@ -2,12 +2,12 @@
 
 static const double SHEET = 400;
 
-void rg_drawing_line(rg_drawing *d, rg_vec2 a, rg_vec2 b, char assignment)
+void rg_drawing_line(rg_sketch *d, rg_vec2 a, rg_vec2 b, char assignment)
 {
     if (d->status == RG_OK) d->status = rg_lines_add(d->lines, a, b, assignment, 0);
 }
 
-void rg_drawing_path(rg_drawing *d, const rg_vec2 *b, int32_t count, char assignment)
+void rg_drawing_path(rg_sketch *d, const rg_vec2 *b, int32_t count, char assignment)
 {
     for (int32_t i = 0; i + 1 < count; i++) rg_drawing_line(d, b[i], b[i + 1], assignment);
 }
@@ -18,7 +18,7 @@ static rg_vec2 fitted(rg_vec2 p, rg_vec2 centre, double scale)
     return (rg_vec2){(p.x - centre.x) * scale, -((centre.y - p.y) * scale)};
 }
 
-void rg_drawing_fit(rg_drawing *d)
+void rg_drawing_fit(rg_sketch *d)
 {
     rg_vec2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
     for (int32_t i = 0; i < d->lines->count; i++) {

@@ -5,19 +5,19 @@
 
 #include "lines/lines.h"
 
-typedef struct rg_drawing {
+typedef struct rg_sketch {
     rg_lines *lines;
     int32_t n, m;     /* as asked for, already in the kind's range */
     double angle;     /* radians, the same */
     rg_status status; /* the first failure; what is drawn after it is dropped */
-} rg_drawing;
+} rg_sketch;
 
 /* Lines may meet at their ends only: then the file is the plane graph, and any program reads the same one. */
-void rg_drawing_line(rg_drawing *d, rg_vec2 a, rg_vec2 b, char assignment);
+void rg_drawing_line(rg_sketch *d, rg_vec2 a, rg_vec2 b, char assignment);
 /* The lines b[0] - b[1] - ... - b[count - 1], all of one assignment. */
-void rg_drawing_path(rg_drawing *d, const rg_vec2 *b, int32_t count, char assignment);
+void rg_drawing_path(rg_sketch *d, const rg_vec2 *b, int32_t count, char assignment);
 /* Scales and moves it so that it is centred on the origin with a longer side of 400, ORIPA's sheet. */
-void rg_drawing_fit(rg_drawing *d);
+void rg_drawing_fit(rg_sketch *d);
 
 static inline char rg_opposite(char assignment) { return assignment == RG_MOUNTAIN ? RG_VALLEY : RG_MOUNTAIN; }
 

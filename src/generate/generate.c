@@ -14,7 +14,7 @@ typedef struct range { int32_t from, to, step, usual; } range;
 
 typedef struct kind {
     const char *name, *title;
-    void (*draw)(rg_drawing *d);
+    void (*draw)(rg_sketch *d);
     range n, m;               /* m.usual = 0: as n */
     double from, to, usual;   /* angle, degrees; to = 0: it takes none; usual = 0: the kind's own choice */
 } kind;
@@ -100,7 +100,7 @@ rg_status rg_generate_lines(const char *name, int32_t n, int32_t m, double angle
     if (s == RG_OK) s = check_number(name, 'M', &k->m, &m, why);
     if (s == RG_OK) s = check_angle(k, &angle, why);
     if (s != RG_OK) return s;
-    rg_drawing d = {.lines = out, .n = n, .m = m, .angle = angle};
+    rg_sketch d = {.lines = out, .n = n, .m = m, .angle = angle};
     k->draw(&d);
     rg_drawing_fit(&d);
     s = d.status == RG_OK ? set_title(out, k, n, m) : d.status;

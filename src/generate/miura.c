@@ -18,7 +18,7 @@ typedef struct strip {
 
 static rg_vec2 vertex(const strip *s, int32_t i, int32_t j) { return (rg_vec2){s->c[i] + s->k[i] * s->y[j], s->Y[j]}; }
 
-static void draw(rg_drawing *d, const strip *s)
+static void draw(rg_sketch *d, const strip *s)
 {
     for (int32_t j = 0; j <= s->rows; j++) {
         for (int32_t i = 0; i <= s->columns; i++) {
@@ -50,7 +50,7 @@ static rg_status strip_init(strip *s, const rg_memory *mem, int32_t columns, int
 }
 
 /* n columns and m rows of rhombs with the acute angle given. */
-void rg_miura_draw(rg_drawing *d)
+void rg_miura_draw(rg_sketch *d)
 {
     strip s;
     d->status = strip_init(&s, &d->lines->mem, d->n, d->m);
@@ -77,7 +77,7 @@ static double next(uint64_t *state, double from, double to)
 
 /* n columns and rows with heights, widths and slants by chance: m is the seed. Two lines of the strip, at least 0.7 apart
  * at its foot and differing in k by at most 0.5, do not cross at heights up to 1. */
-void rg_random_draw(rg_drawing *d)
+void rg_random_draw(rg_sketch *d)
 {
     strip s;
     d->status = strip_init(&s, &d->lines->mem, d->n, d->n);

@@ -19,24 +19,24 @@ static rg_vec2 at(int32_t i, int32_t j, double a, double b)
     return (rg_vec2){a + b / 2, b * HEIGHT};
 }
 
-static int inside(const rg_drawing *d, int32_t i, int32_t j) { return i >= 0 && i < d->n && j >= 0 && j < d->m; }
+static int inside(const rg_sketch *d, int32_t i, int32_t j) { return i >= 0 && i < d->n && j >= 0 && j < d->m; }
 
 /* A small triangle lies between three large ones; it belongs to the sheet if it holds two of them together. */
-static int held(const rg_drawing *d, const int32_t large[3][2])
+static int held(const rg_sketch *d, const int32_t large[3][2])
 {
     int count = 0;
     for (int k = 0; k < 3; k++) count += inside(d, large[k][0], large[k][1]);
     return count >= 2;
 }
 
-static void draw_small(rg_drawing *d, const rg_vec2 corner[3], const int32_t large[3][2])
+static void draw_small(rg_sketch *d, const rg_vec2 corner[3], const int32_t large[3][2])
 {
     if (!held(d, large)) return;
     for (int k = 0; k < 3; k++)
         if (!inside(d, large[k][0], large[k][1])) rg_drawing_line(d, corner[k], corner[(k + 1) % 3], RG_BORDER);
 }
 
-static void draw_large(rg_drawing *d, int32_t i, int32_t j)
+static void draw_large(rg_sketch *d, int32_t i, int32_t j)
 {
     const double ring[7][2] = {{0, 0}, {1, 0}, {2, 0}, {1, 1}, {0, 2}, {0, 1}, {0, 0}};
     /* The small triangle beyond each piece of the outline, by the two other large ones around it. */
@@ -51,7 +51,7 @@ static void draw_large(rg_drawing *d, int32_t i, int32_t j)
     }
 }
 
-void rg_resch_draw(rg_drawing *d)
+void rg_resch_draw(rg_sketch *d)
 {
     for (int32_t i = 0; i <= d->n; i++) {
         for (int32_t j = -1; j < d->m; j++) {

@@ -11,7 +11,7 @@ static void corners(double r, rg_vec2 q[5])
     for (int i = 0; i <= 4; i++) q[i] = (rg_vec2){i == 0 || i == 3 || i == 4 ? -r : r, i % 4 < 2 ? -r : r};
 }
 
-static void draw_diagonals(rg_drawing *d, double from, double to, char assignment)
+static void draw_diagonals(rg_sketch *d, double from, double to, char assignment)
 {
     rg_vec2 inner[5], outer[5];
     corners(from, inner);
@@ -20,7 +20,7 @@ static void draw_diagonals(rg_drawing *d, double from, double to, char assignmen
 }
 
 /* A diagonal across each of the four trapezoids between squares k and k + 1. */
-static void draw_leaning(rg_drawing *d, double k, int left)
+static void draw_leaning(rg_sketch *d, double k, int left)
 {
     rg_vec2 inner[5], outer[5];
     corners(k, inner);
@@ -33,7 +33,7 @@ static void draw_leaning(rg_drawing *d, double k, int left)
  * both theorems hold for the pleats. Plates alone cannot move here: the trapezoids bend, along diagonals that lean one way
  * in one ring and the other way in the next (E. D. Demaine et al., "(Non)existence of pleated folds: how paper folds between
  * creases"). They are drawn as creases without an assignment: which way they lean decides whether it folds. */
-void rg_hypar_draw(rg_drawing *d)
+void rg_hypar_draw(rg_sketch *d)
 {
     rg_vec2 q[5];
     corners(1, q);
@@ -50,7 +50,7 @@ void rg_hypar_draw(rg_drawing *d)
 /* A waterbomb base on a grid of 2 half x 2 half, its point sunk at every grid line, which makes a flap one unit wide: what box
  * pleating begins with. The fold across the middle of the base changes at each square like the diagonals, but opposite to
  * them; it meets the squares at right angles, three creases of one kind and one of the other. Both theorems hold everywhere. */
-static void draw_sunk(rg_drawing *d, int32_t half)
+static void draw_sunk(rg_sketch *d, int32_t half)
 {
     rg_vec2 q[5];
     for (int32_t k = 0; k < half; k++) {
@@ -67,6 +67,6 @@ static void draw_sunk(rg_drawing *d, int32_t half)
     }
 }
 
-void rg_boxpleat_draw(rg_drawing *d) { draw_sunk(d, d->n / 2); }
-void rg_open_sink_draw(rg_drawing *d) { draw_sunk(d, 2); }
-void rg_waterbomb_base_draw(rg_drawing *d) { draw_sunk(d, 1); }
+void rg_boxpleat_draw(rg_sketch *d) { draw_sunk(d, d->n / 2); }
+void rg_open_sink_draw(rg_sketch *d) { draw_sunk(d, 2); }
+void rg_waterbomb_base_draw(rg_sketch *d) { draw_sunk(d, 1); }

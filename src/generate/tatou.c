@@ -12,7 +12,7 @@ static rg_vec2 turned(rg_vec2 p, int quarters)
     return p;
 }
 
-void rg_tatou_draw(rg_drawing *d)
+void rg_tatou_draw(rg_sketch *d)
 {
     for (int q = 0; q < 4; q++) {
         const rg_vec2 corner = turned((rg_vec2){1, 0}, q);

@@ -8,12 +8,12 @@
 #include "generate/kinds.h"
 
 /* Lines below a row: unit pieces, because corners of both rows end there. */
-static void draw_row_line(rg_drawing *d, double y, char assignment)
+static void draw_row_line(rg_sketch *d, double y, char assignment)
 {
     for (int32_t x = 0; x < 2 * d->n; x++) rg_drawing_line(d, (rg_vec2){x, y}, (rg_vec2){x + 1, y}, assignment);
 }
 
-static void draw_unit(rg_drawing *d, double x, double y, double h, char middle)
+static void draw_unit(rg_sketch *d, double x, double y, double h, char middle)
 {
     const rg_vec2 centre = {x, y + h};
     rg_drawing_path(d, (rg_vec2[]){{x, y}, centre, {x, y + 2 * h}}, 3, middle);
@@ -24,7 +24,7 @@ static void draw_unit(rg_drawing *d, double x, double y, double h, char middle)
     }
 }
 
-void rg_waterbomb_draw(rg_drawing *d)
+void rg_waterbomb_draw(rg_sketch *d)
 {
     const double h = tan(d->angle);
     for (int32_t row = 0; row < d->m; row++) {

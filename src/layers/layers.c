@@ -25,7 +25,7 @@ void rg_layers_destroy(rg_layers *l)
     rg_mem_free(&mem, l);
 }
 
-void rg_layers_get_info(const rg_layers *l, rg_layers_info *info) { *info = l->info; }
+const rg_layers_info *rg_layers_get_info(const rg_layers *l) { return &l->info; }
 
 static const char *rule_name(rg_rule rule)
 {
@@ -203,9 +203,9 @@ rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, const rg_memo
     return RG_OK;
 }
 
-rg_status rg_layers_create(const rg_pattern *p, const rg_settings *settings, rg_layers **layers, rg_diag *why)
+rg_status rg_layers_create(const rg_pattern *p, const rg_memory *memory, rg_layers **layers, rg_diag *why)
 {
-    const rg_memory mem = rg_mem_default(settings->memory);
+    const rg_memory mem = rg_mem_default(memory);
     rg_mesh m;
     rg_status s = rg_mesh_from_pattern(p, &mem, &m, why);
     if (s != RG_OK) return s;

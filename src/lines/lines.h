@@ -16,7 +16,7 @@
 
 typedef struct rg_line {
     rg_vec2 a, b;      /* y up */
-    double target;     /* wished final fold angle, radians; NAN: by assignment */
+    double target;     /* wished final fold angle, radians; NAN: by assignment; infinite: none, the crease is free */
     char assignment;
     int32_t where;     /* line of the file, 0: none */
 } rg_line;
@@ -51,7 +51,7 @@ typedef struct rg_lines {
     rg_trait *trait;
     int32_t traits;
     size_t trait_room;
-    uint64_t kinds_used; /* of rg_settings.kind, a bit each: those that some line was of */
+    uint64_t kinds_used; /* of rg_reading.kind, a bit each: those that some line was of */
     int32_t frames;  /* FOLD: how many there are besides the key frame */
     int y_down;      /* the file's y points down: it was turned round */
     double metres;   /* in a unit of the coordinates; 0: the file does not say */

@@ -7,7 +7,7 @@ void rg_mesh_free(rg_mesh *m)
 {
     if (!m->mem.resize) return;
     rg_memory mem = m->mem;
-    void *block[] = {m->X, m->edge, m->assignment, m->target, m->edge_facet, m->facet_start, m->facet_vertex, m->facet_edge,
+    void *block[] = {m->X, m->edge, m->assignment, m->target, m->still, m->edge_facet, m->facet_start, m->facet_vertex, m->facet_edge,
                      m->crease_edge, m->edge_crease, m->inner_vertex, m->loop_start, m->loop_crease, m->loop_theta};
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&mem, block[i]);
     memset(m, 0, sizeof *m);
@@ -20,7 +20,7 @@ rg_status rg_mesh_copy(const rg_mesh *m, rg_mesh *out)
     const size_t corners = (size_t)m->facet_start[m->nf], spokes = (size_t)m->loop_start[m->M];
     struct { void **to; size_t n, size; } block[] = {
         {(void **)&copy.X, nv, sizeof *m->X}, {(void **)&copy.edge, ne, sizeof *m->edge},
-        {(void **)&copy.assignment, ne, 1}, {(void **)&copy.target, ne, sizeof *m->target},
+        {(void **)&copy.assignment, ne, 1}, {(void **)&copy.still, ne, 1}, {(void **)&copy.target, ne, sizeof *m->target},
         {(void **)&copy.edge_facet, ne, sizeof *m->edge_facet}, {(void **)&copy.facet_start, nf + 1, sizeof *m->facet_start},
         {(void **)&copy.facet_vertex, corners, sizeof *m->facet_vertex},
         {(void **)&copy.facet_edge, corners, sizeof *m->facet_edge},
@@ -32,6 +32,7 @@ rg_status rg_mesh_copy(const rg_mesh *m, rg_mesh *out)
     int ok = 1;
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) {
         void *from = *block[i].to;
+        if (!from) continue;
         *block[i].to = rg_mem_array(&m->mem, block[i].n, block[i].size);
         if (*block[i].to) memcpy(*block[i].to, from, block[i].n * block[i].size);
         else ok = 0;

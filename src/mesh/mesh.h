@@ -15,6 +15,7 @@ typedef struct rg_mesh {
     int32_t (*edge)[2];       /* [ne] end vertices */
     char *assignment;         /* [ne] B M V U F */
     double *target;           /* [ne] wished final fold angle, radians; NAN: none */
+    unsigned char *still;     /* [ne] non-zero: its crease stays as it is; NULL: none does */
     int32_t (*edge_facet)[2]; /* [ne] facet left of edge[e][0] -> edge[e][1], and right of it; -1: outside */
     int32_t *facet_start;     /* [nf + 1] */
     int32_t *facet_vertex;    /* counter-clockwise */

@@ -374,15 +374,17 @@ static rg_status triangulate(const rg_mesh *m, const rg_symmetry *G, int split, 
     out->edge = rg_mem_array(&m->mem, ne, sizeof *out->edge);
     out->assignment = rg_mem_array(&m->mem, ne, 1);
     out->target = rg_mem_array(&m->mem, ne, sizeof *out->target);
+    out->still = m->still ? rg_mem_array(&m->mem, ne, 1) : NULL;
     out->facet_start = rg_mem_array(&m->mem, nf + 1, sizeof *out->facet_start);
     out->facet_vertex = rg_mem_array(&m->mem, corners, sizeof *out->facet_vertex);
     out->facet_edge = rg_mem_array(&m->mem, corners, sizeof *out->facet_edge);
     rg_status s = RG_ENOMEM;
-    if (out->X && out->edge && out->assignment && out->target && out->facet_start && out->facet_vertex && out->facet_edge) {
+    if (out->X && out->edge && out->assignment && out->target && (out->still || !m->still) && out->facet_start && out->facet_vertex && out->facet_edge) {
         memcpy(out->X, m->X, (size_t)m->nv * sizeof *out->X);
         memcpy(out->edge, m->edge, (size_t)m->ne * sizeof *out->edge);
         memcpy(out->assignment, m->assignment, (size_t)m->ne);
         memcpy(out->target, m->target, (size_t)m->ne * sizeof *out->target);
+        if (m->still) memcpy(out->still, m->still, (size_t)m->ne);
         s = cut_all(m, G, split, which, most, next, out);
     }
     if (s == RG_OK) s = rg_mesh_connect(out);

@@ -1,5 +1,6 @@
 #include "motion/assemble.h"
 #include "base/clock.h"
+#include "base/settings.h"
 #include "base/status.h"
 #include "motion/ending.h"
 #include "motion/measure.h"
@@ -23,7 +24,7 @@ static rg_status make_mesh(rg_motion *m, const rg_states *q, rg_diag *why)
     l.merge = q->merge;
     for (int32_t k = 0; s == RG_OK && k < q->count; k++) s = rg_overlay_draw(&l, &q->state[k], 0, NULL);
     for (int32_t j = 0; s == RG_OK && j < q->stretches; j++) s = rg_overlay_draw(&l, &q->stretch[j].attempt.mesh, 1, NULL);
-    if (s == RG_OK) return rg_overlay_mesh(&l, &q->settings, &m->mesh, why);
+    if (s == RG_OK) return rg_overlay_mesh(&l, q->asked, &m->mesh, why);
     rg_lines_free(&l);
     return s;
 }
@@ -215,12 +216,10 @@ static rg_status measure(rg_motion *m)
 
 static rg_status make(rg_motion *m, const rg_states *q, const rg_pattern *last, rg_diag *why)
 {
-    rg_report *r = &m->report;
-    rg_pattern_get_info(last, &r->pattern);
-    r->pattern.title = m->title = rg_mem_string(&m->mem, r->pattern.title);
-    r->pattern.author = m->author = rg_mem_string(&m->mem, r->pattern.author);
-    rg_status s = m->title && m->author ? rg_assemble_frames(m, q, why) : RG_ENOMEM;
+    rg_status s = rg_motion_name(m, last);
+    if (s == RG_OK) s = rg_assemble_frames(m, q, why);
     if (s != RG_OK) return s;
+    rg_motion_lend(m);
     s = rg_tree_init(&m->mesh, m->settings.fixed_facet, &m->tree);
     if (s == RG_EARG)
         rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)m->settings.fixed_facet, (int)m->mesh.nf - 1);
@@ -228,15 +227,16 @@ static rg_status make(rg_motion *m, const rg_states *q, const rg_pattern *last, 
     return s == RG_OK ? rg_ending_find(m, why) : s;
 }
 
-rg_status rg_motion_create_states(const rg_pattern *const *states, int32_t count, const rg_settings *settings,
+rg_status rg_motion_create_states(const rg_pattern *const *states, int32_t count, const rg_settings *given,
                                   rg_progress progress, void *ctx, rg_motion **motion, rg_diag *why)
 {
     const double begun = rg_seconds();
-    const rg_memory mem = rg_mem_default(settings->memory);
+    rg_settings mine, *const settings = &mine;
     if (count < 1) return rg_fail(RG_EARG, why, 0, "there must be at least one state");
-    if (count == 1) return rg_motion_create(states[0], settings, progress, ctx, motion, why);
-    rg_status s = rg_motion_check_settings(settings, why);
+    if (count == 1) return rg_motion_create(states[0], given, progress, ctx, motion, why);
+    rg_status s = rg_settings_take(given, settings, why);
     if (s != RG_OK) return s;
+    const rg_memory mem = rg_mem_default(settings->memory);
     rg_motion *m = rg_mem_array(&mem, 1, sizeof *m);
     if (!m) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
     m->mem = mem;

@@ -1,5 +1,6 @@
 /* create.c -- from a pattern to its motion: the search, its frames, what is told of them. */
 #include "base/clock.h"
+#include "base/settings.h"
 #include "base/status.h"
 #include "motion/ending.h"
 #include "motion/measure.h"
@@ -93,13 +94,14 @@ static rg_status adopt(rg_motion *m, rg_search *c)
     return RG_OK;
 }
 
-rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_progress progress, void *ctx,
+rg_status rg_motion_create(const rg_pattern *p, const rg_settings *given, rg_progress progress, void *ctx,
                            rg_motion **motion, rg_diag *why)
 {
     const double begun = rg_seconds();
-    const rg_memory mem = rg_mem_default(settings->memory);
-    rg_status s = rg_motion_check_settings(settings, why);
+    rg_settings mine, *const settings = &mine;
+    rg_status s = rg_settings_take(given, settings, why);
     if (s != RG_OK) return s;
+    const rg_memory mem = rg_mem_default(settings->memory);
     rg_motion *m = rg_mem_array(&mem, 1, sizeof *m);
     if (!m) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
     m->mem = mem;
@@ -108,10 +110,7 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_
     rg_watch watch = {.progress = progress, .ctx = ctx};
     rg_search search = {0};
     rg_mesh none = {0};
-    rg_pattern_get_info(p, &r->pattern);
-    r->pattern.title = m->title = rg_mem_string(&mem, r->pattern.title);
-    r->pattern.author = m->author = rg_mem_string(&mem, r->pattern.author);
-    if (!m->title || !m->author) s = RG_ENOMEM;
+    s = rg_motion_name(m, p);
     if (s == RG_OK) s = rg_source_copy(&p->source, &mem, &m->source);
     if (s == RG_OK) s = rg_mesh_from_pattern(p, &mem, &none, why);
     const rg_problem problem = {&none, NULL, NULL, 1};
@@ -119,6 +118,7 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_
     if (s == RG_OK) s = rg_unfolding_try(&search, &none, settings, &watch, why);
     if (s == RG_OK) s = rg_attempt_read(&search.best, settings);
     if (s == RG_OK) s = adopt(m, &search);
+    if (s == RG_OK) rg_motion_lend(m);
     rg_attempt_free(&search.best);
     if (s == RG_OK) s = rg_tree_init(&m->mesh, settings->fixed_facet, &m->tree);
     if (s == RG_EARG && m->mesh.nf > 0)
@@ -126,10 +126,10 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_
     if (s == RG_OK) s = rg_measure_frames(m);
     if (s == RG_OK) s = rg_ending_find(m, why);
     if (s == RG_OK && !watch.cancelled) s = explain(m, p);
-    if (s == RG_OK && r->pattern.creases == 0 && r->pattern.lost_creases > 0) {
+    if (s == RG_OK && r->pattern->creases == 0 && r->pattern->lost_creases > 0) {
         r->outcome = RG_STOPPED;
         snprintf(r->reason, sizeof r->reason, "no crease is left to fold: all %d that are drawn end short of the next line, or lie on the border",
-                 (int)r->pattern.lost_creases);
+                 (int)r->pattern->lost_creases);
     }
     rg_mesh_free(&none);
     if (s != RG_OK) {

@@ -93,7 +93,7 @@ rg_status rg_ending_find(rg_motion *m, rg_diag *why)
     for (int32_t i = 0; !m->ends_flat && i < m->mesh.N; i++) angle[i] = fabs(m->settings.to) * m->target[i];
     s = rg_layers_of_mesh(&m->mesh, angle, &m->mem, &m->layers, why);
     if (s == RG_OK) {
-        rg_layers_get_info(m->layers, &info);
+        info = *rg_layers_get_info(m->layers);
         m->report.layers = rg_layers_state_name(info.state);
         m->report.layer_orders = info.count;
         m->report.layers_reason = m->layers->info.reason;

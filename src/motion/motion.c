@@ -6,6 +6,9 @@
 
 #include <string.h>
 
+/* A point that is meant to be on a crease is no farther from it than this part of the sheet's size. */
+static const double ON_CREASE = 0.01;
+
 void rg_motion_destroy(rg_motion *m)
 {
     if (!m) return;
@@ -24,11 +27,25 @@ void rg_motion_destroy(rg_motion *m)
 
 const rg_report *rg_motion_report(const rg_motion *m) { return &m->report; }
 
-void rg_motion_get_sheet(const rg_motion *m, rg_sheet *sheet)
+rg_status rg_motion_name(rg_motion *m, const rg_pattern *p)
 {
-    *sheet = (rg_sheet){m->mesh.nv, m->mesh.N, m->mesh.nf, m->mesh.facet_start, m->mesh.facet_vertex,
-                        (const double(*)[2])m->mesh.X};
+    m->info = *rg_pattern_get_info(p);
+    m->info.title = m->title = rg_mem_string(&m->mem, m->info.title);
+    m->info.author = m->author = rg_mem_string(&m->mem, m->info.author);
+    m->report.pattern = &m->info;
+    return m->title && m->author ? RG_OK : RG_ENOMEM;
 }
+
+void rg_motion_lend(rg_motion *m)
+{
+    const rg_mesh *mesh = &m->mesh;
+    m->sheet = (rg_sheet){.vertices = mesh->nv, .creases = mesh->N, .facets = mesh->nf, .facet_start = mesh->facet_start,
+                          .facet_vertex = mesh->facet_vertex, .flat = (const double(*)[2])mesh->X, .edges = mesh->ne, .added = mesh->added,
+                          .ends = (const int32_t(*)[2])mesh->edge, .assignment = mesh->assignment, .edge_crease = mesh->edge_crease,
+                          .crease_edge = mesh->crease_edge, .edge_facet = (const int32_t(*)[2])mesh->edge_facet};
+}
+
+const rg_sheet *rg_motion_get_sheet(const rg_motion *m) { return &m->sheet; }
 
 const double *rg_motion_angles(const rg_motion *m, int32_t frame)
 {
@@ -96,7 +113,7 @@ rg_status rg_motion_crease(const rg_motion *m, int32_t i, rg_crease *out)
     if (i < 0 || i >= m->mesh.N) return RG_EARG;
     const int32_t e = m->mesh.crease_edge[i], *v = m->mesh.edge[e];
     *out = (rg_crease){{v[0], v[1]}, {{0, 0}, {0, 0}}, m->mesh.assignment[e], m->target ? m->target[i] : m->mesh.target[e], i >= m->mesh.N - m->mesh.added,
-                       e < m->source.ne ? m->source.where[e] : 0};
+                       e < m->source.ne ? m->source.where[e] : 0, e};
     for (int k = 0; k < 2; k++) {
         const rg_vec2 x = m->mesh.X[v[k]];
         out->at[k][0] = x.x;
@@ -105,16 +122,30 @@ rg_status rg_motion_crease(const rg_motion *m, int32_t i, rg_crease *out)
     return RG_OK;
 }
 
+int32_t rg_motion_crease_between(const rg_motion *m, int32_t v, int32_t w)
+{
+    for (int32_t i = 0; i < m->mesh.N; i++) {
+        const int32_t *end = m->mesh.edge[m->mesh.crease_edge[i]];
+        if ((end[0] == v && end[1] == w) || (end[0] == w && end[1] == v)) return i;
+    }
+    return -1;
+}
+
+int32_t rg_motion_crease_at(const rg_motion *m, const double x[2])
+{
+    const rg_vec2 at = {x[0], m->source.y_down ? 0 - x[1] : x[1]};
+    double nearest = ON_CREASE * m->mesh.size;
+    int32_t found = -1;
+    for (int32_t i = 0; i < m->mesh.N - m->mesh.added; i++) {
+        const int32_t *end = m->mesh.edge[m->mesh.crease_edge[i]];
+        const double d = rg_vec2_off_segment(m->mesh.X[end[0]], m->mesh.X[end[1]], at);
+        if (d < nearest) nearest = d, found = i;
+    }
+    return found;
+}
+
 rg_status rg_motion_mobility(const rg_motion *m, int32_t frame, int32_t *ways)
 {
     const double *rho = rg_motion_angles(m, frame);
     return rho ? rg_mobility(&m->mesh, m->flat ? rg_motion_pattern(m, frame) : NULL, rho, ways) : RG_EARG;
-}
-
-rg_status rg_motion_check_settings(const rg_settings *s, rg_diag *why)
-{
-    if (s->frames < 2) return rg_fail(RG_EARG, why, 0, "there must be at least 2 frames");
-    if (!(s->adjust == RG_ADJUST_AUTO || (s->adjust >= 0 && s->adjust <= 1)))
-        return rg_fail(RG_EARG, why, 0, "the gain of crease adjustment must be within 0 and 1");
-    return RG_OK;
 }

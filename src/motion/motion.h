@@ -19,6 +19,8 @@ struct rg_motion {
     rg_vec2 *flat;         /* [report.frame_count][mesh.nv] the pattern of each frame; NULL: mesh.X in all of them */
     rg_vec3 *space;        /* [report.frame_count][mesh.nv] positions that were given and that plates do not reach; NULL: they do */
     rg_frame *frame;       /* [report.frame_count] */
+    rg_sheet sheet;        /* what is lent of the mesh */
+    rg_pattern_info info;  /* of the pattern */
     int32_t *blocking_vertex, *blocking_crease;
     double (*blocking_at)[2];
     int32_t *state_frame, *by_flat; /* of a sequence of states, as in the report; NULL: of one pattern */
@@ -39,7 +41,9 @@ rg_status rg_motion_place_centred(const rg_motion *m, int32_t f, rg_vec3 *x);
 /* That middle: of the box around the pattern given. */
 rg_vec3 rg_motion_middle(const rg_motion *m);
 
-/* RG_EARG: a setting that no motion can have. */
-rg_status rg_motion_check_settings(const rg_settings *s, rg_diag *why);
+/* What m says of the pattern p: its counts, title and author. RG_ENOMEM. */
+rg_status rg_motion_name(rg_motion *m, const rg_pattern *p);
+/* Lends m->mesh, once it is there. */
+void rg_motion_lend(rg_motion *m);
 
 #endif

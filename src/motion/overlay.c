@@ -19,12 +19,14 @@ rg_status rg_overlay_draw(rg_lines *l, const rg_mesh *m, int added_only, const d
     return s;
 }
 
-rg_status rg_overlay_mesh(rg_lines *l, const rg_settings *settings, rg_mesh *m, rg_diag *why)
+rg_status rg_overlay_mesh(rg_lines *l, double merge, rg_mesh *m, rg_diag *why)
 {
+    rg_reading reading = rg_reading_default();
     const rg_memory mem = l->mem;
     rg_pattern *p = NULL;
     memset(m, 0, sizeof *m);
-    rg_status s = rg_pattern_from_lines(l, settings, &p, why);
+    reading.merge = merge;
+    rg_status s = rg_pattern_from_lines(l, &reading, &p, why);
     if (s == RG_OK) s = rg_mesh_from_pattern(p, &mem, m, why);
     rg_pattern_destroy(p);
     return s;

@@ -19,8 +19,8 @@ typedef struct rg_overlay {
 /* Adds the mesh's border and creases to the lines, creases without assignment; added_only: those that triangulation added
  * and that rho, if given, bends. RG_ENOMEM. */
 rg_status rg_overlay_draw(rg_lines *l, const rg_mesh *m, int added_only, const double *rho);
-/* A mesh of the lines, which are taken over; every crease of it has no assignment and the target NAN. */
-rg_status rg_overlay_mesh(rg_lines *l, const rg_settings *s, rg_mesh *m, rg_diag *why);
+/* A mesh of the lines, which are taken over; every crease of it has no assignment and the target NAN. merge: as in rg_reading. */
+rg_status rg_overlay_mesh(rg_lines *l, double merge, rg_mesh *m, rg_diag *why);
 
 /* tol: distance, file units. RG_ENOMEM. Owner: the caller, rg_overlay_free, also after a failure. */
 rg_status rg_overlay_init(rg_overlay *o, const rg_mesh *fine, const rg_mesh *coarse, double tol);

@@ -206,7 +206,7 @@ static rg_status leg_init(const rg_states *q, leg *w, int32_t k, int32_t frames,
     if (s == RG_OK) s = rg_overlay_draw(&l, next, 0, NULL);
     if (s == RG_OK) s = rg_overlay_draw(&l, now, 1, rho);
     if (s != RG_OK) rg_lines_free(&l);
-    else s = rg_overlay_mesh(&l, &q->settings, &w->mesh, why);
+    else s = rg_overlay_mesh(&l, q->asked, &w->mesh, why);
     if (s != RG_OK) return s;
     w->from = rg_mem_array(&q->mem, (size_t)w->mesh.N, sizeof *w->from);
     w->to = rg_mem_array(&q->mem, (size_t)w->mesh.N, sizeof *w->to);
@@ -316,20 +316,20 @@ static rg_status go(rg_states *q, int32_t k, int32_t frames, rg_diag *why)
 
 static rg_status prepare(rg_states *q, const rg_pattern *const *pattern, rg_diag *why)
 {
-    const rg_settings *s = &q->settings;
+    q->asked = pattern[0]->merge;
     q->state = rg_mem_array(&q->mem, (size_t)q->count, sizeof *q->state);
     q->stretch = rg_mem_array(&q->mem, 2 * (size_t)q->count, sizeof *q->stretch);
     q->by_flat = rg_mem_array(&q->mem, (size_t)q->count, sizeof *q->by_flat);
     if (!q->state || !q->stretch || !q->by_flat) return RG_ENOMEM;
     for (int32_t k = 0; k < q->count; k++) {
         rg_diag where = {0, ""};
-        rg_status status = rg_pattern_same_sheet(pattern[0], pattern[k], s, &where);
+        rg_status status = rg_pattern_same_sheet(pattern[0], pattern[k], &where);
         if (status != RG_OK) return rg_fail(status, why, 0, "state %d: %s", (int)k + 1, where.text);
         q->merge = fmax(q->merge, pattern[k]->lines.merge);
         status = rg_mesh_from_pattern(pattern[k], &q->mem, &q->state[k], why);
         if (status != RG_OK) return status;
     }
-    const double merge = s->merge == RG_MERGE_DEFAULT && q->merge > 0 ? q->merge : s->merge;
+    const double merge = q->asked == RG_MERGE_DEFAULT && q->merge > 0 ? q->merge : q->asked;
     q->tol = TWO_DRAWINGS * fmax(merge, LEAST_MERGE) * q->state[0].size;
     return RG_OK;
 }

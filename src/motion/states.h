@@ -24,6 +24,7 @@ typedef struct rg_states {
     rg_memory mem;
     rg_settings settings;
     int32_t count;
+    double asked;         /* rg_reading.merge of the first */
     double merge;         /* of lines of several files, as in rg_lines */
     double tol;           /* within which one point of two meshes is one, file units */
     rg_mesh *state;       /* [count] each state's own */

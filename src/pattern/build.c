@@ -3,6 +3,7 @@
 #include "pattern/check.h"
 #include "pattern/closed.h"
 #include "pattern/pieces.h"
+#include "pattern/plane.h"
 #include "pattern/planar.h"
 #include "pattern/points.h"
 #include "pattern/sheet.h"
@@ -16,12 +17,13 @@ void rg_pattern_destroy(rg_pattern *p)
     rg_memory mem = p->mem;
     rg_lines_free(&p->lines);
     rg_source_free(&p->source);
-    void *block[] = {p->X, p->E, p->star_start, p->star, p->rim, p->closed, p->unfoldable, p->piece};
-    for (int i = 0; i < 8; i++) rg_mem_free(&mem, block[i]);
+    void *block[] = {p->X, p->E, p->star_start, p->star, p->rim, p->closed, p->unfoldable, p->piece, p->still};
+    for (int i = 0; i < 9; i++) rg_mem_free(&mem, block[i]);
+    rg_plane_free(p);
     rg_mem_free(&mem, p);
 }
 
-void rg_pattern_get_info(const rg_pattern *p, rg_pattern_info *info) { *info = p->info; }
+const rg_pattern_info *rg_pattern_get_info(const rg_pattern *p) { return &p->info; }
 
 int32_t rg_pattern_closed(const rg_pattern *p, const rg_closed **list)
 {
@@ -72,7 +74,7 @@ static void count(struct rg_pattern *p)
     info->author = p->lines.author ? p->lines.author : "";
 }
 
-static rg_status build(struct rg_pattern *p, const rg_settings *settings, rg_diag *why)
+static rg_status build(struct rg_pattern *p, const rg_reading *settings, rg_diag *why)
 {
     rg_graph g = {.mem = p->mem};
     rg_star star = {.mem = p->mem};
@@ -101,25 +103,23 @@ static rg_status build(struct rg_pattern *p, const rg_settings *settings, rg_dia
     p->star = star.edge;
     count(p);
     s = rg_check_vertices(p);
-    return s == RG_OK ? rg_closed_find(p) : s;
+    if (s == RG_OK) s = rg_closed_find(p);
+    return s == RG_OK ? rg_plane_lend(p) : s;
 }
 
-rg_status rg_pattern_from_lines(rg_lines *lines, const rg_settings *s, rg_pattern **pattern, rg_diag *why)
+rg_status rg_pattern_from_lines(rg_lines *lines, const rg_reading *s, rg_pattern **pattern, rg_diag *why)
 {
     const rg_memory mem = lines->mem;
-    if (!(s->merge >= 0 && s->merge < 0.1)) {
-        rg_lines_free(lines);
-        return rg_fail(RG_EARG, why, 0, "the merge tolerance is not between 0 and 0.1 of the sheet");
-    }
     struct rg_pattern *p = rg_mem_array(&mem, 1, sizeof *p);
     if (!p) {
         rg_lines_free(lines);
         return rg_fail(RG_ENOMEM, why, 0, "out of memory");
     }
     p->mem = mem;
+    p->merge = s->merge;
     p->lines = *lines;
     memset(lines, 0, sizeof *lines);
-    rg_settings with = *s;
+    rg_reading with = *s;
     if (s->merge == RG_MERGE_DEFAULT && p->lines.merge > 0) with.merge = p->lines.merge;
     rg_status status = build(p, &with, why);
     if (status != RG_OK) {

@@ -6,6 +6,6 @@
 #include "pattern/pattern.h"
 
 /* Takes over *lines (also on failure, where it is freed). */
-rg_status rg_pattern_from_lines(rg_lines *lines, const rg_settings *s, rg_pattern **pattern, rg_diag *why);
+rg_status rg_pattern_from_lines(rg_lines *lines, const rg_reading *s, rg_pattern **pattern, rg_diag *why);
 
 #endif

@@ -39,6 +39,14 @@ struct rg_pattern {
     int32_t *star;        /* [2 ne] */
     unsigned char *rim;   /* [nv] non-zero: on the outer border */
     rg_pattern_info info; /* info.title, info.author point into `lines` */
+    double merge;         /* as it was asked for: rg_reading.merge */
+    unsigned char *still; /* [ne] non-zero: its crease stays flat; NULL: none does */
+    rg_plane plane;       /* what is lent of all this; its arrays: */
+    int32_t (*ends)[2];   /* [ne] */
+    char *letter;         /* [ne] */
+    double *target;       /* [ne] */
+    int32_t *where;       /* [ne] */
+    int32_t *facet_start, *facet_vertex, *facet_edge; /* facet_edge[j] joins facet_vertex[j] to the next one of that facet */
     rg_closed *closed;    /* every closed triple, by vertex */
     int32_t closed_triples;
     rg_unfoldable *unfoldable;

@@ -360,11 +360,12 @@ static rg_status drop_loose_ends(rg_graph *g, rg_lines *lines)
 static double wish(const rg_line *l)
 {
     if (isfinite(l->target)) return l->target;
+    if (isinf(l->target)) return NAN; /* free */
     return l->assignment == RG_MOUNTAIN ? -RG_PI : l->assignment == RG_VALLEY ? RG_PI : NAN;
 }
 
 /* s NULL: every line is. */
-static int is_used(const rg_line *l, const rg_settings *s)
+static int is_used(const rg_line *l, const rg_reading *s)
 {
     return !s || (l->assignment != RG_CUT && (l->assignment != RG_FLAT || s->aux_creases));
 }
@@ -409,7 +410,7 @@ static rg_status settle(splitter *s, rg_lines *lines, int *told)
     return status;
 }
 
-static rg_status add_lines(splitter *s, rg_lines *lines, const rg_settings *settings)
+static rg_status add_lines(splitter *s, rg_lines *lines, const rg_reading *settings)
 {
     int32_t cuts = 0, first_cut = 0;
     int told = 0;
@@ -447,7 +448,7 @@ static rg_status planarise(splitter *s, rg_lines *lines, rg_vec2 low, rg_vec2 hi
 }
 
 /* settings NULL: of every line, loose ends too. */
-static rg_status graph(rg_lines *lines, const rg_settings *settings, double merge, rg_graph *g, rg_diag *why)
+static rg_status graph(rg_lines *lines, const rg_reading *settings, double merge, rg_graph *g, rg_diag *why)
 {
     memset(g, 0, sizeof *g);
     g->mem = lines->mem;
@@ -485,7 +486,7 @@ static rg_status graph(rg_lines *lines, const rg_settings *settings, double merg
     return status;
 }
 
-rg_status rg_planar_from_lines(rg_lines *lines, const rg_settings *s, rg_graph *g, rg_diag *why)
+rg_status rg_planar_from_lines(rg_lines *lines, const rg_reading *s, rg_graph *g, rg_diag *why)
 {
     return graph(lines, s, s->merge, g, why);
 }

@@ -16,13 +16,6 @@ static box box_of(const rg_pattern *p)
     return b;
 }
 
-static double distance(rg_vec2 a, rg_vec2 b, rg_vec2 x)
-{
-    const rg_vec2 along = rg_vec2_sub(b, a), to = rg_vec2_sub(x, a);
-    const double part = fmin(1, fmax(0, rg_vec2_dot(along, to) / rg_vec2_dot(along, along)));
-    return rg_vec2_length((rg_vec2){to.x - part * along.x, to.y - part * along.y});
-}
-
 /* The vertex on p's border that is farthest off q's. */
 static int32_t farthest(const rg_pattern *p, const rg_pattern *q, double *off)
 {
@@ -31,7 +24,7 @@ static int32_t farthest(const rg_pattern *p, const rg_pattern *q, double *off)
     for (int32_t v = 0; v < p->nv; v++) {
         double nearest = INFINITY;
         for (int32_t e = 0; p->rim[v] && e < q->ne; e++)
-            if (q->E[e].assignment == RG_BORDER) nearest = fmin(nearest, distance(q->X[q->E[e].v[0]], q->X[q->E[e].v[1]], p->X[v]));
+            if (q->E[e].assignment == RG_BORDER) nearest = fmin(nearest, rg_vec2_off_segment(q->X[q->E[e].v[0]], q->X[q->E[e].v[1]], p->X[v]));
         if (!p->rim[v] || nearest <= *off) continue;
         *off = nearest;
         worst = v;
@@ -39,12 +32,17 @@ static int32_t farthest(const rg_pattern *p, const rg_pattern *q, double *off)
     return worst;
 }
 
-rg_status rg_pattern_same_sheet(const rg_pattern *first, const rg_pattern *other, const rg_settings *s, rg_diag *why)
+/* What its lines were drawn to, a part of the size. */
+static double drawn_to(const rg_pattern *p)
+{
+    return p->merge == RG_MERGE_DEFAULT ? fmax(p->lines.merge, p->merge) : p->merge;
+}
+
+rg_status rg_pattern_same_sheet(const rg_pattern *first, const rg_pattern *other, rg_diag *why)
 {
     if (!other->info.is_disk) return rg_fail(RG_ESHEET, why, 0, "not one sheet without holes: %s", other->info.not_disk);
     if (!first->info.is_disk) return rg_fail(RG_ESHEET, why, 0, "the first state is not one sheet without holes");
-    const double drawn = s->merge == RG_MERGE_DEFAULT ? fmax(first->lines.merge, other->lines.merge) : s->merge;
-    const double tol = TWO_DRAWINGS * fmax(drawn, s->merge) * first->info.size;
+    const double tol = TWO_DRAWINGS * fmax(drawn_to(first), drawn_to(other)) * first->info.size;
     double of_other, of_first;
     const int32_t v = farthest(other, first, &of_other), w = farthest(first, other, &of_first);
     if (of_other <= tol && of_first <= tol) return RG_OK;

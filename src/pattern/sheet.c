@@ -114,7 +114,8 @@ static int join(const rg_graph *g, int32_t v, const rg_edge *e, const rg_edge *f
     const rg_vec2 x = g->X[v], a = rg_vec2_sub(x, g->X[e->v[e->v[0] == v]]), b = rg_vec2_sub(g->X[f->v[f->v[0] == v]], x);
     const double turn = rg_vec2_cross(a, b);
     if (e->assignment != f->assignment && !plain(e->assignment) && !plain(f->assignment)) return 0;
-    if (e->assignment == f->assignment && !plain(e->assignment) && !(e->target == f->target) && e->assignment != RG_BORDER) return 0;
+    const int same = e->target == f->target || (isnan(e->target) && isnan(f->target));
+    if (e->assignment == f->assignment && !plain(e->assignment) && !same && e->assignment != RG_BORDER) return 0;
     if (!(rg_vec2_dot(a, b) > 0) || !(off_line(g, v, e, f) <= tol)) return 0;
     if (!(fabs(turn) <= sin(STRAIGHT) * rg_vec2_length(a) * rg_vec2_length(b))) return 0;
     *joined = plain(e->assignment) ? *f : *e;

@@ -51,7 +51,7 @@ typedef struct place { rg_mat3 A; rg_vec3 t; } place;
 typedef struct reader {
     rg_lines *out;
     rg_diag *why;
-    const rg_settings *settings;
+    const rg_reading *settings;
     const char *s, *end;
     int32_t line;  /* of the value of the last pair */
     long code;
@@ -832,7 +832,7 @@ static int32_t first_off(const reader *r, double tol)
 /* Drawings in space lie in a plane, as sheets do before they are folded. */
 static rg_status flatten(reader *r)
 {
-    rg_plane p;
+    rg_level p;
     const int32_t n = r->out->count;
     double size = 0;
     if (!r->is_spatial || n == 0) return RG_OK;
@@ -872,7 +872,7 @@ static rg_status nothing_drawn(const reader *r)
     return rg_fail(RG_EFORMAT, r->why, r->line, "no LINE, LWPOLYLINE, POLYLINE or 3DFACE in the drawing");
 }
 
-rg_status rg_dxf_read(const void *bytes, size_t size, const rg_memory *mem, const rg_settings *settings, rg_lines *out, rg_diag *why)
+rg_status rg_dxf_read(const void *bytes, size_t size, const rg_memory *mem, const rg_reading *settings, rg_lines *out, rg_diag *why)
 {
     reader r = {.out = out, .why = why, .settings = settings, .s = bytes, .end = (const char *)bytes + size,
                 .place = {rg_mat3_identity(), {0, 0, 0}}};

@@ -27,7 +27,7 @@ typedef struct side { int32_t low, high, face; signed char along, turn; } side; 
 typedef struct reader {
     rg_lines *out;
     rg_diag *why;
-    const rg_settings *s;
+    const rg_reading *s;
     const char *text;
     size_t size;
     const rg_value *root;
@@ -264,7 +264,7 @@ static rg_status ends(const reader *r, int32_t **pair, int32_t *pairs)
 
 static rg_status flatten(reader *r)
 {
-    rg_plane p;
+    rg_level p;
     int32_t *pair = NULL, pairs;
     rg_status s = ends(r, &pair, &pairs);
     if (s != RG_OK) return s;
@@ -420,9 +420,11 @@ static rg_status add_lines(reader *r, int turn)
             angle = -angle;
         }
         const double full = letter == RG_MOUNTAIN ? -180 : letter == RG_VALLEY ? 180 : NAN;
+        const int is_free = targets && isnan(angle) && !isnan(full); /* null, beside others that are given */
         rg_status s = rg_lines_add(r->out, r->X[r->E[2 * e]], r->X[r->E[2 * e + 1]], letter, 0);
         if (s != RG_OK) return s;
-        if (!(angle == full)) r->out->line[r->out->count - 1].target = angle * RG_DEG;
+        if (is_free) r->out->line[r->out->count - 1].target = RG_FREE;
+        else if (!(angle == full)) r->out->line[r->out->count - 1].target = angle * RG_DEG;
     }
     if (!contrary) return RG_OK;
     return warn(r, "edges_foldAngle[%d]: the sign is not that of its assignment, which is kept (%d such)",
@@ -605,7 +607,7 @@ static rg_status choose(reader *r)
     return failed;
 }
 
-rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, const rg_settings *settings, int keep, rg_lines *out,
+rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, const rg_reading *settings, int keep, rg_lines *out,
                        rg_diag *why)
 {
     rg_value *root = NULL;

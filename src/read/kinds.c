@@ -19,7 +19,7 @@ static const struct { const char *name; char assignment; } KINDS[] = {
     {"aux", RG_FLAT}, {"none", RG_LEFT_OUT}};
 
 /* A KEY may have a = in it, a KIND has not. */
-char rg_kinds_letter(const rg_settings *s, int i)
+char rg_kinds_letter(const rg_reading *s, int i)
 {
     const char *equals = strrchr(s->kind[i], '=');
     for (size_t k = 0; equals && k < sizeof KINDS / sizeof *KINDS; k++)
@@ -27,7 +27,7 @@ char rg_kinds_letter(const rg_settings *s, int i)
     return 0;
 }
 
-rg_status rg_kinds_check(const rg_settings *s, rg_diag *why)
+rg_status rg_kinds_check(const rg_reading *s, rg_diag *why)
 {
     if (s->kinds > RG_MOST_KINDS) return rg_fail(RG_EARG, why, 0, "more than %d kinds of lines", (int)RG_MOST_KINDS);
     for (int i = 0; i < s->kinds; i++)
@@ -93,7 +93,7 @@ static int same_dash(const char *a, size_t a_n, const char *b, size_t b_n)
 
 /* -------------------------------------------------------------------------------------------------------- find ---- */
 
-int rg_kinds_find(const rg_settings *s, rg_trait_sort sort, const char *name, size_t n)
+int rg_kinds_find(const rg_reading *s, rg_trait_sort sort, const char *name, size_t n)
 {
     static const char *const prefix[RG_TRAIT_SORTS][2] = {{"colour:", "color:"}, {"layer:", "name:"}, {"dash:", "linetype:"}};
     for (int i = s->kinds - 1; n > 0 && i >= 0; i--) {
@@ -115,7 +115,7 @@ int rg_kinds_find(const rg_settings *s, rg_trait_sort sort, const char *name, si
     return -1;
 }
 
-rg_status rg_kinds_warn_unused(const rg_settings *s, rg_lines *l)
+rg_status rg_kinds_warn_unused(const rg_reading *s, rg_lines *l)
 {
     rg_status status = RG_OK;
     for (int i = 0; status == RG_OK && i < s->kinds; i++) {

@@ -14,13 +14,13 @@
 #define RG_LEFT_OUT '-'
 
 /* RG_EARG: one of s->kind says nothing, or there are more than RG_MOST_KINDS. */
-rg_status rg_kinds_check(const rg_settings *s, rg_diag *why);
+rg_status rg_kinds_check(const rg_reading *s, rg_diag *why);
 /* The last of s->kind that fits, -1: none. */
-int rg_kinds_find(const rg_settings *s, rg_trait_sort sort, const char *name, size_t n);
+int rg_kinds_find(const rg_reading *s, rg_trait_sort sort, const char *name, size_t n);
 /* What number i says: an assignment or RG_LEFT_OUT. */
-char rg_kinds_letter(const rg_settings *s, int i);
+char rg_kinds_letter(const rg_reading *s, int i);
 /* Warns of those that no line was of. */
-rg_status rg_kinds_warn_unused(const rg_settings *s, rg_lines *l);
+rg_status rg_kinds_warn_unused(const rg_reading *s, rg_lines *l);
 /* What a layer's or group's name says by itself: mountain, valley, cut, border, aux ...; 0: nothing. */
 char rg_kinds_of_name(const char *name, size_t n);
 

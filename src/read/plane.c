@@ -3,7 +3,7 @@
 /* What of space is left, by the axis that points at the eye. */
 static const rg_vec3 X = {1, 0, 0}, Y = {0, 1, 0}, Z = {0, 0, 1};
 
-static void measure(const rg_vec3 *x, int32_t n, const int32_t *pair, int32_t pairs, rg_plane *p)
+static void measure(const rg_vec3 *x, int32_t n, const int32_t *pair, int32_t pairs, rg_level *p)
 {
     const rg_vec3 normal = rg_vec3_cross(p->e1, p->e2), o = n ? x[0] : Z;
     double low = 0, high = 0;
@@ -22,7 +22,7 @@ static void measure(const rg_vec3 *x, int32_t n, const int32_t *pair, int32_t pa
 }
 
 /* Two axes across n, as coordinates are kept where that is along an axis of space. */
-static void across(rg_vec3 n, double exact, rg_plane *p)
+static void across(rg_vec3 n, double exact, rg_level *p)
 {
     const rg_vec3 size = {fabs(n.x), fabs(n.y), fabs(n.z)};
     p->e1 = size.y + size.z <= exact ? Y : X;
@@ -35,11 +35,11 @@ static void across(rg_vec3 n, double exact, rg_plane *p)
     p->e2 = rg_vec3_cross(n, p->e1);
 }
 
-int rg_plane_find(const rg_vec3 *x, int32_t n, const int32_t *pair, int32_t pairs, double exact, double tol, rg_plane *p)
+int rg_plane_find(const rg_vec3 *x, int32_t n, const int32_t *pair, int32_t pairs, double exact, double tol, rg_level *p)
 {
     const rg_vec3 o = n ? x[0] : X;
     rg_vec3 d = {0, 0, 0}, normal = d;
-    *p = (rg_plane){.e1 = X, .e2 = Y};
+    *p = (rg_level){.e1 = X, .e2 = Y};
     for (int32_t i = 0; i < n; i++) {
         const rg_vec3 v = rg_vec3_sub(x[i], o);
         if (rg_vec3_length(v) > rg_vec3_length(d)) d = v;
@@ -56,7 +56,7 @@ int rg_plane_find(const rg_vec3 *x, int32_t n, const int32_t *pair, int32_t pair
     across(normal, exact, p);
     measure(x, n, pair, pairs, p);
     if (p->off <= exact * size) return 2;
-    const rg_plane general = *p;
+    const rg_level general = *p;
     const rg_vec3 eye[] = {Z, Y, X};
     for (int i = 0; i < 3; i++) {
         across(eye[i], 0, p);

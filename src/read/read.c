@@ -145,7 +145,7 @@ static const char *refusal(text t, const char *path)
     return NULL;
 }
 
-rg_status rg_read_format(const void *bytes, size_t size, const char *path, const rg_settings *s, rg_format *format,
+rg_status rg_read_format(const void *bytes, size_t size, const char *path, const rg_reading *s, rg_format *format,
                          rg_diag *why)
 {
     text t = {bytes, (const char *)bytes + size};
@@ -159,7 +159,7 @@ rg_status rg_read_format(const void *bytes, size_t size, const char *path, const
     return rg_fail(RG_EFORMAT, why, 1, "not a crease pattern that is known: ORIPA's .opx, .cp, .fold, .svg, .dxf or .ori");
 }
 
-rg_status rg_read_bytes(const void *bytes, size_t size, const char *path, const rg_settings *s, int keep, rg_lines *out,
+rg_status rg_read_bytes(const void *bytes, size_t size, const char *path, const rg_reading *s, int keep, rg_lines *out,
                         rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(s->memory);
@@ -213,7 +213,7 @@ rg_status rg_read_whole(const char *path, const rg_memory *mem, char **bytes, si
     return status;
 }
 
-rg_status rg_read_file(const char *path, const rg_settings *s, int keep, rg_lines *out, rg_diag *why)
+rg_status rg_read_file(const char *path, const rg_reading *s, int keep, rg_lines *out, rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(s->memory);
     char *bytes = NULL;

@@ -46,7 +46,7 @@ typedef struct tally { int32_t count, where; char text[RG_CSS_VALUE]; } tally;
 typedef struct reader {
     rg_lines *out;
     rg_diag *why;
-    const rg_settings *s;
+    const rg_reading *s;
     rg_css css;
     rg_ids ids;
     const chain *uses;
@@ -770,7 +770,7 @@ static rg_status document(reader *r, const rg_xml_node *root)
     return s == RG_OK && r->out->count == 0 ? nothing_drawn(r, root) : s;
 }
 
-rg_status rg_svg_read(const void *bytes, size_t size, const rg_memory *mem, const rg_settings *settings, rg_lines *out, rg_diag *why)
+rg_status rg_svg_read(const void *bytes, size_t size, const rg_memory *mem, const rg_reading *settings, rg_lines *out, rg_diag *why)
 {
     rg_xml *doc = NULL;
     reader r = {.out = out, .why = why, .s = settings};

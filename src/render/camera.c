@@ -15,37 +15,6 @@ static const double DEPTH_ROOM = 0.02;
 static const double FLOOR = 0.01;
 /* Frames before and after that have a say in where the camera is, in parts of all frames. */
 static const double REACH = 0.1;
-/* Beyond this zoom one looks at less than a pixel's worth of a large sheet. */
-static const double MAX_ZOOM = 1000;
-/* Frames a second: what the formats of animations can say. */
-static const double MIN_RATE = 0.01, MAX_RATE = 1000;
-/* Beyond these a picture is no longer one of the sheet: lines cover it, or nothing of it is seen. */
-static const double MIN_LINE = 0.1, MAX_LINE = 10, MOST_CLEAR = 0.9;
-/* Seconds. */
-static const double LONGEST_HOLD = 60;
-
-rg_status rg_camera_check(const rg_picture *p, rg_diag *why)
-{
-    if (p->width < 1 || p->height < 1 || p->width > RG_MAX_PICTURE || p->height > RG_MAX_PICTURE)
-        return rg_fail(RG_EARG, why, 0, "a picture of %d x %d pixels: each side may be 1 to %d", (int)p->width,
-                       (int)p->height, RG_MAX_PICTURE);
-    if (!isfinite(p->azimuth) || !isfinite(p->elevation))
-        return rg_fail(RG_EARG, why, 0, "the camera's azimuth and elevation have to be finite");
-    if (p->targeted && !(isfinite(p->target[0]) && isfinite(p->target[1])))
-        return rg_fail(RG_EARG, why, 0, "the camera's target has to be finite");
-    if (!(p->zoom > 0 && p->zoom <= MAX_ZOOM))
-        return rg_fail(RG_EARG, why, 0, "a zoom of %g: it may be up to %g, and above 0", p->zoom, MAX_ZOOM);
-    if (!(p->fps >= MIN_RATE && p->fps <= MAX_RATE))
-        return rg_fail(RG_EARG, why, 0, "%g frames a second: it may be %g to %g", p->fps, MIN_RATE, MAX_RATE);
-    if (!(p->line_width >= MIN_LINE && p->line_width <= MAX_LINE))
-        return rg_fail(RG_EARG, why, 0, "lines %g times as wide as usual: it may be %g to %g", p->line_width, MIN_LINE, MAX_LINE);
-    if (!(p->see_through >= 0 && p->see_through <= MOST_CLEAR))
-        return rg_fail(RG_EARG, why, 0, "facets that let %g of the light pass: it may be 0 to %g", p->see_through, MOST_CLEAR);
-    if (!(p->hold >= 0 && p->hold <= LONGEST_HOLD))
-        return rg_fail(RG_EARG, why, 0, "an end that is held for %g seconds: it may be 0 to %g", p->hold, LONGEST_HOLD);
-    return RG_OK;
-}
-
 /* ---- where the sheet is seen */
 
 /* Along the camera's axes: what is seen of a point at (r, u, b) from the eye at (0, 0, d) is at r / (d - b), u / (d - b). The sheet
@@ -234,7 +203,7 @@ static void aim(rg_camera *c, double azimuth, double elevation, double roll)
 
 rg_status rg_camera_follow(const rg_stage *stage, const rg_picture *p, rg_camera *camera, rg_diag *why)
 {
-    rg_status s = rg_camera_check(p, why);
+    rg_status s = rg_picture_check(p, why);
     if (s != RG_OK) return s;
     const rg_memory *mem = &stage->mem;
     const size_t frames = (size_t)stage->motion->report.frame_count;

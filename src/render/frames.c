@@ -206,7 +206,7 @@ static rg_status set_up(studio *s)
     rg_tint_words(&s->tint, tells, sizeof tells);
     const char *title = m->title && *m->title ? m->title : s->wish->picture.title ? s->wish->picture.title : "";
     snprintf(s->title, sizeof s->title, "%s%s%s", title, *title && *tells ? ": " : "", tells);
-    rg_status status = rg_camera_check(&s->wish->picture, s->why);
+    rg_status status = rg_picture_check(&s->wish->picture, s->why);
     if (status != RG_OK) return status;
     s->camera = rg_mem_array(&s->mem, (size_t)m->report.frame_count, sizeof *s->camera);
     status = s->camera ? rg_stage_init(&s->mem, m, &s->wish->picture, &s->stage) : RG_ENOMEM;

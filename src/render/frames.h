@@ -19,7 +19,7 @@ typedef struct rg_frames {
 } rg_frames;
 
 /* The pictures do not depend on how many threads draw them, and no signal is handled by these. RG_EARG: see
- * rg_camera_check; RG_EABSENT, RG_ENOMEM, or what take() said first. */
+ * rg_picture_check; RG_EABSENT, RG_ENOMEM, or what take() said first. */
 rg_status rg_frames_draw(const rg_motion *m, const rg_frames *f, rg_diag *why);
 
 #endif

@@ -66,7 +66,7 @@ rg_status rg_render_create(const rg_memory *memory, const rg_mesh *m, const rg_t
                            rg_render **render, rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(memory);
-    rg_status s = rg_camera_check(p, why);
+    rg_status s = rg_picture_check(p, why);
     if (s != RG_OK) return s;
     rg_render *r = rg_mem_array(&mem, 1, sizeof *r);
     if (!r) return rg_fail(RG_ENOMEM, why, 0, "out of memory for the picture");

@@ -24,25 +24,6 @@ static const double ROLLS[] = {0, -15, 15, -30, 30};
 static const double LEVEL = 0.1; /* so much less is liked of it for each STEEP of roll */
 static const double STEEP = 15;
 
-rg_picture rg_picture_default(void)
-{
-    return (rg_picture){
-        .width = 960,
-        .height = 720,
-        .azimuth = -60 * RG_DEG,
-        .elevation = USUAL * RG_DEG,
-        .zoom = 1,
-        .front = {246, 184, 80},
-        .back = {252, 248, 240},
-        .background = {50, 56, 68},
-        .lines = RG_LINES_CREASES,
-        .line_width = 1,
-        .shadow = 1,
-        .fps = 30,
-        .hold = 1,
-    };
-}
-
 /* ---- turning as little as possible */
 
 /* The eigenvector of the largest eigenvalue, by Jacobi's rotations: each makes one entry off the diagonal zero. */

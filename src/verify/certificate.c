@@ -16,7 +16,7 @@ void rg_certificate_destroy(rg_certificate *c)
     rg_mem_free(&mem, c);
 }
 
-void rg_certificate_get_info(const rg_certificate *c, rg_certificate_info *info) { *info = c->info; }
+const rg_certificate_info *rg_certificate_get_info(const rg_certificate *c) { return &c->info; }
 
 int32_t rg_certificate_faults(const rg_certificate *c, const rg_fault **list)
 {
@@ -58,10 +58,10 @@ static rg_status look(rg_certificate *c, rg_record *r, const rg_pattern *given)
     return s;
 }
 
-rg_status rg_certificate_create(const char *path, const rg_pattern *given, const rg_settings *settings, rg_certificate **certificate,
+rg_status rg_certificate_create(const char *path, const rg_pattern *given, const rg_memory *memory, rg_certificate **certificate,
                                 rg_diag *why)
 {
-    const rg_memory mem = rg_mem_default(settings->memory);
+    const rg_memory mem = rg_mem_default(memory);
     rg_record r = {0};
     char *bytes = NULL;
     size_t size = 0;

@@ -10,7 +10,7 @@ rg_status rg_dxffile_write(const rg_motion *m, int32_t frame, const rg_picture *
     if (!line) return RG_ENOMEM;
     for (int32_t e = 0; e < mesh->ne; e++)
         line[e] = (rg_line){X[mesh->edge[e][0]], X[mesh->edge[e][1]], NAN, mesh->assignment[e] == RG_CUT ? RG_BORDER : mesh->assignment[e], 0};
-    rg_dxf_put(out, line, mesh->ne, m->report.pattern.unit);
+    rg_dxf_put(out, line, mesh->ne, m->report.pattern->unit);
     rg_mem_free(&m->mem, line);
     return RG_OK;
 }

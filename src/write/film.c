@@ -319,7 +319,7 @@ static rg_status write_animation(const rg_motion *m, shape is, const char *path,
 rg_status rg_film_write_by(const rg_motion *m, const char *path, const rg_picture *p, int32_t threads, rg_diag *why)
 {
     rg_status s = rg_film_check(path, why);
-    if (s == RG_OK) s = rg_camera_check(p, why);
+    if (s == RG_OK) s = rg_picture_check(p, why);
     if (s != RG_OK) return s;
     rg_print print = {NULL, 0, 0};
     unsigned char *rgba = NULL;

@@ -26,7 +26,7 @@ static void head(rg_json *j, const rg_motion *m)
     if (m->source.memo) rg_json_string(j, "file_description", m->source.memo);
     strings(j, "file_classes", "singleModel", "animation");
     if (!rg_value_get(m->source.frame, "frame_title")) rg_json_string(j, "frame_title", "crease pattern");
-    const char *unit = rg_unit_name(m->report.pattern.unit);
+    const char *unit = rg_unit_name(m->report.pattern->unit);
     if (unit && !rg_value_get(m->source.frame, "frame_unit")) rg_json_string(j, "frame_unit", unit);
     strings(j, "frame_classes", "creasePattern", NULL);
     strings(j, "frame_attributes", "2D", "orientable");
@@ -56,8 +56,10 @@ static void edges(rg_json *j, const rg_mesh *m)
     rg_json_close(j);
     /* Border, flat and undecided edges have 0 in FOLD. */
     rg_json_open_line(j, "edges_foldAngle", '[');
-    for (int32_t e = 0; e < m->ne; e++)
-        rg_json_number(j, NULL, m->edge_crease[e] < 0 || isnan(m->target[e]) ? 0 : rg_number_degrees(m->target[e]));
+    for (int32_t e = 0; e < m->ne; e++) {
+        const int folds = m->assignment[e] == RG_MOUNTAIN || m->assignment[e] == RG_VALLEY; /* free where nothing says how far: null */
+        rg_json_number(j, NULL, m->edge_crease[e] < 0 || (isnan(m->target[e]) && !folds) ? 0 : rg_number_degrees(m->target[e]));
+    }
     rg_json_close(j);
 }
 

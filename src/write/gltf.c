@@ -412,7 +412,7 @@ static void nodes(rg_json *j, const model *g)
     rg_json_open(j, "nodes", '[');
     rg_json_open(j, NULL, '{');
     rg_json_string(j, "name", g->m->title && *g->m->title ? g->m->title : "sheet");
-    upright(j, g->m->report.pattern.unit);
+    upright(j, g->m->report.pattern->unit);
     if (g->morphs) rg_json_integer(j, "mesh", 0);
     if (!g->morphs) {
         rg_json_open_line(j, "children", '[');

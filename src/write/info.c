@@ -97,17 +97,15 @@ static void symmetry(rg_json *j, const rg_alike *a)
 /* NULL: no sheet that could be folded. */
 static rg_status find_layers(const rg_pattern *p, rg_layers **l, rg_diag *why)
 {
-    rg_settings s = rg_settings_default();
-    s.memory = &p->mem;
     *l = NULL;
-    return p->info.is_disk ? rg_layers_create(p, &s, l, why) : RG_OK;
+    return p->info.is_disk ? rg_layers_create(p, &p->mem, l, why) : RG_OK;
 }
 
 static void layers(rg_json *j, const rg_pattern *p, const rg_layers *l)
 {
     rg_layers_info i;
     if (!l) return;
-    rg_layers_get_info(l, &i);
+    i = *rg_layers_get_info(l);
     rg_json_string(j, "layers", rg_layers_state_name(i.state));
     rg_json_string(j, "layer_orders", i.state == RG_LAYERS_VALID ? i.count : NULL);
     rg_json_open_line(j, "layer_orders_by_part", '[');
@@ -324,7 +322,7 @@ static void flat_folding(const rg_layers *l, FILE *out)
 {
     rg_layers_info i;
     if (!l) return;
-    rg_layers_get_info(l, &i);
+    i = *rg_layers_get_info(l);
     fprintf(out, "folded flat ");
     switch (i.state) {
     case RG_LAYERS_VALID:
@@ -436,7 +434,7 @@ static void verdict(const rg_pattern *p, const rg_layers *l, FILE *out)
     const rg_unfoldable *u = worst(p);
     rg_layers_info layers = {.state = RG_LAYERS_UNSOLVED};
     char text[240];
-    if (l) rg_layers_get_info(l, &layers);
+    if (l) layers = *rg_layers_get_info(l);
     if (!i->is_disk) {
         fprintf(out, "It cannot be folded here, for it is not one sheet without holes: %s.\n", i->not_disk);
     } else if (i->creases == 0 && i->lost_creases > 0) {

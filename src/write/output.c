@@ -95,12 +95,12 @@ static rg_status check_image(const rg_motion *m, const char *path, rg_diag *why)
 
 rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_picture *picture, rg_diag *why)
 {
-    const rg_picture usual = rg_picture_default(), *p = picture ? picture : &usual;
+    rg_picture mine, *const p = &mine;
     const form *f;
     rg_numbered n;
-    if (rg_film_is_form(path)) return rg_film_write(m, path, p, why);
-    rg_status s = find_form(path, &f, why);
-    if (s == RG_OK) s = rg_camera_check(p, why); /* models and pages have its colours, view and pace */
+    rg_status s = rg_picture_take(picture, p, why); /* models and pages have its colours, view and pace, too */
+    if (s == RG_OK && rg_film_is_form(path)) return rg_film_write(m, path, p, why);
+    if (s == RG_OK) s = find_form(path, &f, why);
     if (s == RG_OK && p->image) s = check_image(m, p->image, why);
     if (s != RG_OK) return s;
     return rg_numbered_find(path, &n) ? write_each(m, f, &n, p, why)

@@ -198,7 +198,7 @@ rg_status rg_report_write(const rg_motion *m, double seconds_writing, double pea
     rg_json_open(&j, NULL, '{');
     rg_json_string(&j, "rigami", RG_VERSION);
     rg_json_open(&j, "pattern", '{');
-    rg_report_pattern(&j, &r->pattern);
+    rg_report_pattern(&j, r->pattern);
     rg_json_close(&j);
     model(&j, m, half_way);
     run(&j, r, seconds_writing, peak_bytes);

@@ -59,7 +59,7 @@ rg_status rg_stl_write(const rg_motion *m, int32_t frame, const rg_picture *p, F
     rg_triangles t;
     rg_status s = rg_triangles_init(&m->mem, &m->mesh, &t);
     if (s != RG_OK) return s;
-    const double scale = m->report.pattern.unit > 0 ? METRE * m->report.pattern.unit : 1;
+    const double scale = m->report.pattern->unit > 0 ? METRE * m->report.pattern->unit : 1;
     rg_vec3 *x = rg_mem_array(&m->mem, (size_t)m->mesh.nv, sizeof *x);
     s = x ? rg_motion_place_centred(m, frame, x) : RG_ENOMEM;
     for (int32_t v = 0; s == RG_OK && v < m->mesh.nv; v++) x[v] = rg_vec3_scale(scale, x[v]);

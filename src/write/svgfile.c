@@ -83,14 +83,14 @@ static void head(const rg_motion *m, FILE *out)
     const double scale = PIXELS / fmax(width, height);
     char a[RG_NUMBER_ROOM], b[RG_NUMBER_ROOM], c[RG_NUMBER_ROOM], d[RG_NUMBER_ROOM];
     fputs("<svg xmlns=\"http://www.w3.org/2000/svg\"", out);
-    const double unit = r->pattern.unit; /* as large on paper as the file says, else as fits a screen */
+    const double unit = r->pattern->unit; /* as large on paper as the file says, else as fits a screen */
     fprintf(out, " width=\"%s%s\"", rg_number_print(a, unit > 0 ? 1000 * unit * width : scale * width), unit > 0 ? "mm" : "");
     fprintf(out, " height=\"%s%s\"", rg_number_print(a, unit > 0 ? 1000 * unit * height : scale * height), unit > 0 ? "mm" : "");
     fprintf(out, " viewBox=\"%s %s %s %s\">\n<title>", rg_number_print(a, low.x - margin),
             rg_number_print(b, -high.y - margin), rg_number_print(c, width), rg_number_print(d, height));
     escaped(m->title && *m->title ? m->title : "crease pattern", out);
     fprintf(out, "</title>\n<desc>Folded by rigami %s to %s percent; %d closed vertices, %d creases added", RG_VERSION,
-            rg_number_print(a, r->folded_percent), (int)r->pattern.closed_vertices, (int)r->added_creases);
+            rg_number_print(a, r->folded_percent), (int)r->pattern->closed_vertices, (int)r->added_creases);
     if (*r->reason) fputs(": ", out);
     escaped(r->reason, out);
     fputs("</desc>\n", out);

@@ -60,7 +60,7 @@ static rg_motion *fold(const char *path, const char *kind, int32_t n, bill *b)
     rg_pattern *p = NULL;
     rg_motion *m = NULL;
     if (kind) must(rg_generate(kind, n, 0, 0, path, &why), kind, &why);
-    must(rg_pattern_read(path, &s, &p, &why), path, &why);
+    must(rg_pattern_read(path, NULL, &p, &why), path, &why);
     if (kind) unlink(path);
     for (int k = 0; k < TIMES; k++) {
         rg_motion_destroy(m);

@@ -37,7 +37,7 @@ static void give_up(const char *what, const char *why)
 static rg_pattern *generated(const char *kind, int32_t n)
 {
     const rg_memory mem = rg_mem_default(NULL);
-    rg_settings s = rg_settings_default();
+    const rg_reading s = rg_reading_default();
     rg_lines l;
     rg_pattern *p = NULL;
     rg_diag why = {0, ""};
