@@ -364,6 +364,17 @@ static void a_batch(void **state)
         snprintf(head, sizeof head, "%.60s", p);
         assert_non_null(strstr(again, head));
     }
+    /* Another judge's word, from the file that is written for it. The table does not depend on how many are folded at a time. */
+    ends(0, run("batch", "good.opx", "-o", "judged", "--frames", "4", "-q", "--verify", "--jobs", "1"));
+    assert_false(is_empty("judged/good.fold"));
+    slurp("judged/table.csv", table);
+    assert_non_null(strstr(table, ",free,,0,0,0,0,valid,"));
+    /* As many columns in each row, whatever became of the file. */
+    ends(1, run("batch", "good.opx", "missing.opx", "-o", "judged", "--frames", "4", "-q", "--verify", "--jobs", "2"));
+    slurp("judged/table.csv", table);
+    int commas[3] = {0};
+    for (int line = 0, i = 0; table[i] && line < 3; i++) commas[line] += table[i] == ',', line += table[i] == '\n';
+    assert_true(commas[0] > 20 && commas[1] == commas[0] && commas[2] == commas[0]);
     says(ends(2, run("batch", "good.opx", "-o", "parts", "--part", "3/2")), "rigami: --part: ", "3/2");
     says(ends(2, run("batch", "good.opx", "-o", "parts", "--write", "xyz")), "rigami: ", "xyz");
     says(ends(2, run("batch", "good.opx")), "rigami: ", "-o DIR/");

@@ -1,5 +1,6 @@
 /* rigami batch -- many files, each folded by itself: on all processors, to one table, going on where it was interrupted. */
 #include "commands.h"
+#include "input.h"
 #include "interrupt.h"
 #include "say.h"
 #include "tasks.h"
@@ -17,9 +18,12 @@
 
 enum { ROOM = 4096, ROW = 2048 };
 
+/* The columns; where the program reads them again, their places. */
+enum { EXIT = 3, OUTCOME = 4, PERCENT = 5, MOVED = 18, SECONDS = 21, CONTACT = 23, CROSSES_FROM = 24, VERIFY = 29, REASON = 30 };
 static const char COLUMNS[] = "key,file,sheet,exit,outcome,folded_percent,least_folded_percent,creases,interior_vertices,closed_vertices,added_creases,"
                               "strategy,tries,adjust_gain,max_closure_residual,max_edge_strain,max_facet_gap,max_overfold_deg,max_adjustment,"
-                              "max_strain_from_original,layers,seconds,processor_seconds,reason";
+                              "max_strain_from_original,layers,seconds,processor_seconds,contact,first_contact_percent,contact_frames,contact_pairs,"
+                              "contact_depth,contact_unproved,verify,reason";
 
 /* ----------------------------------------------------------------------------------------------------- a row ---- */
 
@@ -36,13 +40,16 @@ static void put_failure(const task *t, int exit, const char *outcome, const char
 {
     fprintf(out, "%s,", t->key);
     put_text(t->file, out);
-    fprintf(out, ",%d,%d,%s,,,,,,,,,,,,,,,,,,,", (int)t->sheet, exit, outcome);
+    fprintf(out, ",%d,%d,%s", (int)t->sheet, exit, outcome);
+    for (int i = OUTCOME; i < REASON; i++) fputc(',', out);
     put_text(reason, out);
     fputc('\n', out);
 }
 
-static void put_report(const task *t, int exit, const rg_report *r, FILE *out)
+/* `verify`: what another judge says of the motion, empty: it was not asked. */
+static void put_report(const task *t, int exit, const rg_report *r, double processor_seconds, const char *verify, FILE *out)
 {
+    static const char *const contact[] = {[RG_CONTACT_UNCHECKED] = "unchecked", [RG_CONTACT_FREE] = "free", [RG_CONTACT_CROSSES] = "crosses"};
     fprintf(out, "%s,", t->key);
     put_text(t->file, out);
     fprintf(out, ",%d,%d,%s", (int)t->sheet, exit, r->outcome == RG_FOLDED ? "folded" : r->outcome == RG_RESTS ? "rests" : "stopped");
@@ -56,7 +63,14 @@ static void put_report(const task *t, int exit, const rg_report *r, FILE *out)
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) put_number(numbers[i], out);
     fprintf(out, ",%s", r->layers);
     put_number(r->seconds_total, out);
-    put_number((double)clock() / CLOCKS_PER_SEC, out);
+    put_number(processor_seconds, out);
+    fprintf(out, ",%s", contact[r->contact]);
+    if (r->contact == RG_CONTACT_CROSSES) put_number(r->first_contact_percent, out);
+    else fputc(',', out);
+    fprintf(out, ",%d,%d", (int)r->contact_frames, (int)r->contact_pairs);
+    put_number(r->contact_depth, out);
+    fprintf(out, ",%d,", (int)r->contact_unproved);
+    put_text(verify, out);
     fputc(',', out);
     put_text(r->reason, out);
     fputc('\n', out);
@@ -95,25 +109,51 @@ static int kept(const char *folder, const task *t, char text[ROW])
 
 /* ---------------------------------------------------------------------------------------------------- a child ---- */
 
-typedef struct outcome { const task *t; const char *folder; int written; const rg_report *r; FILE *out; row row; } outcome;
+typedef struct outcome { const options *o; const task *t; const char *folder; int written; row row; } outcome;
+
+/* The motion just written, judged from its file alone as `rigami verify` does: "valid", or the first fault. */
+static void verify(const outcome *c, char text[300])
+{
+    char path[ROOM];
+    rg_pattern *given = NULL;
+    rg_certificate *judged = NULL;
+    rg_certificate_info info;
+    const rg_fault *fault;
+    rg_diag why = {0, ""};
+    options quiet = *c->o;
+    quiet.quiet = 1; /* folding has passed the reader's warnings on */
+    snprintf(path, sizeof path, "%s/%s.fold", c->folder, c->t->name);
+    if (input_read(&quiet, 0, &given) == ENDS_WELL && rg_certificate_create(path, given, &c->o->settings, &judged, &why) == RG_OK) {
+        rg_certificate_get_info(judged, &info);
+        if (info.valid || rg_certificate_faults(judged, &fault) < 1) snprintf(text, 300, "valid");
+        else if (fault->frame < 0) snprintf(text, 300, "%s", fault->text);
+        else snprintf(text, 300, "frame %d: %s%s", (int)fault->frame, fault->facet[0] >= 0 ? "facets " : "", fault->text);
+    } else snprintf(text, 300, "cannot be read: %s", why.text);
+    rg_certificate_destroy(judged);
+    rg_pattern_destroy(given);
+}
 
 static void keep_report(void *ctx, const rg_motion *m, int status)
 {
     outcome *c = ctx;
+    const double seconds = (double)clock() / CLOCKS_PER_SEC;
+    char judged[300] = "";
+    alarm(0); /* the limit is that of folding, which is done */
+    if (c->o->verify && status != ENDS_UNWRITTEN) verify(c, judged);
     if (interrupt_came() || row_begin(&c->row, c->folder, c->t) != ENDS_WELL) return;
-    put_report(c->t, status, rg_motion_report(m), c->row.out);
+    put_report(c->t, status, rg_motion_report(m), seconds, judged, c->row.out);
     c->written = row_end(&c->row) == ENDS_WELL;
 }
 
 /* Folds one file, in a process of its own; what it says goes to NAME.log. */
-static int child(const options *o, const char *folder, const task *t)
+static int child(const options *o, const char *folder, const task *t, int threads)
 {
     char log[ROOM], report[ROOM], why[300] = "";
     char (*form)[ROOM] = calloc((size_t)o->forms + 1, sizeof *form);
     const char **output = calloc((size_t)o->forms + 1, sizeof *output);
     if (!form || !output) return ENDS_UNWRITTEN;
     options one = *o;
-    outcome c = {.t = t, .folder = folder};
+    outcome c = {.o = &one, .t = t, .folder = folder};
     snprintf(log, sizeof log, "%s/%s.log", folder, t->name);
     snprintf(report, sizeof report, "%s/%s.json", folder, t->name);
     for (int i = 0; i < o->forms; i++) {
@@ -128,6 +168,7 @@ static int child(const options *o, const char *folder, const task *t)
     one.outputs = o->forms;
     one.report = report;
     one.reading.sheet = t->sheet;
+    one.settings.threads = threads;
     one.progress = 0;
     one.quiet = 0;
     if (o->limit > 0) alarm((unsigned)o->limit);
@@ -158,9 +199,9 @@ static void tell(const options *o, const task *t, const char *text, int done, in
     if (o->quiet) return;
     printf("[%d/%d] %s", done, count, t->file);
     if (t->sheet) printf(", sheet %d", (int)t->sheet);
-    printf(": %s", field(text, 4, end));
-    if (*field(text, 5, percent)) printf(", %.1f %%", atof(percent));
-    if (*field(text, 21, seconds)) printf(", %.2f s", atof(seconds));
+    printf(": %s", field(text, OUTCOME, end));
+    if (*field(text, PERCENT, percent)) printf(", %.1f %%", atof(percent));
+    if (*field(text, SECONDS, seconds)) printf(", %.2f s", atof(seconds));
     puts(again ? " (kept)" : "");
     fflush(stdout);
 }
@@ -179,7 +220,37 @@ static int bury(const options *o, const char *folder, const task *t, int status)
     return row_end(&r) == ENDS_WELL ? ENDS_SHORT : ENDS_UNWRITTEN;
 }
 
-typedef struct pool { pid_t *pid; int *task; int jobs, running; } pool;
+typedef struct turn { int32_t creases; int task; } turn;
+typedef struct pool { pid_t *pid; int *task; turn *order; int jobs, running, threads; } pool;
+
+/* Those with most creases first: a long one that begins last is waited for by idle processors. */
+static int by_creases(const void *a, const void *b)
+{
+    const turn *p = a, *q = b;
+    return p->creases != q->creases ? (p->creases < q->creases) - (p->creases > q->creases) : (p->task > q->task) - (p->task < q->task);
+}
+
+/* A file has a processor to itself; where there are fewer files than processors, more of them. */
+static int pool_init(pool *p, const options *o, const tasks *q)
+{
+    *p = (pool){.jobs = o->jobs > 0 ? o->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN)};
+    if (p->jobs < 1) p->jobs = 1;
+    p->threads = q->count > 0 && p->jobs > q->count ? p->jobs / q->count : 1;
+    p->pid = calloc((size_t)p->jobs, sizeof *p->pid);
+    p->task = calloc((size_t)p->jobs, sizeof *p->task);
+    p->order = calloc((size_t)q->count + 1, sizeof *p->order);
+    if (!p->pid || !p->task || !p->order) return say_status(RG_ENOMEM, NULL, &(rg_diag){0, ""});
+    for (int i = 0; i < q->count; i++) p->order[i] = (turn){q->task[i].creases, i};
+    qsort(p->order, (size_t)q->count, sizeof *p->order, by_creases);
+    return ENDS_WELL;
+}
+
+static void pool_free(pool *p)
+{
+    free(p->pid);
+    free(p->task);
+    free(p->order);
+}
 
 static int start(const options *o, const char *folder, const tasks *q, int i, pool *p)
 {
@@ -190,7 +261,7 @@ static int start(const options *o, const char *folder, const tasks *q, int i, po
         return ENDS_UNWRITTEN;
     }
     if (pid == 0) {
-        const int status = child(o, folder, &q->task[i]);
+        const int status = child(o, folder, &q->task[i], p->threads);
         fflush(NULL);
         _exit(status);
     }
@@ -220,18 +291,15 @@ static int await(pool *p, int *status)
 
 static int run_all(const options *o, const char *folder, const tasks *q)
 {
-    pool p = {.jobs = o->jobs > 0 ? o->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN)};
-    int done = 0, worst = ENDS_WELL, next = 0;
+    pool p;
+    int done = 0, next = 0, worst = pool_init(&p, o, q);
     char text[ROW];
-    if (p.jobs < 1) p.jobs = 1;
-    p.pid = calloc((size_t)p.jobs, sizeof *p.pid);
-    p.task = calloc((size_t)p.jobs, sizeof *p.task);
-    if (!p.pid || !p.task) worst = say_status(RG_ENOMEM, NULL, &(rg_diag){0, ""});
     interrupt_hold();
     while (worst != ENDS_UNWRITTEN && (next < q->count || p.running > 0)) {
         for (; next < q->count && p.running < p.jobs && !interrupt_came() && worst != ENDS_UNWRITTEN; next++) {
-            if (!o->fresh && kept(folder, &q->task[next], text)) tell(o, &q->task[next], text, ++done, q->count, 1);
-            else worst = start(o, folder, q, next, &p);
+            const int i = p.order[next].task;
+            if (!o->fresh && kept(folder, &q->task[i], text)) tell(o, &q->task[i], text, ++done, q->count, 1);
+            else worst = start(o, folder, q, i, &p);
         }
         int status = 0;
         const int i = await(&p, &status);
@@ -241,8 +309,7 @@ static int run_all(const options *o, const char *folder, const tasks *q)
         if (kept(folder, &q->task[i], text)) tell(o, &q->task[i], text, ++done, q->count, 0);
     }
     for (int status; await(&p, &status) >= 0;) continue;
-    free(p.pid);
-    free(p.task);
+    pool_free(&p);
     return worst;
 }
 
@@ -260,7 +327,7 @@ static int write_tables(const char *folder, const char *name, const tasks *q, in
     if (!people) say("%s: %s", path, strerror(errno));
     if (people) {
         fprintf(csv, "%s\n", COLUMNS);
-        fprintf(people, "%-44s %-9s %9s %9s %9s  %s\n", "file", "outcome", "percent", "moved", "seconds", "reason");
+        fprintf(people, "%-44s %-9s %9s %9s %9s  %-12s %-8s %s\n", "file", "outcome", "percent", "moved", "seconds", "contact", "verify", "reason");
     }
     *bad = 0;
     for (int i = 0; people && i < q->count; i++) {
@@ -270,9 +337,13 @@ static int write_tables(const char *folder, const char *name, const tasks *q, in
             continue;
         }
         fputs(text, csv);
-        *bad += atoi(field(text, 3, a)) != ENDS_WELL;
-        fprintf(people, "%-44s %-9s %9.1f %9.2g %9.2f  %s\n", t->file, field(text, 4, a), atof(field(text, 5, b)), atof(field(text, 18, c)),
-                atof(field(text, 21, d)), field(text, 23, e));
+        *bad += atoi(field(text, EXIT, a)) != ENDS_WELL;
+        fprintf(people, "%-44s %-9s %9.1f %9.2g %9.2f  ", t->file, field(text, OUTCOME, a), atof(field(text, PERCENT, b)), atof(field(text, MOVED, c)),
+                atof(field(text, SECONDS, d)));
+        if (*field(text, CROSSES_FROM, b)) snprintf(a, sizeof a, "from %.0f %%", atof(b));
+        else field(text, CONTACT, a);
+        field(text, VERIFY, b);
+        fprintf(people, "%-12s %-8s %s\n", a, !*b || strcmp(b, "valid") == 0 ? b : "refused", field(text, REASON, e));
     }
     const int written = people && fclose(people) == 0 && fclose(csv) == 0;
     if (!people && csv) fclose(csv);

@@ -131,9 +131,11 @@ static const rule rules[] = {
     {PICTURES, "hold", 0, "SEC", REAL, AT(picture.hold), 0, 60, 1, NULL, "animations: seconds to stay at the end (1)"},
     {FOR_FOLD, "report", 0, "FILE", TEXT, AT(report), NOTHING, "write a report as JSON, - for standard output"},
     {FOR_BATCH, "write", 0, "FORM", FORM, 0, NOTHING, "for each file also DIR/NAME.FORM: gif, fold, html, ...; may be given many times"},
-    {FOR_BATCH, "jobs", 0, "N", WHOLE, AT(jobs), 1, 4096, 1, NULL, "files at a time (as many as processors)"},
+    {FOR_BATCH, "jobs", 0, "N", WHOLE, AT(jobs), 1, 4096, 1, NULL, "files at a time, each on a processor of its own (as many as there are)"},
     {FOR_BATCH, "limit", 0, "SEC", REAL, AT(limit), 1, 1e6, 1, NULL, "seconds for one file, then it is told as a timeout (none)"},
     {FOR_BATCH, "part", 0, "K/N", PART, 0, NOTHING, "only every N-th file, from the K-th on: for several machines"},
+    {FOR_BATCH, "verify", 0, NULL, SWITCH, AT(verify), 1, 0, 1, NULL,
+     "judge each motion as rigami verify does, from DIR/NAME.fold, which is written"},
     {FOR_BATCH, "fresh", 0, NULL, SWITCH, AT(fresh), 1, 0, 1, NULL, "do not go on from what DIR has"},
     {FOR_INFO | FOR_VERIFY, "json", 0, NULL, SWITCH, AT(json), 1, 0, 1, NULL, "print one JSON object instead of text"},
     {FOR_GEN, "angle", 0, "DEG", ABOVE, AT(angle), 0, 180, DEG, NULL, "the kind's angle, degrees (its own)"},
@@ -453,7 +455,7 @@ static int check_operands(const options *o, const command *c)
 static void note(options *o, const rule *r, const char *text)
 {
     const size_t n = strlen(o->said);
-    const int matters = (r->commands & FOR_FOLD) || r->kind == FORM || (r->kind == JOIN && text);
+    const int matters = (r->commands & FOR_FOLD) || r->kind == FORM || (r->kind == JOIN && text) || r->at == AT(verify);
     if (matters && r->kind != OUTPUT && strcmp(r->name, "quiet") != 0 && strcmp(r->name, "progress") != 0 && strcmp(r->name, "no-progress") != 0)
         snprintf(o->said + n, sizeof o->said - n, "--%s %s ", r->name, text ? text : "");
 }
@@ -485,6 +487,9 @@ static void settle(options *o)
     o->picture.colour = (rg_colouring)o->colour;
     o->picture.loop = (rg_loop)o->loop;
     o->settings.contact = (rg_contact_mode)o->contact;
+    int has_fold = !o->verify;
+    for (int i = 0; i < o->forms; i++) has_fold |= strcmp(o->form[i], "fold") == 0;
+    if (!has_fold) o->form[o->forms++] = "fold"; /* what is judged; there is room, as --verify is a word too */
 }
 
 int options_parse(options *o, const command *c, int argc, char **argv)

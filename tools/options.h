@@ -20,7 +20,7 @@ typedef struct options {
     int operands, outputs;
     frame_range *range;                                   /* of --frame: states in one file; one frame alone is in `settings` too */
     int ranges;
-    int forms, merge, fresh;                              /* of batch */
+    int forms, merge, fresh, verify;                      /* of batch */
     int32_t jobs, part, parts;                            /* 0: as many as processors; all of them */
     double limit;                                         /* seconds a file, 0: none */
     char said[1024];                                      /* options that say how to fold and what to write, as given */

@@ -51,21 +51,23 @@ static int is_alone(char *const *list, int n, const char *name)
     return !(at > list && strcmp(at[-1], name) == 0) && !(at + 1 < list + n && strcmp(at[1], name) == 0);
 }
 
-/* How many sheets to fold one by one; 0: the file is taken as it is. */
-static int32_t sheets_of(const options *o, const char *file)
+/* How many sheets to fold one by one; 0: the file is taken as it is. *creases: out, of the file as it is. */
+static int32_t sheets_of(const options *o, const char *file, int32_t *creases)
 {
     rg_pattern *p = NULL;
     rg_pattern_info i = {.sheets = 0};
     rg_diag why;
-    if (o->reading.sheet == 0 && rg_pattern_read(file, &o->reading, &p, &why) == RG_OK) i = *rg_pattern_get_info(p);
+    if (rg_pattern_read(file, &o->reading, &p, &why) == RG_OK) i = *rg_pattern_get_info(p);
     rg_pattern_destroy(p);
-    return i.sheets > 1 ? i.sheets : 0;
+    *creases = i.creases;
+    return o->reading.sheet == 0 && i.sheets > 1 ? i.sheets : 0;
 }
 
 static int add(const options *o, int i, char *const *names, tasks *q)
 {
     const char *file = o->operand[i];
-    const int32_t sheets = sheets_of(o, file);
+    int32_t creases;
+    const int32_t sheets = sheets_of(o, file, &creases);
     uint64_t h = hash_file(hash(UINT64_C(0xcbf29ce484222325), rg_version(), strlen(rg_version())), file);
     h = hash(h, o->said, strlen(o->said));
     task *more = realloc(q->task, (size_t)(q->count + (sheets ? sheets : 1)) * sizeof *more);
@@ -74,7 +76,7 @@ static int add(const options *o, int i, char *const *names, tasks *q)
     for (int32_t k = sheets ? 1 : 0; k <= sheets; k++) {
         char name[200];
         task *t = &q->task[q->count++];
-        *t = (task){.file = file, .sheet = sheets ? k : o->reading.sheet};
+        *t = (task){.file = file, .sheet = sheets ? k : o->reading.sheet, .creases = creases};
         name_of(file, name);
         if (!is_alone(names, o->operands, name)) {
             snprintf(name, sizeof name, "%.199s", file);

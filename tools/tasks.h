@@ -8,6 +8,7 @@
 typedef struct task {
     const char *file; /* borrowed */
     int32_t sheet;    /* 0: the file has one */
+    int32_t creases;  /* by which one tells how long it may take; 0: it cannot be read */
     char name[220];   /* of what is written, without folder and ending; no two are alike */
     char key[20];     /* of the file's bytes, the options, the program: what was made by others is made again */
 } task;

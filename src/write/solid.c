@@ -1,10 +1,14 @@
 #include "write/solid.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 enum { UPPER, LOWER };
-/* Of the sheet's size: well above what single precision tells apart, well below what a printer does. */
-static const double APART = 4e-6;
+/* Corners lie on a lattice of so many steps, as a power of two, over the farthest coordinate: well above the rounding of a fold, so that
+ * what lies in one place does so to the bit, well below what a printer does, and exact in single precision (24 bits), with room to move. */
+enum { STEPS = 22 };
+/* How corners are moved apart, in steps: along no axis, nor a plane of two. */
+static const rg_vec3 APART = {2, 3, 4};
 
 typedef struct solid {
     const rg_mesh *m;
@@ -13,11 +17,13 @@ typedef struct solid {
     int32_t *facet;    /* [corners] */
     int32_t *at;       /* [nv] a corner of each vertex: of an outer one that from which all others are reached counter-clockwise */
     int32_t *ring;     /* [most] corners round the vertex at work */
+    double step;       /* of the lattice */
     rg_solid_take take;
     void *ctx;
 } solid;
 
-static rg_vec3 rounded(rg_vec3 v) { return (rg_vec3){(float)v.x, (float)v.y, (float)v.z}; }
+/* On the lattice; + 0: no negative nought, which would be another number to who compares bits. */
+static rg_vec3 on_lattice(double step, rg_vec3 v) { return (rg_vec3){step * round(v.x / step) + 0, step * round(v.y / step) + 0, step * round(v.z / step) + 0}; }
 
 static int32_t next_in_facet(const solid *s, int32_t j) { return j + 1 < s->m->facet_start[s->facet[j] + 1] ? j + 1 : s->m->facet_start[s->facet[j]]; }
 static int32_t before_in_facet(const solid *s, int32_t j) { return j > s->m->facet_start[s->facet[j]] ? j - 1 : s->m->facet_start[s->facet[j] + 1] - 1; }
@@ -96,8 +102,23 @@ static int by_place(const void *a, const void *b)
     return (p->corner > q->corner) - (p->corner < q->corner);
 }
 
+/* One pass: of those that lie in one place the first stays, the k-th goes k moves on. Returns how many went. */
+static int32_t part(solid *s, spot *list, int32_t n)
+{
+    int32_t moved = 0;
+    if (n > 0) qsort(list, (size_t)n, sizeof *list, by_place);
+    for (int32_t i = 1, k = 0; i < n; i++) {
+        k = equal(list[i].x, list[i - 1].x) ? k + 1 : 0;
+        moved += k > 0;
+        s->place[list[i].side][list[i].corner] = rg_vec3_axpy(k * s->step, APART, list[i].x);
+    }
+    for (int32_t i = 0; i < n; i++) list[i].x = s->place[list[i].side][list[i].corner];
+    return moved;
+}
+
 /* What lies in one place and is not one is moved apart, by less than one sees: STL knows corners by their places only, and takes what
- * lies on each other, as layers of folded paper do, for one. */
+ * lies on each other, as layers of folded paper do, for one. Who is moved may meet another: until none does. Each pass leaves every
+ * place taken that was, and only those go on that find theirs taken, so that it ends. */
 static rg_status move_apart(solid *s, const rg_memory *mem)
 {
     const int32_t corners = s->m->facet_start[s->m->nf];
@@ -107,12 +128,7 @@ static rg_status move_apart(solid *s, const rg_memory *mem)
     for (int side = UPPER; side <= LOWER; side++)
         for (int32_t j = 0; j < corners; j++)
             if (s->same[side][j] == j) list[n++] = (spot){s->place[side][j], j, side};
-    if (n > 0) qsort(list, (size_t)n, sizeof *list, by_place);
-    for (int32_t i = 1, k = 0; i < n; i++) {
-        k = equal(list[i].x, list[i - 1].x) ? k + 1 : 0;
-        rg_vec3 *x = &s->place[list[i].side][list[i].corner];
-        if (k) *x = rounded(rg_vec3_axpy(k * APART * s->m->size, (rg_vec3){0.48, 0.6, 0.64}, *x)); /* along no axis */
-    }
+    while (part(s, list, n) > 0) continue;
     rg_mem_free(mem, list);
     return RG_OK;
 }
@@ -170,14 +186,21 @@ static rg_vec3 normal_of(const rg_mesh *m, const rg_vec3 *x, int32_t f)
 static void place(solid *s, const rg_vec3 *x, double thickness)
 {
     const rg_mesh *m = s->m;
-    for (int32_t v = 0; v < m->nv; v++) s->at[v] = -1;
+    double farthest = thickness;
+    for (int32_t v = 0; v < m->nv; v++) {
+        s->at[v] = -1;
+        farthest = fmax(farthest, thickness + fmax(fabs(x[v].x), fmax(fabs(x[v].y), fabs(x[v].z))));
+    }
+    int power;
+    frexp(farthest, &power);
+    s->step = ldexp(1, power - STEPS);
     for (int32_t f = 0; f < m->nf; f++) {
         const rg_vec3 n = normal_of(m, x, f);
         for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) {
             s->facet[j] = f;
             s->at[m->facet_vertex[j]] = j;
-            s->place[UPPER][j] = rounded(rg_vec3_axpy(thickness / 2, n, x[m->facet_vertex[j]]));
-            s->place[LOWER][j] = rounded(rg_vec3_axpy(-thickness / 2, n, x[m->facet_vertex[j]]));
+            s->place[UPPER][j] = on_lattice(s->step, rg_vec3_axpy(thickness / 2, n, x[m->facet_vertex[j]]));
+            s->place[LOWER][j] = on_lattice(s->step, rg_vec3_axpy(-thickness / 2, n, x[m->facet_vertex[j]]));
         }
     }
     for (int32_t v = 0; v < m->nv; v++) {
