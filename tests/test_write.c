@@ -503,7 +503,7 @@ static json_t *primitive(const model *g, size_t mesh, size_t side)
 static void check_turning_facets(const model *g, const rg_motion *m)
 {
     const rg_mesh *mesh = &m->mesh;
-    assert_int_equal(json_array_size(get(g->json, "nodes")), mesh->nf + 1);
+    assert_int_equal(json_array_size(get(g->json, "nodes")), mesh->nf + 1 + mesh->N);
     for (int32_t k = 0; k < FRAMES; k++) {
         rg_vec3 *x = centred(m, k);
         for (int32_t f = 0; f < mesh->nf; f++) {
@@ -523,6 +523,55 @@ static void check_turning_facets(const model *g, const rg_motion *m)
         }
         free(x);
     }
+}
+
+/* Both ends of a line are the crease's, told by the corners of the node's facet, or vertices of the whole sheet. */
+static void check_line(const model *g, const rg_motion *m, const json_t *lines, size_t place, int32_t crease, int32_t facet)
+{
+    const rg_mesh *mesh = &m->mesh;
+    const int32_t indices = integer(lines, "indices");
+    static const char *const kind[] = {"mountain", "valley", "crease"};
+    const char a = mesh->assignment[mesh->crease_edge[crease]];
+    const json_t *material = json_array_get(get(g->json, "materials"), (size_t)integer(lines, "material"));
+    assert_string_equal(json_string_value(get(material, "name")), kind[a == 'M' ? 0 : a == 'V' ? 1 : 2]);
+    assert_int_equal(integer(lines, "mode"), 1);
+    for (size_t end = 0; end < 2; end++) {
+        const uint32_t i = u32(element(g, indices, 2 * place + end));
+        assert_int_equal(facet < 0 ? (int32_t)i : mesh->facet_vertex[mesh->facet_start[facet] + (int32_t)i], mesh->edge[mesh->crease_edge[crease]][end]);
+    }
+}
+
+/* Each crease once, by its name: below a facet that it belongs to, or in the one mesh. */
+static void check_creases(const model *g, const rg_motion *m, int morphs)
+{
+    const rg_mesh *mesh = &m->mesh;
+    char name[24];
+    int32_t seen = 0;
+    for (int32_t f = 0; f < (morphs ? 0 : mesh->nf); f++) {
+        const json_t *children = json_object_get(json_array_get(get(g->json, "nodes"), (size_t)f + 1), "children"), *child;
+        size_t c;
+        json_array_foreach(children, c, child) {
+            const json_t *node = json_array_get(get(g->json, "nodes"), (size_t)json_integer_value(child));
+            const int32_t i = atoi(json_string_value(get(node, "name")) + 1), *side = mesh->edge_facet[mesh->crease_edge[i]];
+            snprintf(name, sizeof name, "c%d_%c", (int)i, mesh->assignment[mesh->crease_edge[i]]);
+            assert_string_equal(json_string_value(get(node, "name")), name);
+            assert_true(side[0] == f || side[1] == f);
+            const json_t *lines = primitive(g, (size_t)integer(node, "mesh"), 0), *facet = primitive(g, (size_t)f, 0);
+            assert_int_equal(integer(get(lines, "attributes"), "POSITION"), integer(get(facet, "attributes"), "POSITION"));
+            check_line(g, m, lines, 0, i, f);
+            seen++;
+        }
+    }
+    for (size_t k = 2; morphs && k < json_array_size(get(json_array_get(get(g->json, "meshes"), 0), "primitives")); k++) {
+        const json_t *lines = primitive(g, 0, k), *text;
+        size_t place;
+        assert_true(json_equal(get(lines, "targets"), get(primitive(g, 0, 0), "targets")));
+        json_array_foreach(get(get(lines, "extras"), "creases"), place, text) {
+            check_line(g, m, lines, place, atoi(json_string_value(text) + 1), -1);
+            seen++;
+        }
+    }
+    assert_int_equal(seen, mesh->N);
 }
 
 static void check_morphs(const model *g, const rg_motion *m)
@@ -549,7 +598,7 @@ static void check_morphs(const model *g, const rg_motion *m)
 static void check_sides(const model *g, const rg_motion *m, int morphs)
 {
     int32_t triangles = 0;
-    for (size_t f = 0; f < json_array_size(get(g->json, "meshes")); f++) {
+    for (size_t f = 0; f < (morphs ? 1 : (size_t)m->mesh.nf); f++) {
         const json_t *front = primitive(g, f, 0), *back = primitive(g, f, 1);
         const int32_t n = integer(json_array_get(get(g->json, "accessors"), (size_t)integer(front, "indices")), "count");
         const int32_t position = integer(get(front, "attributes"), "POSITION");
@@ -622,6 +671,7 @@ static void check_gltf(int adjusted)
     if (adjusted) check_morphs(&g, m);
     else check_turning_facets(&g, m);
     check_sides(&g, m, adjusted);
+    check_creases(&g, m, adjusted);
     const int32_t size = integer(json_array_get(get(g.json, "buffers"), 0), "byteLength");
     json_t *text = read_json("x.gltf");
     const char *uri = json_string_value(get(json_array_get(get(text, "buffers"), 0), "uri")), *comma = strchr(uri, ',');

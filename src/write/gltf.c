@@ -10,11 +10,15 @@
 
 enum { FLOAT = 5126, UINT = 5125, VERTICES = 34962, INDICES = 34963 };
 enum { FRONT, BACK };
+/* Materials of lines come after those of the two sides. */
+enum { MOUNTAINS, VALLEYS, OTHERS, KINDS, FIRST_LINES = BACK + 1, LINES_MODE = 1 };
+/* As in pictures: creases by kind, or all alike. */
+static const unsigned char INK[KINDS][3] = {{200, 44, 44}, {36, 84, 190}, {120, 112, 108}}, EDGE_INK[3] = {84, 72, 66};
 static const double ROUGHNESS = 0.9;
 
 /* Parts of the buffer. What moves is turns and shifts of facets, or displacements of vertices and their weights. The last two are there
  * where a picture is printed on the front: where it is on the paper, and its file. */
-enum { POSITIONS, NORMALS, TRIANGLES, TIMES, TURNS, SHIFTS, PRINT, IMAGE, PARTS, DISPLACEMENTS = TURNS, WEIGHTS = SHIFTS };
+enum { POSITIONS, NORMALS, TRIANGLES, CREASES, TIMES, TURNS, SHIFTS, PRINT, IMAGE, PARTS, DISPLACEMENTS = TURNS, WEIGHTS = SHIFTS };
 
 typedef struct model {
     const rg_motion *m;
@@ -36,7 +40,16 @@ typedef struct model {
     unsigned char *image;    /* the picture's file; NULL: none */
     size_t image_bytes;
     int32_t print;           /* accessor of places in the picture: of the first facet, or of all vertices */
+    int32_t creases;         /* that are drawn: all or none; the first `of_kind[k]` ... of kind k in the buffer */
+    int32_t of_kind[KINDS + 1];
+    int32_t lines;           /* accessor of the first crease's ends, or of those of the first kind that is there */
 } model;
+
+static int kind_of(const rg_mesh *mesh, int32_t crease)
+{
+    const char a = mesh->assignment[mesh->crease_edge[crease]];
+    return a == RG_MOUNTAIN ? MOUNTAINS : a == RG_VALLEY ? VALLEYS : OTHERS;
+}
 
 /* ------------------------------------------------------------------------------------------------ bytes ---- */
 
@@ -50,10 +63,10 @@ static unsigned char *vector(unsigned char *to, double x, double y, double z)
 static void lay_out(model *g)
 {
     const size_t nf = (size_t)g->mesh->nf, nv = (size_t)g->mesh->nv, nt = (size_t)g->t.start[nf], frames = (size_t)g->frames;
-    const size_t size_of_facets[PARTS] = {12 * (size_t)g->mesh->facet_start[nf], 24 * (size_t)g->most, 24 * nt, 4 * frames,
+    const size_t size_of_facets[PARTS] = {12 * (size_t)g->mesh->facet_start[nf], 24 * (size_t)g->most, 24 * nt, 8 * (size_t)g->creases, 4 * frames,
                                           16 * nf * frames, 12 * nf * frames, g->image ? 8 * (size_t)g->mesh->facet_start[nf] : 0,
                                           (g->image_bytes + 3) / 4 * 4};
-    const size_t size_of_morphs[PARTS] = {12 * nv, 0, 24 * nt, 4 * frames, 12 * nv * (frames - 1), 4 * (frames - 1) * frames,
+    const size_t size_of_morphs[PARTS] = {12 * nv, 0, 24 * nt, 8 * (size_t)g->creases, 4 * frames, 12 * nv * (frames - 1), 4 * (frames - 1) * frames,
                                           g->image ? 8 * nv : 0, (g->image_bytes + 3) / 4 * 4};
     for (int k = 0; k < PARTS; k++)
         g->start[k + 1] = g->start[k] + (g->morphs ? size_of_morphs[k] : size_of_facets[k]);
@@ -109,6 +122,25 @@ static void triangles(model *g)
                     const int32_t v = g->t.v[i][side == FRONT ? k : 2 - k];
                     to = rg_bytes_u32(to, g->morphs ? (uint32_t)v : corner_of(g->mesh, f, v));
                 }
+    }
+}
+
+/* The two ends of each crease: corners of the facet on its first side, which it goes with; or vertices of the sheet, kind by kind. */
+static void crease_ends(model *g)
+{
+    const rg_mesh *mesh = g->mesh;
+    unsigned char *to = g->bytes + g->start[CREASES];
+    for (int kind = 0; kind < (g->morphs ? KINDS : 1); kind++) {
+        for (int32_t i = 0; i < g->creases; i++) {
+            const int32_t e = mesh->crease_edge[i];
+            if (g->morphs && kind_of(mesh, i) != kind) continue;
+            for (int end = 0; end < 2; end++) {
+                const int32_t v = mesh->edge[e][end];
+                to = rg_bytes_u32(to, g->morphs ? (uint32_t)v : corner_of(mesh, mesh->edge_facet[e][0], v));
+            }
+            g->of_kind[kind + 1]++;
+        }
+        if (kind + 2 <= KINDS) g->of_kind[kind + 2] = g->of_kind[kind + 1];
     }
 }
 
@@ -173,6 +205,7 @@ static rg_status fill(model *g)
     unsigned char *time = g->bytes + g->start[TIMES];
     for (int32_t k = 0; k < g->frames; k++) time = rg_bytes_f32(time, k / g->p->fps);
     triangles(g);
+    crease_ends(g);
     if (g->image) places(g);
     if (g->morphs) return displacements(g);
     centres(g);
@@ -194,6 +227,7 @@ static rg_status model_init(model *g, const rg_motion *m, const rg_picture *p)
     const rg_memory *mem = &m->mem;
     const size_t nf = (size_t)m->mesh.nf, nv = (size_t)m->mesh.nv;
     *g = (model){.m = m, .mesh = &m->mesh, .p = p, .frames = m->report.frame_count};
+    g->creases = p->lines == RG_LINES_NONE ? 0 : m->mesh.N;
     g->morphs = m->space != NULL;
     for (int32_t k = 1; k < g->frames; k++)
         g->morphs |= memcmp(rg_motion_pattern(m, k), m->mesh.X, nv * sizeof *m->mesh.X) != 0;
@@ -227,7 +261,12 @@ static float float_at(const unsigned char *at)
 }
 
 /* Only parts that are there have a buffer view, in their order. */
-static int view_of(const model *g, int part) { return part - (g->morphs && part > NORMALS); }
+static int view_of(const model *g, int part)
+{
+    int view = 0;
+    for (int k = 0; k < part; k++) view += g->start[k + 1] > g->start[k];
+    return view;
+}
 
 /* n elements of 1 to 4 numbers each; `bounds`: say the least and the largest, as the format asks for in places. */
 static void accessor(rg_json *j, model *g, int part, size_t offset, size_t n, int width, int component, int bounds)
@@ -292,6 +331,17 @@ static void morph_accessors(rg_json *j, model *g)
     for (size_t k = 0; k < frames - 1; k++) accessor(j, g, DISPLACEMENTS, 12 * nv * k, nv, 3, FLOAT, 1);
 }
 
+/* After those of facets: a crease each, or a kind each. */
+static void crease_accessors(rg_json *j, model *g)
+{
+    g->lines = g->accessors;
+    for (int32_t i = 0; i < (g->morphs ? 0 : g->creases); i++) accessor(j, g, CREASES, 8 * (size_t)i, 2, 1, UINT, 0);
+    for (int k = 0; k < (g->morphs ? KINDS : 0); k++) {
+        const size_t first = (size_t)g->of_kind[k], n = (size_t)g->of_kind[k + 1] - first;
+        if (n > 0) accessor(j, g, CREASES, 8 * first, 2 * n, 1, UINT, 0);
+    }
+}
+
 /* After all others, so that their numbers are the same with and without. */
 static void print_accessors(rg_json *j, model *g)
 {
@@ -303,7 +353,7 @@ static void print_accessors(rg_json *j, model *g)
 
 static void views(rg_json *j, const model *g)
 {
-    static const int target[PARTS] = {VERTICES, VERTICES, INDICES, 0, 0, 0, VERTICES, 0};
+    static const int target[PARTS] = {VERTICES, VERTICES, INDICES, INDICES, 0, 0, 0, VERTICES, 0};
     rg_json_open(j, "bufferViews", '[');
     for (int k = 0; k < PARTS; k++) {
         const int vertices = target[k] == VERTICES || (g->morphs && k == DISPLACEMENTS);
@@ -359,6 +409,49 @@ static void picture(rg_json *j, const model *g)
     rg_json_close(j);
 }
 
+static void targets(rg_json *j, const model *g)
+{
+    if (!g->morphs) return;
+    rg_json_open(j, "targets", '[');
+    for (int32_t k = 0; k < g->frames - 1; k++) {
+        rg_json_open(j, NULL, '{');
+        rg_json_integer(j, "POSITION", MORPH_TARGETS + k);
+        rg_json_close(j);
+    }
+    rg_json_close(j);
+}
+
+static void name_of(const rg_mesh *mesh, int32_t crease, char name[24])
+{
+    snprintf(name, 24, "c%d_%c", (int)crease, mesh->assignment[mesh->crease_edge[crease]]);
+}
+
+/* Lines without normals, which viewers show in their own colour whatever the light. Those of a kind are named in their order. */
+static void lines(rg_json *j, const model *g, int kind, int32_t position, int32_t indices)
+{
+    rg_json_open_line(j, NULL, '{');
+    rg_json_open(j, "attributes", '{');
+    rg_json_integer(j, "POSITION", position);
+    rg_json_close(j);
+    rg_json_integer(j, "indices", indices);
+    rg_json_integer(j, "material", FIRST_LINES + kind);
+    rg_json_integer(j, "mode", LINES_MODE);
+    targets(j, g);
+    if (g->morphs) {
+        char name[24];
+        rg_json_open(j, "extras", '{');
+        rg_json_open(j, "creases", '[');
+        for (int32_t i = 0; i < g->creases; i++) {
+            if (kind_of(g->mesh, i) != kind) continue;
+            name_of(g->mesh, i, name);
+            rg_json_string(j, NULL, name);
+        }
+        rg_json_close(j);
+        rg_json_close(j);
+    }
+    rg_json_close(j);
+}
+
 /* print: accessor of places in the picture, -1: none. */
 static void primitive(rg_json *j, const model *g, int side, int32_t position, int32_t normal, int32_t indices, int32_t print)
 {
@@ -370,15 +463,7 @@ static void primitive(rg_json *j, const model *g, int side, int32_t position, in
     rg_json_close(j);
     rg_json_integer(j, "indices", indices);
     rg_json_integer(j, "material", side);
-    if (g->morphs) {
-        rg_json_open(j, "targets", '[');
-        for (int32_t k = 0; k < g->frames - 1; k++) {
-            rg_json_open(j, NULL, '{');
-            rg_json_integer(j, "POSITION", MORPH_TARGETS + k);
-            rg_json_close(j);
-        }
-        rg_json_close(j);
-    }
+    targets(j, g);
     rg_json_close(j);
 }
 
@@ -393,6 +478,15 @@ static void meshes(rg_json *j, const model *g)
             if (g->morphs) primitive(j, g, side, MORPH_POSITION, 0, MORPH_FRONT + side, print);
             else primitive(j, g, side, accessor_of(f), g->normals_of[corners(g->mesh, f)] + side, accessor_of(f) + 1 + side, print);
         }
+        for (int k = 0, next = g->lines; g->morphs && k < KINDS; k++)
+            if (g->of_kind[k + 1] > g->of_kind[k]) lines(j, g, k, MORPH_POSITION, next++);
+        rg_json_close(j);
+        rg_json_close(j);
+    }
+    for (int32_t i = 0; i < (g->morphs ? 0 : g->creases); i++) {
+        rg_json_open_line(j, NULL, '{');
+        rg_json_open(j, "primitives", '[');
+        lines(j, g, kind_of(g->mesh, i), accessor_of(g->mesh->edge_facet[g->mesh->crease_edge[i]][0]), g->lines + i);
         rg_json_close(j);
         rg_json_close(j);
     }
@@ -405,6 +499,20 @@ static void upright(rg_json *j, double metres)
     const double half = sqrt(0.5);
     rg_json_numbers(j, "rotation", (const double[]){-half, 0, 0, half}, 4);
     if (metres > 0 && metres != 1) rg_json_numbers(j, "scale", (const double[]){metres, metres, metres}, 3);
+}
+
+/* The nodes of the creases that go with facet f: the facets' own come before them. */
+static void children(rg_json *j, const model *g, int32_t f)
+{
+    const rg_mesh *mesh = g->mesh;
+    int some = 0;
+    for (int32_t k = mesh->facet_start[f]; k < mesh->facet_start[f + 1]; k++) {
+        const int32_t e = mesh->facet_edge[k], i = mesh->edge_crease[e];
+        if (i < 0 || i >= g->creases || mesh->edge_facet[e][0] != f) continue;
+        if (!some++) rg_json_open(j, "children", '[');
+        rg_json_integer(j, NULL, 1 + mesh->nf + i);
+    }
+    if (some) rg_json_close(j);
 }
 
 static void nodes(rg_json *j, const model *g)
@@ -430,6 +538,15 @@ static void nodes(rg_json *j, const model *g)
         rg_json_integer(j, "mesh", f);
         rg_json_numbers(j, "rotation", (const double[]){q.x, q.y, q.z, q.w}, 4);
         rg_json_numbers(j, "translation", (const double[]){t.x, t.y, t.z}, 3);
+        children(j, g, f);
+        rg_json_close(j);
+    }
+    for (int32_t i = 0; i < (g->morphs ? 0 : g->creases); i++) {
+        char name[24];
+        name_of(g->mesh, i, name);
+        rg_json_open_line(j, NULL, '{');
+        rg_json_string(j, "name", name);
+        rg_json_integer(j, "mesh", g->mesh->nf + i);
         rg_json_close(j);
     }
     rg_json_close(j);
@@ -497,6 +614,8 @@ static size_t describe(model *g, const char *uri, FILE *out)
     rg_json_open(j, "materials", '[');
     material(j, "front", g->p->front, g->image != NULL);
     material(j, "back", g->p->back, 0);
+    for (int k = 0; g->creases > 0 && k < KINDS; k++)
+        material(j, k == MOUNTAINS ? "mountain" : k == VALLEYS ? "valley" : "crease", g->p->lines == RG_LINES_EDGES ? EDGE_INK : INK[k], 0);
     rg_json_close(j);
     if (g->image) picture(j, g);
     rg_json_open(j, "accessors", '[');
@@ -504,6 +623,7 @@ static size_t describe(model *g, const char *uri, FILE *out)
     accessor(j, g, TIMES, 0, (size_t)g->frames, 1, FLOAT, 1);
     if (g->morphs) morph_accessors(j, g);
     else facet_accessors(j, g);
+    crease_accessors(j, g);
     if (g->image) print_accessors(j, g);
     rg_json_close(j);
     meshes(j, g);

@@ -8,7 +8,10 @@
  *
  * Both sides of the paper are there, each its own material, seen from its side only. Inside, coordinates are those of all the other
  * outputs about the sheet's middle: the flat sheet faces +z; the node `sheet` around it turns them to the y up of glTF, and to metres
- * where the file says what its unit is. Facets are named by their numbers. A viewer that plays no animations sees the last frame. */
+ * where the file says what its unit is. Facets are named by their numbers. Creases are lines, as `p->lines` says: each a node `c0_M` of
+ * the facet on its first side; in the one mesh a primitive for a kind, whose extras.creases names its lines in their order. A viewer
+ * that plays no animations sees the last frame.
+ */
 #ifndef RG_GLTF_H
 #define RG_GLTF_H
 
