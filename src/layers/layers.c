@@ -47,22 +47,27 @@ static void say_unsolved(rg_layers *l, const char *words)
     snprintf(l->info.reason, sizeof l->info.reason, "%s", words);
 }
 
-/* What rounding leaves of 0 is 0 for people. */
-static double tidy(const rg_layers *l, double x) { return fabs(x) < 1e-12 * l->mesh.size ? 0 : x; }
+/* As the file has it; what rounding leaves of 0 is 0 for people. */
+static rg_vec2 own(const rg_layers *l, rg_vec2 x)
+{
+    const double least = 1e-12 * l->mesh.size, y = l->y_down ? -x.y : x.y;
+    return (rg_vec2){fabs(x.x) < least ? 0 : x.x, fabs(y) < least ? 0 : y};
+}
 
-/* "RULE of the facets at (x, y), ...": as many as are named, and how many more. */
+/* "the facets at (x, y), ... cannot be put in order (RULE)": as many as are named, and how many more. */
 static void name_facets(rg_layers *l, const int32_t *facet, int32_t n)
 {
     rg_layers_info *i = &l->info;
     const int32_t named = n < RG_LAYERS_NAMED ? n : RG_LAYERS_NAMED;
-    size_t used = (size_t)snprintf(i->reason, sizeof i->reason, "%s of the facets at", i->rule);
+    size_t used = (size_t)snprintf(i->reason, sizeof i->reason, "the facets at");
     for (int32_t k = 0; k < named; k++) {
-        const rg_vec2 x = l->flat.middle[facet[k]];
+        const rg_vec2 at = l->flat.middle[facet[k]], x = own(l, at);
         l->where[k] = facet[k];
-        l->where_at[k][0] = x.x, l->where_at[k][1] = x.y;
-        if (k < IN_WORDS) used += (size_t)snprintf(i->reason + used, sizeof i->reason - used, "%s (%.6g, %.6g)", k ? "," : "", tidy(l, x.x), tidy(l, x.y));
+        l->where_at[k][0] = at.x, l->where_at[k][1] = l->y_down ? 0 - at.y : at.y;
+        if (k < IN_WORDS) used += (size_t)snprintf(i->reason + used, sizeof i->reason - used, "%s (%.6g, %.6g)", k ? "," : "", x.x, x.y);
     }
-    if (n > IN_WORDS) snprintf(i->reason + used, sizeof i->reason - used, " and %d more", (int)(n - IN_WORDS));
+    if (n > IN_WORDS) used += (size_t)snprintf(i->reason + used, sizeof i->reason - used, " and %d more", (int)(n - IN_WORDS));
+    snprintf(i->reason + used, sizeof i->reason - used, " cannot be put in order (%s)", i->rule);
     i->where_count = named;
     i->where = l->where;
     i->where_at = (const double(*)[2])l->where_at;
@@ -85,7 +90,7 @@ static rg_status say_none(rg_layers *l, const char *rule, const int32_t *facet, 
 static void say_open(rg_layers *l)
 {
     const rg_mesh *m = &l->mesh;
-    const rg_vec2 x = m->X[l->flat.at_vertex];
+    const rg_vec2 x = own(l, m->X[l->flat.at_vertex]);
     int32_t facet[RG_LAYERS_NAMED], n = 0;
     for (int32_t i = 0; i < m->nf; i++)
         for (int32_t j = m->facet_start[i]; j < m->facet_start[i + 1] && n < RG_LAYERS_NAMED; j++) {
@@ -97,13 +102,13 @@ static void say_open(rg_layers *l)
     l->info.state = RG_LAYERS_NONE;
     l->info.rule = "closing";
     name_facets(l, facet, n);
-    snprintf(l->info.reason, sizeof l->info.reason, "folded flat, the facets round (%.6g, %.6g) do not meet", tidy(l, x.x), tidy(l, x.y));
+    snprintf(l->info.reason, sizeof l->info.reason, "folded flat, the facets round (%.6g, %.6g) do not meet", x.x, x.y);
 }
 
 static void say_not_flat(rg_layers *l)
 {
     const int32_t *v = l->mesh.edge[l->flat.at_edge];
-    const rg_vec2 a = l->mesh.X[v[0]], b = l->mesh.X[v[1]];
+    const rg_vec2 a = own(l, l->mesh.X[v[0]]), b = own(l, l->mesh.X[v[1]]);
     l->info.state = RG_LAYERS_NOT_FLAT;
     snprintf(l->info.reason, sizeof l->info.reason, "the crease from (%.6g, %.6g) to (%.6g, %.6g) ends neither flat nor folded by half a turn",
              a.x, a.y, b.x, b.y);
@@ -171,13 +176,14 @@ static rg_status solve(rg_layers *l)
     return RG_OK;
 }
 
-rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, const rg_memory *mem, rg_layers **layers, rg_diag *why)
+rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, const rg_memory *mem, rg_layers **layers, rg_diag *why)
 {
     rg_layers *l = rg_mem_array(mem, 1, sizeof *l);
     rg_diag close = {0, ""};
     if (!l) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
     l->mem = *mem;
     l->info.count = l->info.rule = "";
+    l->y_down = y_down;
     rg_status s = rg_mesh_copy(m, &l->mesh);
     if (s == RG_OK) s = rg_flat_init(&l->flat, mem, &l->mesh, angle);
     l->info.facets = l->flat.nf;
@@ -212,7 +218,7 @@ rg_status rg_layers_create(const rg_pattern *p, const rg_memory *memory, rg_laye
     double *angle = rg_mem_array(&mem, (size_t)m.N, sizeof *angle);
     if (!angle) s = rg_fail(RG_ENOMEM, why, 0, "out of memory");
     for (int32_t i = 0; s == RG_OK && i < m.N; i++) angle[i] = m.target[m.crease_edge[i]];
-    if (s == RG_OK) s = rg_layers_of_mesh(&m, angle, &mem, layers, why);
+    if (s == RG_OK) s = rg_layers_of_mesh(&m, angle, p->lines.y_down, &mem, layers, why);
     rg_mem_free(&mem, angle);
     rg_mesh_free(&m);
     return s;

@@ -20,13 +20,14 @@ struct rg_layers {
     rg_parts parts;
     rg_layers_info info;
     char *count;
+    int y_down;                /* the file's y runs the other way */
     int32_t where[RG_LAYERS_NAMED];
     double where_at[RG_LAYERS_NAMED][2];
 };
 
-/* Of a sheet whose creases end at angle[m->N], radians; NAN: not said. m: triangulated or not; it is copied. RG_OK
- * whatever is found, see l->info; RG_ENOMEM. */
-rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, const rg_memory *mem, rg_layers **layers, rg_diag *why);
+/* Of a sheet whose creases end at angle[m->N], radians; NAN: not said. m: triangulated or not; it is copied. y_down: the file's y runs
+ * the other way, in which places are told. RG_OK whatever is found, see l->info; RG_ENOMEM. */
+rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, const rg_memory *mem, rg_layers **layers, rg_diag *why);
 
 /* Sets l->orders.value to the order whose parts have the numbers which[l->parts.count] (NULL: all 0). RG_ENOMEM; RG_EARG: there is
  * none. Scratch of the handle is used: one thread at a time. */

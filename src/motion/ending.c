@@ -91,7 +91,7 @@ rg_status rg_ending_find(rg_motion *m, rg_diag *why)
     if (!angle) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
     m->ends_flat = whole_turns(m, m->report.frame_count - 1, angle);
     for (int32_t i = 0; !m->ends_flat && i < m->mesh.N; i++) angle[i] = fabs(m->settings.to) * m->target[i];
-    s = rg_layers_of_mesh(&m->mesh, angle, &m->mem, &m->layers, why);
+    s = rg_layers_of_mesh(&m->mesh, angle, m->source.y_down, &m->mem, &m->layers, why);
     if (s == RG_OK) {
         info = *rg_layers_get_info(m->layers);
         m->report.layers = rg_layers_state_name(info.state);

@@ -101,7 +101,7 @@ static rg_status find_layers(const rg_pattern *p, rg_layers **l, rg_diag *why)
     return p->info.is_disk ? rg_layers_create(p, &p->mem, l, why) : RG_OK;
 }
 
-static void layers(rg_json *j, const rg_pattern *p, const rg_layers *l)
+static void layers(rg_json *j, const rg_layers *l)
 {
     rg_layers_info i;
     if (!l) return;
@@ -118,7 +118,7 @@ static void layers(rg_json *j, const rg_pattern *p, const rg_layers *l)
     for (int32_t k = 0; k < i.where_count; k++) {
         rg_json_open_line(j, NULL, '{');
         rg_json_integer(j, "facet", i.where[k]);
-        point(j, "coordinates", p, i.where_at[k][0], i.where_at[k][1]);
+        rg_json_numbers(j, "coordinates", i.where_at[k], 2);
         rg_json_close(j);
     }
     rg_json_close(j);
@@ -174,7 +174,7 @@ rg_status rg_info_write(const rg_pattern *p, const char *file, rg_diag *why)
     rg_report_pattern(&j, &p->info);
     if (p->info.is_disk) rg_json_integer(&j, "triangulating_adds", triangulating_adds(&p->info));
     symmetry(&j, &alike);
-    layers(&j, p, l);
+    layers(&j, l);
     rg_layers_destroy(l);
     pieces(&j, p);
     drawn_in(&j, p);
