@@ -1,7 +1,8 @@
 # make            the library and the command line        make demo      set up, build, fold a pattern, say where it is
 # make test       set up, build, run every test           make check     everything a change must pass
 # make bench      times, as CSV                           make install   prefix=/usr/local DESTDIR=
-# make asan, coverage, werror, layers, equations, outputs, format, pictures, figures, corpus [fresh=1], chart, stability, uninstall, clean
+# make debian     a source package and what it builds     make abi       keep what the libraries show now
+# make asan, coverage, werror, layers, equations, abi-check, outputs, format, pictures, figures, corpus [fresh=1], chart, stability, uninstall, clean
 # config=release|debug|asan|coverage   GL=osmesa|egl|none (the first that is there)   GPL=1|0   CC=gcc|clang   WERROR=0|1
 # V=1 shows whole commands
 config  ?= release
@@ -13,6 +14,8 @@ libdir     ?= $(prefix)/lib
 includedir ?= $(prefix)/include
 mandir     ?= $(prefix)/share/man
 bashdir    ?= $(prefix)/share/bash-completion/completions
+zshdir     ?= $(prefix)/share/zsh/site-functions
+fishdir    ?= $(prefix)/share/fish/vendor_completions.d
 VERSION := 0.1.0
 SOVERSION := 0
 
@@ -92,13 +95,15 @@ all: build
 # name alone, without versions.
 ifeq ($(shell uname -s),Darwin)
 so     := dylib
+exports := darwin
 so_at   = lib$1.$2.dylib
 shared  = -dynamiclib -install_name $(libdir)/$(call so_at,$1,$(SOVERSION)) -compatibility_version $(SOVERSION) \
-          -current_version $(VERSION) -Wl,-exported_symbol,'_rg_*'
+          -current_version $(VERSION) -Wl,-exported_symbols_list,$B/made/lib$1.exports
 else
 so     := so
+exports := map
 so_at   = lib$1.so.$2
-shared  = -shared -Wl,-soname,$(call so_at,$1,$(SOVERSION)) -Wl,--no-undefined -Wl,--as-needed -Wl,--version-script=tools/install/lib$1.map
+shared  = -shared -Wl,-soname,$(call so_at,$1,$(SOVERSION)) -Wl,--no-undefined -Wl,--as-needed -Wl,--version-script=$B/made/lib$1.exports
 endif
 
 build: $B/librigami.a $B/librigami.$(so) $B/librigami-core.a $B/librigami-core.$(so) $B/rigami
@@ -129,12 +134,16 @@ $B/librigami.a $B/librigami-core.a:
 	$(call say,ar,$@)
 	$Qar rcs $@ $^
 
-$B/librigami.$(so): $(lib_o) tools/install/librigami.map
+$B/made/lib%.exports: include/rigami.h tools/install/exports
+	@mkdir -p $(@D)
+	@CC='$(CC)' sh tools/install/exports $(exports) $* $(SOVERSION) >$@.part && mv $@.part $@
+
+$B/librigami.$(so): $(lib_o) $B/made/librigami.exports
 	$(call say,link,$@)
 	$Q$(link) $(call shared,rigami) -o $@ $(lib_o) $(libs) $(LDLIBS)
 
 # That this links says that no room of the core needs one above it.
-$B/librigami-core.$(so): $(core_o) tools/install/librigami-core.map
+$B/librigami-core.$(so): $(core_o) $B/made/librigami-core.exports
 	$(call say,link,$@)
 	$Q$(link) $(call shared,rigami-core) -o $@ $(core_o) $(core_libs) $(LDLIBS)
 
@@ -243,6 +252,19 @@ header:
 	@clang -x c++ -std=c++17 -Wall -Wextra -Wpedantic -Werror -Iinclude -fsyntax-only tests/header.cpp
 	@echo "rigami.h is C++ too"
 
+# What the shared libraries show and need, against what is kept in tests/abi; abi: keeps what there is.
+abi-check: build
+	@CC='$(CC)' sh tools/check_abi $B
+abi: build
+	@CC='$(CC)' sh tools/check_abi $B --write
+
+# build/package: the Debian source package, laid out; debian: and built, and looked through.
+debian-source:
+	@sh tools/make_package $(VERSION)
+debian:
+	@sh tools/make_package $(VERSION) build
+.PHONY: abi abi-check debian debian-source
+
 format:
 	clang-format -i $(wildcard include/*.h src/*/*.[ch] tools/*.[ch] tests/*.[ch] tests/bench/*.[ch])
 
@@ -266,23 +288,42 @@ corpus: $B/rigami
 
 # --------------------------------------------------------------------------------------------------- install
 
-installed = $(bindir)/rigami $(includedir)/rigami.h $(libdir)/librigami.a $(libdir)/librigami.so.$(VERSION) \
-            $(libdir)/librigami.so.$(SOVERSION) $(libdir)/librigami.so $(libdir)/pkgconfig/rigami.pc $(mandir)/man1/rigami.1 \
-            $(bashdir)/rigami
+cmakedir = $(libdir)/cmake/rigami
+installed = $(bindir)/rigami $(includedir)/rigami.h \
+            $(foreach l,rigami rigami-core,$(libdir)/lib$l.a $(libdir)/$(call so_at,$l,$(VERSION)) $(libdir)/$(call so_at,$l,$(SOVERSION)) \
+                $(libdir)/lib$l.$(so) $(libdir)/pkgconfig/$l.pc) $(cmakedir)/rigamiConfig.cmake $(cmakedir)/rigamiConfigVersion.cmake \
+            $(mandir)/man1/rigami.1 $(mandir)/man1/rigami-fold.1 $(mandir)/man3/librigami.3 \
+            $(bashdir)/rigami $(zshdir)/_rigami $(fishdir)/rigami.fish
+empty :=
+# What an installed file says of its surroundings: $(call filled,NAME,WHAT,LIBS,CFLAGS), for sed.
+filled = -e 's|@prefix@|$(prefix)|' -e 's|@libdir@|$(libdir:$(prefix)%=$${prefix}%)|' -e 's|@includedir@|$(includedir:$(prefix)%=$${prefix}%)|' \
+         -e 's|@name@|$1|' -e 's|@what@|$2|' -e 's|@version@|$(VERSION)|' -e 's|@libs@|$(strip $3)|' -e 's|@cflags@|$(addprefix $(empty) ,$4)|'
 
-install: build
+install: build $B/rigami-fold.1
 	install -d $(sort $(dir $(addprefix $(DESTDIR),$(installed))))
 	install -m 755 $B/rigami $(DESTDIR)$(bindir)/rigami
 	install -m 644 include/rigami.h $(DESTDIR)$(includedir)/rigami.h
-	install -m 644 $B/librigami.a $(DESTDIR)$(libdir)/librigami.a
-	install -m 755 $B/librigami.so $(DESTDIR)$(libdir)/librigami.so.$(VERSION)
-	ln -sf librigami.so.$(VERSION) $(DESTDIR)$(libdir)/librigami.so.$(SOVERSION)
-	ln -sf librigami.so.$(SOVERSION) $(DESTDIR)$(libdir)/librigami.so
-	sed -e 's|@prefix@|$(prefix)|' -e 's|@libdir@|$(libdir)|' -e 's|@includedir@|$(includedir)|' \
-	    -e 's|@version@|$(VERSION)|' -e 's|@libs@|$(libs)|' rigami.pc.in >$B/rigami.pc
-	install -m 644 $B/rigami.pc $(DESTDIR)$(libdir)/pkgconfig/rigami.pc
-	install -m 644 docs/rigami.1 $(DESTDIR)$(mandir)/man1/rigami.1
-	install -m 644 tools/rigami.bash $(DESTDIR)$(bashdir)/rigami
+	for l in rigami rigami-core; do \
+	    install -m 644 $B/lib$$l.a $(DESTDIR)$(libdir)/lib$$l.a && \
+	    install -m 755 $B/lib$$l.$(so) $(DESTDIR)$(libdir)/$(call so_at,$$l,$(VERSION)) && \
+	    ln -sf $(call so_at,$$l,$(VERSION)) $(DESTDIR)$(libdir)/$(call so_at,$$l,$(SOVERSION)) && \
+	    ln -sf $(call so_at,$$l,$(SOVERSION)) $(DESTDIR)$(libdir)/lib$$l.$(so) || exit 1; \
+	done
+	sed $(call filled,rigami,,$(libs),) rigami.pc.in >$(DESTDIR)$(libdir)/pkgconfig/rigami.pc
+	sed $(call filled,rigami-core,: folds without files and pictures,$(core_libs),-DRIGAMI_CORE) rigami.pc.in >$(DESTDIR)$(libdir)/pkgconfig/rigami-core.pc
+	sed -e 's|@version@|$(VERSION)|' -e 's|@includedir@|$(includedir)|' -e 's|@core_libs@|$(core_libs)|' -e 's|@libs@|$(strip $(libs))|' \
+	    -e 's|@so_before@\(.*\)@so_after@|$(call so_at,\1,$(SOVERSION))|' \
+	    tools/install/rigamiConfig.cmake.in >$(DESTDIR)$(cmakedir)/rigamiConfig.cmake
+	sed -e 's|@version@|$(VERSION)|' tools/install/rigamiConfigVersion.cmake.in >$(DESTDIR)$(cmakedir)/rigamiConfigVersion.cmake
+	install -m 644 docs/rigami.1 $B/rigami-fold.1 $(DESTDIR)$(mandir)/man1
+	install -m 644 docs/librigami.3 $(DESTDIR)$(mandir)/man3
+	install -m 644 tools/install/rigami.bash $(DESTDIR)$(bashdir)/rigami
+	install -m 644 tools/install/rigami.zsh $(DESTDIR)$(zshdir)/_rigami
+	install -m 644 tools/install/rigami.fish $(DESTDIR)$(fishdir)/rigami.fish
+
+# Its options are those that the program says it has.
+$B/rigami-fold.1: docs/rigami-fold.1 tools/install/manual.awk $B/rigami
+	@$B/rigami help fold | awk -f tools/install/manual.awk docs/rigami-fold.1 - >$@
 
 uninstall:
 	rm -f $(addprefix $(DESTDIR),$(installed))

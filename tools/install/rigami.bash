@@ -1,6 +1,6 @@
 # Completion of rigami's commands, options and values for bash; `make install` puts it where bash looks for it. By hand:
-#     . tools/rigami.bash
-# zsh takes it too, after `autoload -U bashcompinit && bashcompinit`. The program itself says which words there are.
+#     . tools/install/rigami.bash
+# The program itself says which words there are.
 _rigami() {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} verb=${COMP_WORDS[1]} words
     if [ "$COMP_CWORD" = 1 ]; then
