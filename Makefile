@@ -215,7 +215,7 @@ check:
 	@$(setup) check
 	@mkdir -p build
 	@$(if $(tested),,$(MAKE) --no-print-directory $(jobs) run-tests)
-	@for part in layers equations header werror install-check outputs without-gpl without-gl asan; do \
+	@for part in layers equations header docs werror install-check outputs without-gpl without-gl asan; do \
 	    echo "== $$part"; $(MAKE) --no-print-directory $(jobs) $$part >build/check.log 2>&1 || \
 	        { cat build/check.log; echo "check: $$part FAILED"; exit 1; }; \
 	    grep '^SKIPPED' build/check.log; tail -n 1 build/check.log; \
@@ -230,9 +230,10 @@ werror:
 everything: build $(test_bin) $(bench_bin) $B/docs/example
 
 # Builds with a part left out, each asked to do what it still can.
-without-gpl:
+without-gpl: build
 	@$(MAKE) --no-print-directory GPL=0 build
 	@sh tools/smoke build/release$(if $(filter-out osmesa,$(GL)),-gl-$(GL))-nogpl/rigami $(GL)
+	@sh tools/check_same build/release$(if $(filter-out osmesa,$(GL)),-gl-$(GL))/rigami build/release$(if $(filter-out osmesa,$(GL)),-gl-$(GL))-nogpl/rigami
 without-gl:
 	@$(MAKE) --no-print-directory GL=none build
 	@sh tools/smoke build/release-gl-none/rigami none
@@ -251,6 +252,15 @@ header:
 	@clang -x c++ -std=c++11 -Wall -Wextra -Wpedantic -Werror -Iinclude -fsyntax-only tests/header.cpp
 	@clang -x c++ -std=c++17 -Wall -Wextra -Wpedantic -Werror -Iinclude -fsyntax-only tests/header.cpp
 	@echo "rigami.h is C++ too"
+
+# build/docs: the reference, out of rigami.h, and the tour; anything that Doxygen has to say fails.
+docs:
+	@mkdir -p build/docs
+	@if ! command -v doxygen >/dev/null; then echo "SKIPPED: no doxygen"; exit 0; fi; \
+	VERSION=$(VERSION) doxygen docs/Doxyfile >build/docs/log 2>&1 || { cat build/docs/log; exit 1; }; \
+	test ! -s build/docs/log || { cat build/docs/log; exit 1; }; \
+	echo "build/docs/html/index.html, without a warning"
+.PHONY: docs
 
 # What the shared libraries show and need, against what is kept in tests/abi; abi: keeps what there is.
 abi-check: build

@@ -28,6 +28,7 @@
 extern "C" {
 #endif
 
+/* Marks what the library shows. */
 #if defined(__GNUC__)
 #define RG_API __attribute__((visibility("default")))
 #else
@@ -43,6 +44,7 @@ extern "C" {
 
 /* ---------------------------------------------------------------------------------------------- base ---- */
 
+/* What functions return, as name and words: enum and texts are made of it. */
 #define RG_STATUS_LIST(X)                                     \
     X(RG_OK, "success")                                       \
     X(RG_EARG, "an argument is out of range")                 \
@@ -54,12 +56,14 @@ extern "C" {
     X(RG_EABSENT, "this build has no such part")              \
     X(RG_ECANCELLED, "the caller's progress function ended it")
 
+/* What became of a call; 0 is success. */
 typedef enum rg_status {
 #define X(name, words) name,
     RG_STATUS_LIST(X)
 #undef X
 } rg_status;
 
+/* The words of the list above; for other numbers, words that say so. */
 RG_API const char *rg_status_text(rg_status s);
 /* Of the library that is linked: RG_VERSION and RG_VERSION_NUMBER are those it was compiled against. */
 RG_API const char *rg_version(void);
@@ -67,14 +71,14 @@ RG_API int rg_version_number(void);
 
 /* What is wrong and where: a line of the input file (1 is the first, 0: no line) and a sentence without full stop. */
 typedef struct rg_diag {
-    int line;
-    char text[240];
+    int line;       /* of the input file, from 1; 0: no line */
+    char text[240]; /* a sentence without full stop; "" where nothing was said */
 } rg_diag;
 
 /* An allocator. resize(ctx, NULL, n) allocates, resize(ctx, p, n) moves, resize(ctx, p, 0) frees and returns NULL. */
 typedef struct rg_memory {
-    void *(*resize)(void *ctx, void *block, size_t bytes);
-    void *ctx;
+    void *(*resize)(void *ctx, void *block, size_t bytes); /* NULL: there is none; the old block is then as it was */
+    void *ctx;                                             /* handed on to it */
 } rg_memory;
 
 /* Called as something goes on with 0 ... 1, never less than before; a non-zero return ends it. In the thread of the caller. */
@@ -83,6 +87,7 @@ typedef int (*rg_progress)(void *ctx, double progress);
 /* The target of a crease that is nobody's: it follows the others. */
 #define RG_FREE ((double)INFINITY)
 
+/* How steps are made. */
 typedef enum rg_method {
     RG_METHOD_AUTO,    /* adaptive straight on, and whatever else the pattern asks for */
     RG_METHOD_EULER,   /* the paper's eq. (14), one solve a step */
@@ -91,29 +96,49 @@ typedef enum rg_method {
     RG_METHOD_RK4,     /* order 4, each step closed */
     RG_METHOD_ADAPTIVE /* steps by an error estimate, frames from a dense output, each closed */
 } rg_method;
-typedef enum rg_solver { RG_SOLVER_AUTO, RG_SOLVER_CG, RG_SOLVER_CHOLESKY, RG_SOLVER_SVD } rg_solver;
-typedef enum rg_triangulation { RG_TRIANGULATE_AUTO, RG_TRIANGULATE_NONE, RG_TRIANGULATE_ALL } rg_triangulation;
+/* How the linear system of a step is solved. */
+typedef enum rg_solver {
+    RG_SOLVER_AUTO,     /* by size */
+    RG_SOLVER_CG,       /* conjugate gradients, as in the paper */
+    RG_SOLVER_CHOLESKY, /* a sparse factor of C C^T */
+    RG_SOLVER_SVD       /* the pseudo-inverse by singular values, for some hundred creases; RG_EABSENT without GSL, so in the core */
+} rg_solver;
+/* Which facets are cut into triangles by added creases. */
+typedef enum rg_triangulation {
+    RG_TRIANGULATE_AUTO, /* none, and where that stops short those that have to be, or all */
+    RG_TRIANGULATE_NONE, /* as drawn */
+    RG_TRIANGULATE_ALL   /* every facet with more than three corners */
+} rg_triangulation;
 
+/* What is done about facets that pass through each other. */
 typedef enum rg_contact_mode {
     RG_CONTACT_AVOID,  /* look for a motion in which no facets pass through each other; as report, where none is found */
     RG_CONTACT_REPORT, /* take the plain motion, and say */
     RG_CONTACT_IGNORE  /* do not look */
 } rg_contact_mode;
-typedef enum rg_effort { RG_EFFORT_FAST, RG_EFFORT_NORMAL, RG_EFFORT_THOROUGH } rg_effort;
+/* How much is tried when the plain way stops short. */
+typedef enum rg_effort {
+    RG_EFFORT_FAST,    /* little: a drawing at hand, many files */
+    RG_EFFORT_NORMAL,  /* what ends within seconds for most patterns of a hundred creases */
+    RG_EFFORT_THOROUGH /* all there is, for minutes */
+} rg_effort;
+/* What is kept of a pattern's symmetry. */
 typedef enum rg_symmetry_kept {
     RG_SYMMETRY_AUTO, /* the pattern's own, or as much of it as folds */
-    RG_SYMMETRY_OFF
+    RG_SYMMETRY_OFF   /* none is looked for */
 } rg_symmetry_kept;
+/* Formats of crease pattern files. */
 typedef enum rg_format {
     RG_FORMAT_AUTO, /* by content, then by extension */
-    RG_FORMAT_OPX,
-    RG_FORMAT_CP,
-    RG_FORMAT_FOLD,
-    RG_FORMAT_SVG,
-    RG_FORMAT_DXF,
+    RG_FORMAT_OPX,  /* ORIPA's */
+    RG_FORMAT_CP,   /* ORIHIME's */
+    RG_FORMAT_FOLD, /* FOLD 1.2 */
+    RG_FORMAT_SVG,  /* lines of drawings, by colour and dash */
+    RG_FORMAT_DXF,  /* lines of drawings, by layer */
     RG_FORMAT_ORI   /* Oriedita's own */
 } rg_format;
 
+/* What frames are even in. */
 typedef enum rg_pace {
     RG_PACE_PERCENT, /* frames even in folded percent */
     RG_PACE_STEADY   /* frames even in the largest angle that a crease turns */
@@ -138,7 +163,7 @@ typedef struct rg_reading {
     int32_t sheet;                /* of a drawing with several sheets, the one to take, from 1, in the order of the file; 0: there is one */
     double unit;                  /* metres in a unit of the file, where that does not say it or says it wrongly; 0: as it says */
     rg_progress progress;         /* asked while it reads, RG_ECANCELLED where it ends it; NULL: nobody */
-    void *progress_ctx;
+    void *progress_ctx;           /* handed on to it */
 } rg_reading;
 
 /* size: sizeof(rg_reading) of the caller. */
@@ -150,6 +175,7 @@ static inline rg_reading rg_reading_default(void)
     return r;
 }
 
+/* rg_settings.adjust: creases are moved where nothing else folds. */
 #define RG_ADJUST_AUTO (-1.0)
 
 /* How a pattern is folded. Start from rg_settings_default(); NULL where they are asked for is the same. What is out of range or NaN
@@ -175,6 +201,7 @@ typedef struct rg_settings {
     int32_t fixed_facet;          /* facet that stays where it is; -1: the one nearest the centre */
 } rg_settings;
 
+/* size: sizeof(rg_settings) of the caller. */
 RG_API void rg_settings_init(rg_settings *s, size_t size);
 static inline rg_settings rg_settings_default(void)
 {
@@ -201,6 +228,7 @@ typedef struct rg_drawing {
     const char *title, *author; /* NULL: none */
 } rg_drawing;
 
+/* size: sizeof(rg_drawing) of the caller. */
 RG_API void rg_drawing_init(rg_drawing *d, size_t size);
 static inline rg_drawing rg_drawing_default(void)
 {
@@ -215,15 +243,16 @@ static inline rg_drawing rg_drawing_default(void)
 RG_API rg_status rg_pattern_create(const rg_drawing *d, const rg_reading *r, rg_pattern **pattern, rg_diag *why);
 RG_API void rg_pattern_destroy(rg_pattern *pattern);
 
+/* What is known of a pattern before it folds. */
 typedef struct rg_pattern_info {
     int32_t vertices, edges, facets;  /* of the plane graph, before straight-through vertices are dissolved */
     int32_t creases;                  /* N, after that */
     int32_t interior_vertices;        /* M, after that */
     int32_t boundary_edges;           /* N0, after that */
     int32_t degrees_of_freedom;       /* N - 3M */
-    int32_t mountains, valleys, unassigned, flat;
+    int32_t mountains, valleys, unassigned, flat; /* creases of each kind; flat: auxiliary lines that may fold */
     int32_t closed_vertices;          /* section 3.1 */
-    int32_t maekawa_violations;
+    int32_t maekawa_violations;       /* interior vertices where | M - V | is not 2 */
     double kawasaki_max_deg;          /* largest | every other angle - 180 | over interior vertices of even degree, degrees */
     int32_t cuts;                     /* slits: border lines inside, counted with the creases */
     int32_t lost_creases;             /* drawn, but left out (loose ends) or taken for border; each is told in a warning */
@@ -264,32 +293,43 @@ RG_API rg_status rg_pattern_pin(rg_pattern *p, int32_t edge);
 /* A closed vertex (section 3.1): creases a, c, b are adjacent around the vertex, angle(a,c) = angle(c,b), a and b have
  * opposite assignments; creases are given by their far ends. */
 typedef struct rg_closed {
-    int32_t vertex;
-    double x, y;
-    double a[2], c[2], b[2];
-    double inside_angle; /* radians: between c and whichever of a, b has the assignment opposite to c's */
+    int32_t vertex;            /* of the pattern */
+    double x, y;               /* where it is, file coordinates */
+    double a[2], c[2], b[2];   /* far ends of the creases, file coordinates */
+    double inside_angle;       /* radians: between c and whichever of a, b has the assignment opposite to c's */
 } rg_closed;
 
-typedef enum rg_theorem { RG_KAWASAKI, RG_MAEKAWA, RG_DEGREE, RG_BIG_LITTLE_BIG, RG_TARGETS } rg_theorem;
+/* What a vertex that cannot fold flat breaks. */
+typedef enum rg_theorem {
+    RG_KAWASAKI,       /* every other angle adds up to 180 degrees */
+    RG_MAEKAWA,        /* mountains and valleys differ by two */
+    RG_DEGREE,         /* creases are even in number */
+    RG_BIG_LITTLE_BIG, /* the smallest angle lies between a mountain and a valley */
+    RG_TARGETS         /* at the file's own fold angles the paper closes */
+} rg_theorem;
 
 /* An interior vertex that cannot fold flat; it may be listed once for each theorem. */
 typedef struct rg_unfoldable {
-    int32_t vertex;
-    double x, y;
+    int32_t vertex;     /* of the pattern */
+    double x, y;        /* where it is, file coordinates */
     rg_theorem theorem; /* RG_DEGREE: an odd number of creases */
     double by;          /* degrees for Kawasaki, |M - V| for Maekawa, the number of creases for the degree; big-little-big:
                          * degrees by which a sector between two creases folded the same way is smaller than both others;
                          * targets: degrees by which the paper round the vertex misses itself at the file's own fold angles */
 } rg_unfoldable;
 
-/* Lists are borrowed from the pattern. */
+/* Lists are borrowed from the pattern; how long one is, is returned. */
 RG_API int32_t rg_pattern_closed(const rg_pattern *p, const rg_closed **list);
 RG_API int32_t rg_pattern_unfoldable(const rg_pattern *p, const rg_unfoldable **list);
 /* One of several sheets in a drawing: the box around it, in the file's coordinates, and how many lines it has. */
-typedef struct rg_piece { double low[2], high[2]; int32_t lines; } rg_piece;
+typedef struct rg_piece {
+    double low[2], high[2]; /* corners of the box */
+    int32_t lines;          /* at least 1 */
+} rg_piece;
 RG_API int32_t rg_pattern_pieces(const rg_pattern *p, const rg_piece **list);
 /* A point of the pattern as its file has it: files that draw y downwards were turned round. */
 RG_API void rg_pattern_own(const rg_pattern *p, const double x[2], double own[2]);
+/* What was left out, merged or taken for something else; borrowed from the pattern. */
 RG_API int32_t rg_pattern_warnings(const rg_pattern *p, const rg_diag **list);
 
 /* ---------------------------------------------------------------------------------------------- layers ---- */
@@ -298,6 +338,7 @@ RG_API int32_t rg_pattern_warnings(const rg_pattern *p, const rg_diag **list);
  * added creases. One thread at a time for one handle. */
 typedef struct rg_layers rg_layers;
 
+/* What is known of the orders. */
 typedef enum rg_layers_state {
     RG_LAYERS_VALID,   /* there is at least one order */
     RG_LAYERS_NONE,    /* there is none: no flat folding without paper passing through paper */
@@ -305,8 +346,9 @@ typedef enum rg_layers_state {
     RG_LAYERS_NOT_FLAT /* the creases do not end flat, or do not close there */
 } rg_layers_state;
 
+/* The orders, counted; or why there is none. */
 typedef struct rg_layers_info {
-    rg_layers_state state;
+    rg_layers_state state;     /* whether there are any */
     int32_t facets, pairs;     /* of facets that overlap */
     int32_t settled;           /* pairs whose order is the same in all */
     int32_t parts;             /* groups of the other pairs, each ordered without regard to the others */
@@ -321,7 +363,10 @@ typedef struct rg_layers_info {
 
 /* One pair of a layer order, as FOLD's faceOrders: facet f lies above (+1) or below (-1) facet g, seen from the side to which g's
  * front faces. */
-typedef struct rg_layers_pair { int32_t f, g, side; } rg_layers_pair;
+typedef struct rg_layers_pair {
+    int32_t f, g; /* facets, from 0 */
+    int32_t side; /* +1 or -1 */
+} rg_layers_pair;
 
 /* memory NULL: malloc. RG_OK whatever is found, read rg_layers_get_info; RG_ESHEET: not one sheet without holes. Owner: the caller. */
 RG_API rg_status rg_layers_create(const rg_pattern *p, const rg_memory *memory, rg_layers **layers, rg_diag *why);
@@ -341,6 +386,7 @@ RG_API rg_status rg_layers_which(const rg_layers *l, uint64_t index, uint64_t *w
 /* A whole motion, flat to folded, frame by frame, with its measurements. Never changes, so that threads may share one. */
 typedef struct rg_motion rg_motion;
 
+/* How it ended. */
 typedef enum rg_outcome {
     RG_RUNNING, /* there is more to come */
     RG_FOLDED,  /* every driven crease is where it should be */
@@ -348,12 +394,18 @@ typedef enum rg_outcome {
     RG_RESTS    /* undriven creases leave its end open, and it has come to rest */
 } rg_outcome;
 
+/* One frame, in numbers. */
 typedef struct rg_frame {
     double percent;          /* mean over driven creases of 100 rho / target, signed, each at most 100 */
     double closure_residual; /* radians, recomputed from the fold angles */
 } rg_frame;
 
-typedef enum rg_contact_verdict { RG_CONTACT_UNCHECKED, RG_CONTACT_FREE, RG_CONTACT_CROSSES } rg_contact_verdict;
+/* Do facets pass through each other? */
+typedef enum rg_contact_verdict {
+    RG_CONTACT_UNCHECKED, /* not looked for */
+    RG_CONTACT_FREE,      /* not in any frame, nor surely between two */
+    RG_CONTACT_CROSSES    /* they do */
+} rg_contact_verdict;
 
 /* One thing that the search for a motion tried. */
 typedef struct rg_try {
@@ -361,32 +413,33 @@ typedef struct rg_try {
     double compliance;            /* how readily the pattern gave way, 0: not at all */
     int32_t symmetry;             /* order of the group that was kept, 1: none */
     int32_t added;                /* creases that cut facets */
-    rg_outcome outcome;
+    rg_outcome outcome;           /* how it ended */
     double percent;               /* how far it came */
-    double seconds;
+    double seconds;               /* that it took */
     char reason[200];             /* why it ended */
 } rg_try;
 
+/* A motion, measured. Degrees where the name ends in _deg. */
 typedef struct rg_report {
     const rg_pattern_info *pattern; /* borrowed */
     int32_t added_creases, unknowns, constraints, components; /* the model */
     const char *triangulation;                                /* "none", "some" or "all", and why, below */
-    const char *why_triangulated;
+    const char *why_triangulated;                             /* in words */
     char strategy[160];                                       /* what got it there: triangulation, adjustment, drive */
     double adjust_gain, compliance;                           /* both 0: the pattern was not moved */
     const char *rung, *direction;                             /* of the ladder of what is tried: the one that got it there */
-    double seconds_of_winning_try;
+    double seconds_of_winning_try;                            /* of all tries the one that is kept */
     int32_t tries;                                            /* of which this motion is the first that folds, or the best */
-    const char *method, *solver;
-    int64_t steps, solves, cg_iterations, factorizations, assemblies;
-    double seconds_total, seconds_solving;
-    rg_outcome outcome;
-    char reason[360];
-    double folded_percent, least_folded_percent;
+    const char *method, *solver;                              /* that were used, as words */
+    int64_t steps, solves, cg_iterations, factorizations, assemblies; /* counted over all tries */
+    double seconds_total, seconds_solving;                    /* all of it, and of that in linear systems */
+    rg_outcome outcome;                                       /* how it ended, */
+    char reason[360];                                         /* and why, in words */
+    double folded_percent, least_folded_percent;              /* -100 ... 100: the mean over driven creases, the least */
     double max_closure_residual; /* radians; recomputed from the fold angles */
     double max_edge_strain;      /* over frames and edges: | 3D length / pattern length - 1 | */
     double max_facet_gap;        /* over frames: distance of two placements of one vertex, over the sheet's size */
-    double max_overfold_deg;
+    double max_overfold_deg;                                  /* the most that a crease went beyond half a turn */
     double max_adjustment;           /* largest displacement of a vertex from the pattern given, over the sheet's size */
     double max_strain_from_original; /* over frames and edges: | 3D length / length in the pattern given - 1 | */
     int32_t symmetry;            /* order of the largest group of turns and mirrors that every frame has; 1: none */
@@ -408,13 +461,13 @@ typedef struct rg_report {
     double max_wrong_side_deg;       /* the most that a driven crease is on its wrong side in any frame */
     int32_t wrong_side_frames;       /* in so many frames by more than a tenth of a degree */
     int32_t wrong_side_creases;  /* driven creases that ended on the other side of flat than they should */
-    int32_t blocking_vertex_count, blocking_crease_count;
+    int32_t blocking_vertex_count, blocking_crease_count; /* of what holds a motion that stopped short */
     const int32_t *blocking_vertices, *blocking_creases; /* borrowed; vertex numbers and crease numbers of the mesh */
     const double (*blocking_at)[2];                      /* where those vertices are, file coordinates */
     const char *layers;        /* of the flat end: "valid", "none", "unsolved" or "not flat" */
     const char *layer_orders;  /* how many, as rg_layers_info.count; "" unless valid */
     const char *layers_reason; /* in words, unless valid */
-    int32_t frame_count;
+    int32_t frame_count;    /* at least 1 */
     const rg_frame *frames; /* borrowed */
     int32_t states, states_reached; /* of a sequence of states; 0: the motion is of one pattern */
     const int32_t *state_frame;     /* [states_reached] the frame that is that state; borrowed */
@@ -431,7 +484,10 @@ RG_API rg_status rg_motion_create(const rg_pattern *p, const rg_settings *s, rg_
 /* The same, but only `creases` are driven, each from flat to its angle, frames even in them; all others follow by the least motion that
  * the facets allow, eq. (9), or stay flat where they are pinned. Near flat there are several ways: the assignments decide. Creases are
  * edges of the pattern. Facets are cut where that helps, unless s->triangulate is none. s: `to`, `adjust`, `effort` do not count. */
-typedef struct rg_driven { int32_t edge; double radians; } rg_driven;
+typedef struct rg_driven {
+    int32_t edge;   /* of the pattern */
+    double radians; /* where it is to end, -pi ... pi */
+} rg_driven;
 RG_API rg_status rg_motion_create_driven(const rg_pattern *p, int32_t count, const rg_driven *driven, const rg_settings *s,
                                          rg_progress progress, void *ctx, rg_motion **motion, rg_diag *why);
 /* Walks through states of one sheet, each folded as its pattern says: from the first, folded, to the last. Creases are matched
@@ -448,7 +504,7 @@ RG_API const rg_report *rg_motion_report(const rg_motion *m); /* borrowed */
 /* The sheet that is folded, for callers that draw it themselves: sizes, facets, creases. Its first edges are those of the pattern, its
  * first creases those that were drawn, in the same order; added ones come last. Arrays are borrowed. */
 typedef struct rg_sheet {
-    int32_t vertices, creases, facets;
+    int32_t vertices, creases, facets; /* how many there are */
     const int32_t *facet_start;  /* [facets + 1] into facet_vertex */
     const int32_t *facet_vertex; /* counter-clockwise */
     const double (*flat)[2];     /* [vertices] in the pattern */
@@ -493,6 +549,7 @@ RG_API const double (*rg_motion_flat(const rg_motion *m, int32_t frame))[2];
  * by step. One thread at a time for one handle. */
 typedef struct rg_fold rg_fold;
 
+/* What there is to say of the present state of a fold, and of the move that led there. */
 typedef struct rg_step_info {
     rg_outcome outcome; /* of the track, once its last state is reached; RG_RUNNING while there is more to come */
     double progress;    /* 0 ... 1: mean over the driven creases of the part of its way that each is, none for more than all of it */
@@ -501,7 +558,7 @@ typedef struct rg_step_info {
     int32_t solves, iterations; /* linear solves, and iterations of conjugate gradients in them, of the call that led here */
     int32_t frames;     /* states of the track that are known */
     const char *reason; /* why it ended; "" while there is more to come */
-    int32_t blocking_vertex_count, blocking_crease_count;
+    int32_t blocking_vertex_count, blocking_crease_count; /* 0 where nothing holds it */
     const int32_t *blocking_vertices, *blocking_creases; /* of a track that stopped: what resists most, and what is held short */
 } rg_step_info;
 
@@ -518,6 +575,7 @@ RG_API const rg_motion *rg_fold_motion(const rg_fold *f);
 
 /* ---- moving. All return what there is to say of the state that was reached, borrowed until the next move. */
 
+/* Of the present state, without a move. */
 RG_API const rg_step_info *rg_fold_get_info(const rg_fold *f);
 /* On to the next state of the track, back to the one before; allocates nothing. Frames and their bits are those of rg_motion_create with
  * the same settings. After the last one, and before the first, it stays where it is. */
@@ -549,7 +607,9 @@ RG_API const double *rg_fold_angles(const rg_fold *f, int32_t *creases);
 RG_API const double (*rg_fold_positions(const rg_fold *f, int32_t *vertices))[3];
 RG_API const double (*rg_fold_flat(const rg_fold *f, int32_t *vertices))[2];
 /* Where each facet goes: x -> R x + t with R = (column[0] column[1] column[2]) and t = column[3], for x in the flat pattern, z = 0. */
-typedef struct rg_transform { double column[4][3]; } rg_transform;
+typedef struct rg_transform {
+    double column[4][3]; /* of R, then t; lengths as in the pattern */
+} rg_transform;
 RG_API const rg_transform *rg_fold_transforms(const rg_fold *f, int32_t *facets);
 
 /* ---- keeping states */
@@ -575,7 +635,7 @@ typedef struct rg_tangent_info {
     int32_t rows, columns;     /* 3 M, three for each interior vertex in the order b, c, a; N */
     const int32_t *row_start;  /* [rows + 1] into column and value: C by compressed rows, eq. (8) */
     const int32_t *column;     /* creases, rising in each row */
-    const double *value;
+    const double *value;       /* dimensionless: radians a radian */
     const double *residual;    /* [rows] r, eqs. (12), (13) */
     const int32_t *vertex;     /* [rows / 3] which vertex of the sheet */
     const double *angle;       /* [rows / 3] rotation angle of F there, radians, 0 ... pi */
@@ -600,8 +660,8 @@ RG_API rg_status rg_tangent_basis(rg_tangent *t, int32_t *freedoms, const double
 /* Where output goes that is not to be a file: called once or more with the bytes, in order, when all of them are there; a non-zero return
  * is RG_EWRITE. */
 typedef struct rg_sink {
-    int (*write)(void *ctx, const void *bytes, size_t size);
-    void *ctx;
+    int (*write)(void *ctx, const void *bytes, size_t size); /* size above 0 */
+    void *ctx;                                               /* handed on to it */
 } rg_sink;
 
 /* ------------------------------------------------------------------------------------------------ read ---- */
@@ -646,15 +706,26 @@ RG_API rg_status rg_generate_pattern(const char *kind, int32_t n, int32_t m, dou
 
 /* ------------------------------------------------------------------------------------- write, render ---- */
 
-typedef enum rg_lines_shown { RG_LINES_NONE, RG_LINES_CREASES, RG_LINES_EDGES } rg_lines_shown;
+/* Lines of pictures. */
+typedef enum rg_lines_shown {
+    RG_LINES_NONE,    /* facets alone */
+    RG_LINES_CREASES, /* mountains red, valleys blue */
+    RG_LINES_EDGES    /* all alike */
+} rg_lines_shown;
+/* What the colours of facets tell. */
 typedef enum rg_colouring {
-    RG_COLOUR_PAPER,
+    RG_COLOUR_PAPER,  /* which side of the paper it is */
     RG_COLOUR_STRAIN, /* of a facet: largest | length of an edge in this frame / in the pattern given - 1 | */
     RG_COLOUR_ROLL,   /* how far its corners moved through the sheet */
     RG_COLOUR_SPEED,  /* the fastest of its creases, from the frame before */
     RG_COLOUR_LAYER   /* how high it lies among those that lie in its plane */
 } rg_colouring;
-typedef enum rg_loop { RG_LOOP_BACK, RG_LOOP_FORWARD, RG_LOOP_ONCE } rg_loop;
+/* How animations go on. */
+typedef enum rg_loop {
+    RG_LOOP_BACK,    /* there and back for ever */
+    RG_LOOP_FORWARD, /* forward for ever */
+    RG_LOOP_ONCE     /* to the end, and stay there */
+} rg_loop;
 
 /* Start from rg_picture_default(); NULL where one is asked for is the same. What is out of range or NaN is refused, RG_EARG. */
 typedef struct rg_picture {
@@ -665,8 +736,8 @@ typedef struct rg_picture {
     double zoom;                     /* 1: the sheet just fits in every frame */
     int targeted;                    /* non-zero: look at `target`; 0: at the sheet's middle as it is seen; 0 */
     double target[2];                /* a point of the sheet, as in the pattern */
-    unsigned char front[3], back[3]; /* paper colours */
-    unsigned char background[3];
+    unsigned char front[3], back[3]; /* paper colours: red, green, blue, 0 ... 255 */
+    unsigned char background[3];     /* another such colour */
     rg_lines_shown lines;            /* creases in their colours, all edges alike, or none; creases */
     double line_width;               /* over the usual one, 0.1 ... 10; 1 */
     double see_through;              /* part of the light that passes a facet, 0 ... 0.9; 0 */
@@ -680,9 +751,10 @@ typedef struct rg_picture {
     double thickness;                /* of the paper in models to print (.stl), in units of the file; 0: none, a surface; 0 */
     rg_loop loop;                    /* of animations: there and back for ever, forwards for ever, or once; back */
     rg_progress progress;            /* asked while it is written or drawn, RG_ECANCELLED where it ends it; NULL: nobody */
-    void *progress_ctx;
+    void *progress_ctx;              /* handed on to it */
 } rg_picture;
 
+/* size: sizeof(rg_picture) of the caller. */
 RG_API void rg_picture_init(rg_picture *p, size_t size);
 static inline rg_picture rg_picture_default(void)
 {
@@ -731,15 +803,17 @@ RG_API void rg_unfoldable_text(const rg_pattern *p, const rg_unfoldable *u, char
  * between them; and layers that are possible where it ends flat, which rests on their order alone. */
 typedef struct rg_certificate rg_certificate;
 
+/* One thing that is wrong with a motion. */
 typedef struct rg_fault {
     int32_t frame;    /* from 0; -1: of the pattern */
     int32_t facet[2]; /* which, by their numbers in the file; -1: none */
     char text[200];   /* what, without full stop; with facets, it begins after them */
 } rg_fault;
 
+/* What was found of a motion, in numbers. */
 typedef struct rg_certificate_info {
     int valid;                 /* non-zero: no fault */
-    int32_t frames, facets, faults;
+    int32_t frames, facets, faults; /* how many there are */
     double max_sheet;          /* the farthest that the border of a frame's pattern is off the border given, over the sheet's size */
     double max_rigid;          /* the farthest that a corner is off its facet, over the sheet's size */
     double max_closure;        /* radians, over frames and inner vertices */
@@ -748,7 +822,7 @@ typedef struct rg_certificate_info {
     double max_wrong_side_deg; /* the most that a crease is on the wrong side of flat on the way */
     double contact_depth;      /* the deepest crossing in a frame, over the sheet's size; 0: none above 1e-4 */
     double between_depth;      /* no crossing between frames is deeper than this */
-    int ends_flat;
+    int ends_flat;             /* non-zero: the last frame lies in a plane */
     int32_t layer_pairs, layers_shown; /* facets over each other at a flat end; of these, whose order the frame before shows */
 } rg_certificate_info;
 

@@ -9,7 +9,8 @@ int main()
     rg_pattern *pattern = 0;
     rg_motion *motion = 0;
     s.frames = look.width;
-    if (rg_pattern_read("x.opx", &s, &pattern, &why) == RG_OK) (void)rg_motion_create(pattern, &s, 0, 0, &motion, &why);
+    rg_reading as = rg_reading_default();
+    if (rg_pattern_read("x.opx", &as, &pattern, &why) == RG_OK) (void)rg_motion_create(pattern, &s, 0, 0, &motion, &why);
     rg_motion_destroy(motion);
     rg_pattern_destroy(pattern);
     return 0;

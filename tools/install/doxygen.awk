@@ -36,7 +36,8 @@ function s_with(s) { sub(/\/\*/, "/**<", s); return s }
         inside = line !~ /\*\//
         fresh = 1
     } else if (line ~ /[;,{})A-Za-z0-9] +\/\*/ && line !~ /^#/) line = behind(line)
-    else if (line ~ /^RG_API / && !fresh && text != "") {
+    else if (line ~ /^RG_API void rg_[a-z]+_destroy\(/ && !fresh) line = "/** Frees it, and with it all that it lent; takes NULL. */ " line
+    else if (line ~ /^(RG_API|#define) / && !fresh && text != "") {
         sub(/ \* /, " ", text)
         line = text " " line
     }
