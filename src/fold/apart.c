@@ -30,7 +30,7 @@ static void deal_out(const rg_mesh *m, rg_apart *a, deal *d)
     for (int32_t i = 0; i < m->N; i++) a->crease[a->start[d->part[i]] + d->local[i]] = i;
 }
 
-/* What the time loop takes of a mesh, for one part: creases' targets, the loops round their vertices, and the two triangles at each
+/* What the time loop takes of a mesh, for one part: creases' assignments and targets, the loops round their vertices, and the two triangles at each
  * added crease. Edge i is crease i, edge N stands for all of the perimeter. Vertices keep their numbers. */
 static rg_status make_room(rg_mesh *out, const rg_memory *mem, int32_t N, int32_t M, int32_t added, int32_t corners)
 {
@@ -38,6 +38,8 @@ static rg_status make_room(rg_mesh *out, const rg_memory *mem, int32_t N, int32_
     out->mem = *mem;
     out->N = N, out->M = M, out->added = added, out->ne = N + 1, out->nf = 2 * added;
     out->target = rg_mem_array(mem, (size_t)out->ne, sizeof *out->target);
+    out->assignment = rg_mem_array(mem, (size_t)out->ne, 1);
+    out->still = rg_mem_array(mem, (size_t)out->ne, 1);
     out->edge_facet = rg_mem_array(mem, (size_t)out->ne, sizeof *out->edge_facet);
     out->edge_crease = rg_mem_array(mem, (size_t)out->ne, sizeof *out->edge_crease);
     out->crease_edge = rg_mem_array(mem, (size_t)N, sizeof *out->crease_edge);
@@ -47,7 +49,7 @@ static rg_status make_room(rg_mesh *out, const rg_memory *mem, int32_t N, int32_
     out->loop_start = rg_mem_array(mem, (size_t)M + 1, sizeof *out->loop_start);
     out->loop_crease = rg_mem_array(mem, (size_t)corners, sizeof *out->loop_crease);
     out->loop_theta = rg_mem_array(mem, (size_t)corners, sizeof *out->loop_theta);
-    return out->target && out->edge_facet && out->edge_crease && out->crease_edge && out->facet_start &&
+    return out->target && out->assignment && out->still && out->edge_facet && out->edge_crease && out->crease_edge && out->facet_start &&
                    out->facet_edge && out->inner_vertex && out->loop_start && out->loop_crease && out->loop_theta
                ? RG_OK
                : RG_ENOMEM;
@@ -57,6 +59,8 @@ static void take_crease(const rg_mesh *m, const deal *d, int32_t whole, int32_t 
 {
     const int32_t e = m->crease_edge[whole], facet = 2 * (i - (out->N - out->added));
     out->target[i] = m->target[e];
+    out->assignment[i] = m->assignment[e];
+    out->still[i] = m->still && m->still[e];
     out->edge_crease[i] = out->crease_edge[i] = i;
     for (int side = 0; side < 2; side++) {
         out->edge_facet[i][side] = facet >= 0 ? facet + side : -1;

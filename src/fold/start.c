@@ -25,8 +25,8 @@ static double wrongness(const rg_straight *f, const double *rho, double s1)
 {
     double sum = 0;
     for (int32_t i = 0; i < f->mesh.N; i++) {
-        if (!rg_drive_is_driven(&f->drive, i)) continue;
-        double part = rho[i] / f->drive.target[i] / s1;
+        if (f->drive.lean[i] == 0) continue;
+        double part = rho[i] / f->drive.lean[i] / s1;
         if (!(part >= -LOCKED)) sum += fmin(-part, 1e3);
     }
     return sum;
@@ -73,7 +73,7 @@ int rg_start_leave_flat(rg_straight *f, double s1)
 
     for (int32_t attempt = 0; attempt < ATTEMPTS && least > 0; attempt++) {
         for (int32_t i = 0; i < N; i++)
-            f->wish[i] = rg_drive_is_driven(&f->drive, i) ? loud[i] * f->drive.target[i] : 0;
+            f->wish[i] = loud[i] * f->drive.lean[i];
         if (!flat_direction(f)) break;
         for (int32_t i = 0; i < N; i++) f->trial[i] = s1 * f->t[i];
         int closed = rg_newton_correct(f, s1, CORRECTIONS);
@@ -84,7 +84,7 @@ int rg_start_leave_flat(rg_straight *f, double s1)
             memcpy(f->best, f->trial, bytes);
         }
         for (int32_t i = 0; i < N; i++)
-            if (rg_drive_is_driven(&f->drive, i) && !(f->trial[i] / f->drive.target[i] >= 0.02 * s1)) loud[i] *= LOUDER;
+            if (f->drive.lean[i] != 0 && !(f->trial[i] / f->drive.lean[i] >= 0.02 * s1)) loud[i] *= LOUDER;
     }
     if (!(least < INFINITY)) return 0;
     memcpy(f->rho, f->best, bytes);

@@ -59,11 +59,14 @@ rg_status rg_constraint_init(rg_constraint *K, const rg_memory *mem, const rg_me
     K->theta = rg_mem_array(mem, (size_t)blocks, sizeof *K->theta);
     K->cos = rg_mem_array(mem, whole, sizeof *K->cos);
     K->sin = rg_mem_array(mem, whole, sizeof *K->sin);
-    if (!K->r || !K->theta || !K->cos || !K->sin || make_fours(K) != RG_OK) {
+    K->still = rg_mem_array(mem, (size_t)m->N, 1);
+    if (!K->r || !K->theta || !K->cos || !K->sin || !K->still || make_fours(K) != RG_OK) {
         rg_constraint_free(K);
         return RG_ENOMEM;
     }
     rg_constraint_set_theta(K, m->loop_theta);
+    for (int32_t i = 0; m->still && i < m->N; i++) K->still[i] = m->still[m->crease_edge[i]];
+    rg_constraint_set_still(K);
     return RG_OK;
 }
 
@@ -72,8 +75,8 @@ void rg_constraint_free(rg_constraint *K)
     if (!K->mem.resize) return;
     rg_memory mem = K->mem;
     rg_sparse_free(&K->C);
-    void *all[] = {K->r, K->theta, K->cos, K->sin, K->four, K->crease, K->theta_cos, K->theta_sin};
-    for (int i = 0; i < 8; i++) rg_mem_free(&mem, all[i]);
+    void *all[] = {K->r, K->theta, K->cos, K->sin, K->four, K->crease, K->theta_cos, K->theta_sin, K->still};
+    for (int i = 0; i < 9; i++) rg_mem_free(&mem, all[i]);
     memset(K, 0, sizeof *K);
 }
 
@@ -183,10 +186,24 @@ static double angle_at(const rg_constraint *K, int32_t k)
     return rg_loop_angle(A);
 }
 
+void rg_constraint_set_still(rg_constraint *K)
+{
+    K->stills = 0;
+    for (int32_t i = 0; i < K->C.N; i++) K->stills += K->still[i] != 0;
+}
+
+void rg_constraint_forget_still(rg_constraint *K)
+{
+    for (int32_t j = 0; K->stills && j < K->C.start[K->C.M]; j++)
+        if (K->still[K->C.col[j]]) K->C.x[j] = (rg_vec3){0, 0, 0};
+}
+
 double rg_constraint_assemble(rg_constraint *K, const double *rho)
 {
     turn_creases(K, rho);
-    return angle_at(K, walk_all(K, 1));
+    const int32_t worst = walk_all(K, 1);
+    rg_constraint_forget_still(K);
+    return angle_at(K, worst);
 }
 
 double rg_constraint_closure(rg_constraint *K, const double *rho, int32_t *worst)

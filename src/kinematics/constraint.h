@@ -20,6 +20,8 @@ typedef struct rg_constraint {
     double *r;      /* [3M] eq. (12), per vertex in the order b, c, a, which is x, y, z of the axial vector */
     rg_turn *theta; /* per block of C: cosine and sine of the sector angle */
     double *cos, *sin; /* [N] of the fold angles given last */
+    unsigned char *still; /* [N] non-zero: this crease does not turn, its column of C is 0; the mesh's, or set by the owner */
+    int32_t stills;       /* how many */
     int32_t fours;
     rg_four *four;
     int32_t *crease;                /* by four: crease numbers, [at + i][4] */
@@ -29,6 +31,10 @@ typedef struct rg_constraint {
 rg_status rg_constraint_init(rg_constraint *K, const rg_memory *mem, const rg_mesh *m);
 void rg_constraint_free(rg_constraint *K);
 
+/* still[N] has changed. */
+void rg_constraint_set_still(rg_constraint *K);
+/* The columns of creases that are still become 0, as assembling makes them. */
+void rg_constraint_forget_still(rg_constraint *K);
 /* Other sector angles, theta[], radians, in the order of the mesh's loop_theta. */
 void rg_constraint_set_theta(rg_constraint *K, const double *theta);
 

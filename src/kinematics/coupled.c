@@ -218,7 +218,8 @@ void rg_coupled_renew(rg_coupled *J, const double *scale)
     for (int32_t k = 0; k < J->M; k++) {
         const int32_t first = m->loop_start[k], last = m->loop_start[k + 1], v = m->inner_vertex[k];
         for (int32_t j = first; j < last; j++) {
-            const double of = scale[m->loop_crease[j]];
+            const int32_t i = m->loop_crease[j];
+            const double of = m->still && m->still[m->crease_edge[i]] ? 0 : scale[i];
             double *x = J->A.x + J->at[j];
             x[0] = of * J->direction[j].x, x[1] = of * J->direction[j].y, x[2] = of * J->direction[j].z;
         }

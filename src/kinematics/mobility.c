@@ -29,7 +29,7 @@ rg_status rg_mobility(const rg_mesh *m, const rg_vec2 *X, const double *rho, int
         rg_scale_update(&S, &K.C);
         s = rg_qr_rank(&S.B, CUT, &rank);
     }
-    if (s == RG_OK) *ways = m->N - rank;
+    if (s == RG_OK) *ways = m->N - K.stills - rank;
     rg_scale_free(&S);
     rg_constraint_free(&K);
     return s;

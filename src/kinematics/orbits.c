@@ -223,7 +223,7 @@ void rg_orbits_renew(rg_orbits *O, const double *scale)
         if (kept && J->U) rg_coupled_alternate(J, k, &sum, J->sign);
         for (int32_t j = first; j < m->loop_start[k + 1]; j++) {
             const int32_t i = m->loop_crease[j];
-            const double of = O->part[i] * scale[O->G->crease_orbit[i]];
+            const double of = m->still && m->still[m->crease_edge[i]] ? 0 : O->part[i] * scale[O->G->crease_orbit[i]];
             double *x = O->A.x + O->at[j];
             x[0] += of * J->direction[j].x, x[1] += of * J->direction[j].y, x[2] += of * J->direction[j].z;
             if (!J->U) continue;

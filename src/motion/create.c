@@ -3,6 +3,7 @@
 #include "base/settings.h"
 #include "base/status.h"
 #include "motion/ending.h"
+#include "motion/fold.h"
 #include "motion/measure.h"
 #include "motion/motion.h"
 #include "motion/search.h"
@@ -139,4 +140,51 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *given, rg_pro
     r->seconds_total = rg_seconds() - begun;
     *motion = m;
     return RG_OK;
+}
+
+/* ------------------------------------------------------------------------------------------ flat, to be steered ---- */
+
+static rg_status lay_out(rg_motion *m, const rg_pattern *p, rg_diag *why)
+{
+    rg_report *r = &m->report;
+    const int cuts = m->settings.triangulate == RG_TRIANGULATE_ALL;
+    rg_mesh none = {0};
+    rg_status s = rg_motion_name(m, p);
+    if (s == RG_OK) s = rg_source_copy(&p->source, &m->mem, &m->source);
+    if (s == RG_OK) s = rg_mesh_from_pattern(p, &m->mem, &none, why);
+    if (s == RG_OK) s = cuts ? rg_triangulate_all(&none, &m->mesh) : rg_mesh_copy(&none, &m->mesh);
+    rg_mesh_free(&none);
+    if (s != RG_OK) return s;
+    const size_t N = (size_t)m->mesh.N;
+    m->target = rg_mem_array(&m->mem, N, sizeof *m->target);
+    m->from = rg_mem_array(&m->mem, N, sizeof *m->from);
+    m->rho = rg_mem_array(&m->mem, N, sizeof *m->rho);
+    m->frame = rg_mem_array(&m->mem, 1, sizeof *m->frame);
+    if (!m->target || !m->from || !m->rho || !m->frame) return RG_ENOMEM;
+    for (int32_t i = 0; i < m->mesh.N; i++) m->target[i] = i < m->mesh.N - m->mesh.added ? m->settings.to * m->mesh.target[m->mesh.crease_edge[i]] : NAN;
+    r->frame_count = 1;
+    r->frames = m->frame;
+    r->added_creases = m->mesh.added, r->unknowns = m->mesh.N, r->constraints = 3 * m->mesh.M;
+    r->triangulation = cuts ? "all" : "none";
+    r->why_triangulated = cuts ? "asked for" : "as drawn";
+    r->method = r->solver = r->rung = r->direction = r->layers = r->layer_orders = r->layers_reason = "";
+    r->outcome = RG_RUNNING;
+    s = rg_tree_init(&m->mesh, m->settings.fixed_facet, &m->tree);
+    if (s == RG_EARG && m->mesh.nf > 0)
+        rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)m->settings.fixed_facet, (int)m->mesh.nf - 1);
+    if (s == RG_OK) rg_motion_lend(m);
+    return s == RG_OK ? rg_measure_frames(m) : s;
+}
+
+rg_status rg_motion_unfolded(const rg_pattern *p, const rg_settings *settings, rg_motion **motion, rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(settings->memory);
+    rg_motion *m = rg_mem_array(&mem, 1, sizeof *m);
+    if (!m) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
+    m->mem = mem;
+    m->settings = *settings;
+    const rg_status s = lay_out(m, p, why);
+    if (s == RG_OK) *motion = m;
+    else rg_motion_destroy(m);
+    return s == RG_ENOMEM ? rg_fail(s, why, 0, "out of memory") : s;
 }

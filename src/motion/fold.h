@@ -1,11 +1,12 @@
 /* fold.h -- the handle behind rigami.h's rg_fold: a track of states, and the one that it stands on.
- * Uses  motion.h        Used by  stepping.c
+ * Uses  motion.h between.h steer.h        Used by  stepping.c steering.c keeping.c
  *
- * The track is the motion's frames until somebody steers; from then on it is a list of its own, of which the last leg grows step by
- * step. Motions never change, so clones and snapshots share one. */
+ * The track is the motion's frames until somebody steers. Then the states that were passed are kept in a list of its own, whose last leg
+ * grows step by step. Motions never change, so clones and snapshots share one. */
 #ifndef RG_FOLD_H
 #define RG_FOLD_H
 
+#include "motion/between.h"
 #include "motion/motion.h"
 #include <stdatomic.h>
 
@@ -14,17 +15,68 @@ typedef struct rg_shared {
     atomic_int holders;
 } rg_shared;
 
+typedef struct rg_track {
+    int32_t count, room;
+    double *rho;      /* [room][N] */
+    rg_vec2 *flat;    /* [room][nv] */
+    double *progress; /* [room] within its leg, 0 ... 1 */
+    double *closure;  /* [room] */
+} rg_track;
+
+/* How the last leg of a track ended. */
+typedef struct rg_ending {
+    rg_outcome outcome; /* RG_RUNNING: there is more to come */
+    const char *reason;
+    int32_t *vertex, *crease, vertices, creases; /* [M] [N] what holds it */
+} rg_ending;
+
 struct rg_fold {
     rg_memory mem;
     rg_settings settings;
     rg_shared *shared;
-    int32_t at;        /* the last state of the track that it has passed */
-    int between;       /* non-zero: it is beyond that one, before the next */
-    double *rho;       /* [N] the present state */
-    rg_vec2 *flat;     /* [nv] its pattern */
-    rg_place *place;   /* [nf] */
-    rg_vec3 *x;        /* [nv] */
+    int steered;        /* zero: the track is the motion's */
+    rg_track track;
+    rg_ending ending;
+    int32_t first;      /* state that the last leg begins with */
+    int32_t at;         /* the last state that it has passed */
+    int between;        /* non-zero: it is beyond that one, before the next */
+    rg_steer *steer;    /* NULL: nobody has steered */
+    int aimed;          /* non-zero: roles have changed, a leg begins with the next step */
+    rg_between *way[2]; /* on one pattern, with the pattern; NULL: not made yet */
+    double *rho;        /* [N] the present state */
+    rg_vec2 *flat;      /* [nv] its pattern */
+    rg_place *place;    /* [nf] */
+    rg_vec3 *x;         /* [nv] */
+    double *theta;      /* [corners] scratch */
+    double closure, progress;
+    int64_t solves, iterations; /* of the engines, before the present call */
     rg_step_info info;
 };
+
+/* The last holder's going destroys the motion. NULL is fine. */
+void rg_shared_let_go(const rg_memory *mem, rg_shared *s);
+const rg_mesh *rg_fold_mesh(const rg_fold *f);
+/* State k of the track. */
+int32_t rg_fold_states(const rg_fold *f);
+const double *rg_fold_state(const rg_fold *f, int32_t k);
+const rg_vec2 *rg_fold_pattern(const rg_fold *f, int32_t k);
+double rg_fold_progress(const rg_fold *f, int32_t k);
+/* A handle on a motion, which it takes over, or shares with others; at its first frame. RG_ENOMEM. */
+rg_status rg_fold_on(rg_shared *shared, const rg_memory *mem, const rg_settings *s, rg_fold **fold);
+/* The present state becomes state k of the track; or what is in f->rho and f->flat. */
+const rg_step_info *rg_fold_stand(rg_fold *f, int32_t k);
+const rg_step_info *rg_fold_look(rg_fold *f);
+/* Is there more to come of the last leg? Then one state more of it, at the end of the track. */
+int rg_fold_has_more(const rg_fold *f);
+void rg_fold_advance(rg_fold *f);
+/* Room for a track of so many states, which is a list of its own from now on. RG_ENOMEM. */
+rg_status rg_fold_own_track(rg_fold *f, int32_t states);
+/* The engine to steer by. RG_ENOMEM. */
+rg_status rg_fold_make_steer(rg_fold *f);
+/* Sector angles of the present pattern, in f->theta. */
+const double *rg_fold_theta(rg_fold *f);
+
+/* Flat paper and nothing else, to be steered: facets as drawn, or all cut. */
+rg_status rg_motion_unfolded(const rg_pattern *p, const rg_settings *s, rg_motion **motion, rg_diag *why);
 
 #endif

@@ -5,10 +5,18 @@ static const double UNDRIVEN = 2;
 /* Halvings of the way between two nodes. */
 static const int32_t HALVINGS = 40;
 
+/* It is to follow the others, or is held: nothing pulls it to flat. */
+static int is_free(const rg_mesh *m, int32_t i)
+{
+    const int32_t e = m->crease_edge[i];
+    const char a = m->assignment[e];
+    return isnan(m->target[e]) && (a == RG_MOUNTAIN || a == RG_VALLEY || (m->still && m->still[e]));
+}
+
 int rg_rest_is_open(const rg_mesh *m)
 {
     for (int32_t i = 0; i < m->N - m->added; i++)
-        if (isnan(m->target[m->crease_edge[i]])) return 1;
+        if (isnan(m->target[m->crease_edge[i]]) && !is_free(m, i)) return 1;
     return 0;
 }
 
@@ -20,7 +28,8 @@ static double slope(const rg_straight *f, const double *rho, const double *t)
     for (int32_t i = 0; i < m->N; i++) {
         const int32_t *e = m->edge[m->crease_edge[i]];
         const double l = rg_vec2_length(rg_vec2_sub(m->X[e[1]], m->X[e[0]]));
-        sum += rg_drive_is_driven(&f->drive, i) ? l * (rho[i] - f->drive.target[i]) * t[i] : UNDRIVEN * l * rho[i] * t[i];
+        if (rg_drive_is_driven(&f->drive, i)) sum += l * (rho[i] - f->drive.target[i]) * t[i];
+        else if (!is_free(m, i)) sum += UNDRIVEN * l * rho[i] * t[i];
     }
     return sum;
 }

@@ -375,7 +375,7 @@ static rg_status find_groups(ladder *l)
     rg_status status = rg_symmetry_find(&whole, &mem, l->problem->drawn);
     if (status != RG_OK) return status;
     int32_t n = rg_symmetry_subgroups(&whole, list, MOST_GROUPS);
-    const int none = s->symmetry == RG_SYMMETRY_OFF || l->problem->from || l->problem->to;
+    const int none = s->symmetry == RG_SYMMETRY_OFF || l->problem->from || l->problem->to || l->problem->drawn->still;
     if (none) n = 1;
     if (none || list[n - 1].order > 1) list[n - 1] = (rg_subgroup){whole.turns, -1, 1};
     for (int32_t k = 0; status == RG_OK && k < n; k++) {

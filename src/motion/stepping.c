@@ -1,16 +1,41 @@
 /* stepping.c -- a motion state by state, for callers that own the loop: rigami.h, rg_fold.
  *
  * The search happens in create: what folds a pattern is known only when it has come to its end. A step then goes to the next frame of
- * the motion that was found, which is the one that rg_motion_create finds, to the bit. */
+ * the motion that was found, which is the one that rg_motion_create finds, to the bit; or, where somebody has steered, one state further. */
 #include "base/settings.h"
 #include "base/status.h"
 #include "motion/fold.h"
 
 #include <string.h>
 
+/* Progress between two states is met to this. */
+static const double SAME_PLACE = 1e-13;
+static const int32_t SECANTS = 40;
+
+/* --------------------------------------------------------------------------------------------- the track ---- */
+
+const rg_mesh *rg_fold_mesh(const rg_fold *f) { return &f->shared->motion->mesh; }
+
+int32_t rg_fold_states(const rg_fold *f) { return f->steered ? f->track.count : f->shared->motion->report.frame_count; }
+
+const double *rg_fold_state(const rg_fold *f, int32_t k)
+{
+    return f->steered ? f->track.rho + (size_t)k * (size_t)rg_fold_mesh(f)->N : rg_motion_angles(f->shared->motion, k);
+}
+
+const rg_vec2 *rg_fold_pattern(const rg_fold *f, int32_t k)
+{
+    return f->steered ? f->track.flat + (size_t)k * (size_t)rg_fold_mesh(f)->nv : rg_motion_pattern(f->shared->motion, k);
+}
+
+double rg_fold_progress(const rg_fold *f, int32_t k)
+{
+    return f->steered ? f->track.progress[k] : f->shared->motion->frame[k].percent / 100;
+}
+
 /* ------------------------------------------------------------------------------------------- making one ---- */
 
-static void let_go(const rg_memory *mem, rg_shared *s)
+void rg_shared_let_go(const rg_memory *mem, rg_shared *s)
 {
     if (!s || atomic_fetch_sub(&s->holders, 1) > 1) return;
     rg_motion_destroy(s->motion);
@@ -21,65 +46,138 @@ void rg_fold_destroy(rg_fold *f)
 {
     if (!f) return;
     const rg_memory mem = f->mem;
-    void *block[] = {f->rho, f->flat, f->place, f->x};
-    for (int i = 0; i < 4; i++) rg_mem_free(&mem, block[i]);
-    let_go(&mem, f->shared);
+    if (f->steer) rg_steer_free(f->steer);
+    for (int i = 0; i < 2; i++)
+        if (f->way[i]) rg_between_free(f->way[i]);
+    void *block[] = {f->rho, f->flat, f->place, f->x, f->theta, f->track.rho, f->track.flat, f->track.progress, f->track.closure,
+                     f->ending.vertex, f->ending.crease, f->steer, f->way[0], f->way[1]};
+    for (int i = 0; i < 14; i++) rg_mem_free(&mem, block[i]);
+    rg_shared_let_go(&mem, f->shared);
     rg_mem_free(&mem, f);
 }
 
-static rg_status make_room(rg_fold *f)
+rg_status rg_fold_on(rg_shared *shared, const rg_memory *mem, const rg_settings *s, rg_fold **fold)
 {
-    const rg_mesh *m = &f->shared->motion->mesh;
-    f->rho = rg_mem_array(&f->mem, (size_t)m->N, sizeof *f->rho);
-    f->flat = rg_mem_array(&f->mem, (size_t)m->nv, sizeof *f->flat);
-    f->place = rg_mem_array(&f->mem, (size_t)m->nf, sizeof *f->place);
-    f->x = rg_mem_array(&f->mem, (size_t)m->nv, sizeof *f->x);
-    return f->rho && f->flat && f->place && f->x ? RG_OK : RG_ENOMEM;
+    rg_fold *f = rg_mem_array(mem, 1, sizeof *f);
+    if (!f) return RG_ENOMEM;
+    const rg_mesh *m = &shared->motion->mesh;
+    f->mem = *mem;
+    f->settings = *s;
+    f->rho = rg_mem_array(mem, (size_t)m->N, sizeof *f->rho);
+    f->flat = rg_mem_array(mem, (size_t)m->nv, sizeof *f->flat);
+    f->place = rg_mem_array(mem, (size_t)m->nf, sizeof *f->place);
+    f->x = rg_mem_array(mem, (size_t)m->nv, sizeof *f->x);
+    f->theta = rg_mem_array(mem, (size_t)m->loop_start[m->M], sizeof *f->theta);
+    f->ending.vertex = rg_mem_array(mem, (size_t)m->M, sizeof *f->ending.vertex);
+    f->ending.crease = rg_mem_array(mem, (size_t)m->N, sizeof *f->ending.crease);
+    if (!f->rho || !f->flat || !f->place || !f->x || !f->theta || !f->ending.vertex || !f->ending.crease) {
+        rg_fold_destroy(f);
+        return RG_ENOMEM;
+    }
+    f->shared = shared;
+    atomic_fetch_add(&shared->holders, 1);
+    rg_fold_stand(f, 0);
+    *fold = f;
+    return RG_OK;
 }
 
-/* The present state is that of the track. */
-static const rg_step_info *stand(rg_fold *f)
+/* Takes the motion over, also on failure. */
+static rg_status take_over(rg_motion *motion, const rg_memory *mem, const rg_settings *settings, rg_fold **fold)
 {
-    const rg_motion *m = f->shared->motion;
-    const rg_report *r = &m->report;
-    const int is_last = f->at == r->frame_count - 1;
-    memcpy(f->rho, rg_motion_angles(m, f->at), (size_t)m->mesh.N * sizeof *f->rho);
-    memcpy(f->flat, rg_motion_pattern(m, f->at), (size_t)m->mesh.nv * sizeof *f->flat);
-    rg_pose_facets(&m->mesh, f->flat, &m->tree, f->rho, f->place);
-    rg_pose_vertices(&m->mesh, f->flat, &m->tree, f->place, f->x);
-    f->info = (rg_step_info){.outcome = is_last ? r->outcome : RG_RUNNING, .progress = m->frame[f->at].percent / 100, .frame = f->at,
-                             .closure = m->frame[f->at].closure_residual, .frames = r->frame_count, .reason = is_last ? r->reason : ""};
-    if (is_last && r->outcome == RG_STOPPED) {
-        f->info.blocking_vertex_count = r->blocking_vertex_count, f->info.blocking_crease_count = r->blocking_crease_count;
-        f->info.blocking_vertices = r->blocking_vertices, f->info.blocking_creases = r->blocking_creases;
+    rg_shared *shared = rg_mem_array(mem, 1, sizeof *shared);
+    if (!shared) {
+        rg_motion_destroy(motion);
+        return RG_ENOMEM;
     }
-    return &f->info;
+    shared->motion = motion;
+    atomic_init(&shared->holders, 1);
+    const rg_status s = rg_fold_on(shared, mem, settings, fold);
+    rg_shared_let_go(mem, shared);
+    return s;
 }
 
 rg_status rg_fold_create(const rg_pattern *p, const rg_settings *given, rg_progress progress, void *ctx, rg_fold **fold, rg_diag *why)
 {
     rg_settings settings;
+    rg_motion *motion = NULL;
     rg_status s = rg_settings_take(given, &settings, why);
+    if (s == RG_OK) s = rg_motion_create(p, &settings, progress, ctx, &motion, why);
     if (s != RG_OK) return s;
     const rg_memory mem = rg_mem_default(settings.memory);
-    rg_fold *f = rg_mem_array(&mem, 1, sizeof *f);
-    if (!f) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
-    f->mem = mem;
-    f->settings = settings;
-    f->shared = rg_mem_array(&mem, 1, sizeof *f->shared);
-    s = f->shared ? RG_OK : rg_fail(RG_ENOMEM, why, 0, "out of memory");
-    if (s == RG_OK) {
-        atomic_init(&f->shared->holders, 1);
-        s = rg_motion_create(p, &settings, progress, ctx, &f->shared->motion, why);
+    s = take_over(motion, &mem, &settings, fold);
+    return s == RG_OK ? s : rg_fail(s, why, 0, "%s", rg_status_text(s));
+}
+
+rg_status rg_fold_create_flat(const rg_pattern *p, const rg_settings *given, rg_fold **fold, rg_diag *why)
+{
+    rg_settings settings;
+    rg_motion *motion = NULL;
+    rg_fold *f = NULL;
+    rg_status s = rg_settings_take(given, &settings, why);
+    if (s == RG_OK) s = rg_motion_unfolded(p, &settings, &motion, why);
+    if (s != RG_OK) return s;
+    const rg_memory mem = rg_mem_default(settings.memory);
+    s = take_over(motion, &mem, &settings, &f);
+    if (s == RG_OK) s = rg_fold_make_steer(f);
+    if (s == RG_OK) s = rg_fold_own_track(f, settings.frames);
+    if (s != RG_OK) {
+        rg_fold_destroy(f);
+        return rg_fail(s, why, 0, "%s", rg_status_text(s));
     }
-    if (s == RG_OK) s = make_room(f);
-    if (s == RG_OK) {
-        stand(f);
-        *fold = f;
-        return RG_OK;
-    }
-    rg_fold_destroy(f);
-    return s == RG_ENOMEM ? rg_fail(s, why, 0, "out of memory") : s;
+    f->aimed = 1;
+    f->ending.outcome = RG_RUNNING;
+    f->ending.reason = "";
+    rg_fold_stand(f, 0);
+    *fold = f;
+    return RG_OK;
+}
+
+/* ----------------------------------------------------------------------------------------------- standing ---- */
+
+/* Linear solves of the engines so far, and their iterations. */
+static void count(const rg_fold *f, int64_t *solves, int64_t *iterations)
+{
+    *solves = *iterations = 0;
+    const rg_steer *const steer[] = {f->steer, f->way[0] ? &f->way[0]->steer : NULL};
+    for (int i = 0; i < 2; i++)
+        if (steer[i]) *solves += steer[i]->P.solves, *iterations += steer[i]->P.iterations;
+    if (f->way[1]) *solves += f->way[1]->J.A.solves, *iterations += f->way[1]->J.A.iterations;
+}
+
+const rg_step_info *rg_fold_look(rg_fold *f)
+{
+    const rg_motion *m = f->shared->motion;
+    const rg_report *r = &m->report;
+    const int is_last = !f->between && f->at == rg_fold_states(f) - 1 && !rg_fold_has_more(f);
+    int64_t solves, iterations;
+    count(f, &solves, &iterations);
+    rg_pose_facets(&m->mesh, f->flat, &m->tree, f->rho, f->place);
+    rg_pose_vertices(&m->mesh, f->flat, &m->tree, f->place, f->x);
+    f->info = (rg_step_info){.outcome = RG_RUNNING, .progress = f->progress, .frame = f->between ? -1 : f->at, .closure = f->closure,
+                             .frames = rg_fold_states(f), .reason = "", .solves = (int32_t)(solves - f->solves),
+                             .iterations = (int32_t)(iterations - f->iterations)};
+    f->solves = solves, f->iterations = iterations;
+    if (!is_last) return &f->info;
+    f->info.outcome = f->steered ? f->ending.outcome : r->outcome;
+    f->info.reason = f->steered ? f->ending.reason : r->reason;
+    if (f->info.outcome != RG_STOPPED) return &f->info;
+    f->info.blocking_vertex_count = f->steered ? f->ending.vertices : r->blocking_vertex_count;
+    f->info.blocking_crease_count = f->steered ? f->ending.creases : r->blocking_crease_count;
+    f->info.blocking_vertices = f->steered ? f->ending.vertex : r->blocking_vertices;
+    f->info.blocking_creases = f->steered ? f->ending.crease : r->blocking_creases;
+    return &f->info;
+}
+
+const rg_step_info *rg_fold_stand(rg_fold *f, int32_t k)
+{
+    const rg_mesh *m = rg_fold_mesh(f);
+    memcpy(f->rho, rg_fold_state(f, k), (size_t)m->N * sizeof *f->rho);
+    memcpy(f->flat, rg_fold_pattern(f, k), (size_t)m->nv * sizeof *f->flat);
+    f->at = k;
+    f->between = 0;
+    f->progress = rg_fold_progress(f, k);
+    f->closure = f->steered ? f->track.closure[k] : f->shared->motion->frame[k].closure_residual;
+    return rg_fold_look(f);
 }
 
 /* ------------------------------------------------------------------------------------------------ moving ---- */
@@ -88,14 +186,150 @@ const rg_step_info *rg_fold_get_info(const rg_fold *f) { return &f->info; }
 
 const rg_step_info *rg_fold_step(rg_fold *f)
 {
-    if (f->at < f->shared->motion->report.frame_count - 1) f->at++;
-    return stand(f);
+    if (f->at == rg_fold_states(f) - 1 && rg_fold_has_more(f)) rg_fold_advance(f);
+    return rg_fold_stand(f, f->at < rg_fold_states(f) - 1 ? f->at + 1 : f->at);
 }
 
 const rg_step_info *rg_fold_step_back(rg_fold *f)
 {
-    if (f->at > 0) f->at--;
-    return stand(f);
+    return rg_fold_stand(f, f->between ? f->at : f->at > 0 ? f->at - 1 : 0);
+}
+
+/* -------------------------------------------------------------------------------------- between two states ---- */
+
+/* How far a state is, within the last leg: the mean part of the ways of the creases that it is counted by. */
+static double progress_of(const rg_fold *f, const double *rho)
+{
+    const rg_motion *m = f->shared->motion;
+    const int32_t N = m->mesh.N;
+    const double *from = f->steered ? f->steer->from : m->from, *target = f->steered ? f->steer->target : m->target;
+    double sum = 0;
+    int32_t n = 0;
+    for (int32_t i = 0; i < N; i++) {
+        const double way = target[i] - from[i];
+        const int counts = !f->steered || f->steer->role[i] == (f->steer->driven ? RG_ROLE_DRIVEN : RG_ROLE_WISHES);
+        if (!counts || isnan(way) || way == 0) continue;
+        sum += fmin(1, (rho[i] - from[i]) / way);
+        n++;
+    }
+    return n ? sum / n : 1;
+}
+
+static rg_status make_way(rg_fold *f, int moves)
+{
+    if (f->way[moves]) return RG_OK;
+    rg_between *b = rg_mem_array(&f->mem, 1, sizeof *b);
+    if (!b) return RG_ENOMEM;
+    const rg_status s = rg_between_init(b, &f->mem, rg_fold_mesh(f), moves, &f->settings);
+    if (s == RG_OK) f->way[moves] = b;
+    else {
+        rg_between_free(b);
+        rg_mem_free(&f->mem, b);
+    }
+    return s;
+}
+
+/* The engine for the states between k and k + 1; NULL: memory is short. */
+static rg_between *way_between(rg_fold *f, int32_t k)
+{
+    const int moves = memcmp(rg_fold_pattern(f, k), rg_fold_pattern(f, k + 1), (size_t)rg_fold_mesh(f)->nv * sizeof(rg_vec2)) != 0;
+    return make_way(f, moves) == RG_OK ? f->way[moves] : NULL;
+}
+
+static double at_part(rg_fold *f, rg_between *b, int32_t k, double part, int32_t c, double angle)
+{
+    return rg_between_at(b, rg_fold_state(f, k), rg_fold_pattern(f, k), rg_fold_state(f, k + 1), rg_fold_pattern(f, k + 1), part, c, angle);
+}
+
+/* What is in b becomes the present state; where it did not close, the nearer one of the track. */
+static void stand_between(rg_fold *f, const rg_between *b, int32_t k, double part, double closure)
+{
+    const rg_mesh *m = rg_fold_mesh(f);
+    if (isnan(closure)) {
+        rg_fold_stand(f, part < 0.5 ? k : k + 1);
+        return;
+    }
+    memcpy(f->rho, b->z, (size_t)m->N * sizeof *f->rho);
+    memcpy(f->flat, b->flat, (size_t)m->nv * sizeof *f->flat);
+    f->at = k;
+    f->between = 1;
+    f->closure = closure;
+    f->progress = progress_of(f, f->rho);
+    rg_fold_look(f);
+}
+
+/* Between states k and k + 1, at that progress: the crease that turns most leads. */
+static rg_status find_progress(rg_fold *f, int32_t k, double goal)
+{
+    const double *a = rg_fold_state(f, k), *b = rg_fold_state(f, k + 1);
+    double low = 0, high = 1, at_low = rg_fold_progress(f, k), at_high = rg_fold_progress(f, k + 1), part = 0, closure = NAN;
+    int32_t c = 0;
+    rg_between *way = way_between(f, k);
+    if (!way) return RG_ENOMEM;
+    for (int32_t i = 1; i < rg_fold_mesh(f)->N; i++)
+        if (fabs(b[i] - a[i]) > fabs(b[c] - a[c])) c = i;
+    for (int32_t n = 0; n < SECANTS; n++) {
+        part = low + (high - low) * (goal - at_low) / (at_high - at_low);
+        if (n % 4 == 3) part = (low + high) / 2; /* where the secant creeps */
+        closure = at_part(f, way, k, part, c, a[c] + part * (b[c] - a[c]));
+        const double s = isnan(closure) ? NAN : progress_of(f, way->z);
+        if (!(fabs(s - goal) > SAME_PLACE)) break;
+        if (s < goal) low = part, at_low = s;
+        else high = part, at_high = s;
+    }
+    stand_between(f, way, k, part, closure);
+    return RG_OK;
+}
+
+rg_status rg_fold_go_to(rg_fold *f, double percent)
+{
+    const double goal = percent / 100;
+    if (!(goal >= 0 && goal <= 1)) return RG_EARG;
+    if (f->aimed) rg_fold_advance(f);
+    for (int32_t k = f->first;; k++) {
+        if (rg_fold_progress(f, k) == goal) {
+            rg_fold_stand(f, k);
+            return RG_OK;
+        }
+        if (k == rg_fold_states(f) - 1 && rg_fold_has_more(f)) rg_fold_advance(f);
+        if (k == rg_fold_states(f) - 1) break;
+        if ((rg_fold_progress(f, k) - goal) * (rg_fold_progress(f, k + 1) - goal) < 0) return find_progress(f, k, goal);
+    }
+    rg_fold_stand(f, goal <= rg_fold_progress(f, f->first) ? f->first : rg_fold_states(f) - 1);
+    return RG_OK;
+}
+
+/* Does crease c pass that angle from state k to the next? */
+static int passes(const rg_fold *f, int32_t k, int32_t c, double angle)
+{
+    const double a = rg_fold_state(f, k)[c], b = rg_fold_state(f, k + 1)[c];
+    return (a - angle) * (b - angle) <= 0 && a != b;
+}
+
+static rg_status stand_at_angle(rg_fold *f, int32_t k, int32_t c, double angle)
+{
+    const double a = rg_fold_state(f, k)[c], b = rg_fold_state(f, k + 1)[c], part = (angle - a) / (b - a);
+    if (angle == a || angle == b) {
+        rg_fold_stand(f, angle == a ? k : k + 1);
+        return RG_OK;
+    }
+    rg_between *way = way_between(f, k);
+    if (!way) return RG_ENOMEM;
+    stand_between(f, way, k, part, at_part(f, way, k, part, c, angle));
+    return RG_OK;
+}
+
+rg_status rg_fold_go_to_angle(rg_fold *f, int32_t c, double angle)
+{
+    if (c < 0 || c >= rg_fold_mesh(f)->N || !isfinite(angle)) return RG_EARG;
+    for (int32_t k = f->at;; k++) {
+        if (k == rg_fold_states(f) - 1 && rg_fold_has_more(f)) rg_fold_advance(f);
+        if (k == rg_fold_states(f) - 1) break;
+        if (passes(f, k, c, angle)) return stand_at_angle(f, k, c, angle);
+    }
+    for (int32_t k = f->at - 1; k >= 0; k--)
+        if (passes(f, k, c, angle)) return stand_at_angle(f, k, c, angle);
+    return RG_EARG;
 }
 
 /* ------------------------------------------------------------------------------------- the present state ---- */
@@ -104,24 +338,24 @@ const rg_motion *rg_fold_motion(const rg_fold *f) { return f->shared->motion; }
 
 const double *rg_fold_angles(const rg_fold *f, int32_t *creases)
 {
-    if (creases) *creases = f->shared->motion->mesh.N;
+    if (creases) *creases = rg_fold_mesh(f)->N;
     return f->rho;
 }
 
 const double (*rg_fold_positions(const rg_fold *f, int32_t *vertices))[3]
 {
-    if (vertices) *vertices = f->shared->motion->mesh.nv;
+    if (vertices) *vertices = rg_fold_mesh(f)->nv;
     return (const double(*)[3])f->x;
 }
 
 const double (*rg_fold_flat(const rg_fold *f, int32_t *vertices))[2]
 {
-    if (vertices) *vertices = f->shared->motion->mesh.nv;
+    if (vertices) *vertices = rg_fold_mesh(f)->nv;
     return (const double(*)[2])f->flat;
 }
 
 const rg_transform *rg_fold_transforms(const rg_fold *f, int32_t *facets)
 {
-    if (facets) *facets = f->shared->motion->mesh.nf;
+    if (facets) *facets = rg_fold_mesh(f)->nf;
     return (const rg_transform *)(const void *)f->place;
 }

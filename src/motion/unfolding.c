@@ -128,6 +128,7 @@ rg_status rg_unfolding_try(rg_search *c, const rg_mesh *none, const rg_settings 
     int32_t crossing = -1;
     if (s->contact != RG_CONTACT_AVOID || s->effort == RG_EFFORT_FAST || s->to == 0 || watch->cancelled) return RG_OK;
     if (s->adjust == 0 || s->triangulate == RG_TRIANGULATE_NONE) return RG_OK; /* it bends facets and moves the pattern */
+    if (none->still) return RG_OK; /* its end is no flat one */
     const int stopped = c->best.outcome == RG_STOPPED;
     rg_status status = stopped ? RG_OK : path_crosses(&c->best, s, &crossing);
     if (status == RG_OK && (stopped || crossing >= 0)) status = unfold(c, none, s, watch, why);

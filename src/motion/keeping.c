@@ -1,0 +1,285 @@
+/* keeping.c -- states of a fold to come back to, folds like it, and tracks made motions: rigami.h, rg_fold_snapshot and others. */
+#include "base/clock.h"
+#include "base/settings.h"
+#include "base/status.h"
+#include "motion/ending.h"
+#include "motion/fold.h"
+#include "motion/measure.h"
+#include "pattern/source.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* -------------------------------------------------------------------------------------------------- copies ---- */
+
+/* All of a fold but its engines and its motion. */
+struct rg_snapshot {
+    rg_memory mem;
+    rg_shared *of;       /* held, so that no other one can take its place */
+    int steered, aimed, between;
+    int32_t first, at, vertices, creases, states;
+    rg_outcome outcome;
+    const char *reason;
+    double closure, progress;
+    double *rho;         /* [N] the present state */
+    rg_vec2 *flat;       /* [nv] */
+    int32_t *vertex, *crease;
+    double *track_rho, *track_progress, *track_closure; /* [states][N], [states] */
+    rg_vec2 *track_flat;
+    int steers;
+    rg_steer_kept leg;
+};
+
+void rg_snapshot_destroy(rg_snapshot *s)
+{
+    if (!s) return;
+    const rg_memory mem = s->mem;
+    void *block[] = {s->rho, s->flat, s->vertex, s->crease, s->track_rho, s->track_progress, s->track_closure, s->track_flat};
+    for (int i = 0; i < 8; i++) rg_mem_free(&mem, block[i]);
+    if (s->steers) rg_steer_kept_free(&s->leg, &mem);
+    rg_shared_let_go(&mem, s->of);
+    rg_mem_free(&mem, s);
+}
+
+static void *copied(const rg_memory *mem, const void *from, size_t n, size_t size, int *ok)
+{
+    void *to = rg_mem_array(mem, n, size);
+    if (!to) *ok = 0;
+    else if (n > 0) memcpy(to, from, n * size);
+    return to;
+}
+
+rg_status rg_fold_snapshot(const rg_fold *f, rg_snapshot **snapshot)
+{
+    const rg_mesh *m = rg_fold_mesh(f);
+    const size_t N = (size_t)m->N, nv = (size_t)m->nv, n = f->steered ? (size_t)f->track.count : 0;
+    int ok = 1;
+    rg_snapshot *s = rg_mem_array(&f->mem, 1, sizeof *s);
+    if (!s) return RG_ENOMEM;
+    *s = (rg_snapshot){.mem = f->mem, .of = f->shared, .steered = f->steered, .aimed = f->aimed, .between = f->between, .first = f->first,
+                       .at = f->at, .vertices = f->ending.vertices, .creases = f->ending.creases, .states = (int32_t)n,
+                       .outcome = f->ending.outcome, .reason = f->ending.reason, .closure = f->closure, .progress = f->progress};
+    atomic_fetch_add(&f->shared->holders, 1);
+    s->rho = copied(&f->mem, f->rho, N, sizeof *s->rho, &ok);
+    s->flat = copied(&f->mem, f->flat, nv, sizeof *s->flat, &ok);
+    s->vertex = copied(&f->mem, f->ending.vertex, (size_t)f->ending.vertices, sizeof *s->vertex, &ok);
+    s->crease = copied(&f->mem, f->ending.crease, (size_t)f->ending.creases, sizeof *s->crease, &ok);
+    s->track_rho = copied(&f->mem, f->track.rho, n * N, sizeof *s->track_rho, &ok);
+    s->track_flat = copied(&f->mem, f->track.flat, n * nv, sizeof *s->track_flat, &ok);
+    s->track_progress = copied(&f->mem, f->track.progress, n, sizeof *s->track_progress, &ok);
+    s->track_closure = copied(&f->mem, f->track.closure, n, sizeof *s->track_closure, &ok);
+    if (ok && f->steer) {
+        ok = rg_steer_kept_init(&s->leg, &f->mem, m->N) == RG_OK;
+        s->steers = ok;
+        if (ok) rg_steer_keep(f->steer, &s->leg);
+    }
+    if (!ok) {
+        rg_snapshot_destroy(s);
+        return RG_ENOMEM;
+    }
+    *snapshot = s;
+    return RG_OK;
+}
+
+rg_status rg_fold_restore(rg_fold *f, const rg_snapshot *s)
+{
+    const rg_mesh *m = rg_fold_mesh(f);
+    const size_t N = (size_t)m->N, nv = (size_t)m->nv, n = (size_t)s->states;
+    if (s->of != f->shared) return RG_EARG;
+    rg_status status = s->steers ? rg_fold_make_steer(f) : RG_OK;
+    if (status == RG_OK && s->steered) status = rg_fold_own_track(f, s->states + f->settings.frames);
+    if (status != RG_OK) return status;
+    f->steered = s->steered, f->aimed = s->aimed, f->between = s->between, f->first = s->first, f->at = s->at;
+    f->closure = s->closure, f->progress = s->progress;
+    f->ending.outcome = s->outcome, f->ending.reason = s->reason, f->ending.vertices = s->vertices, f->ending.creases = s->creases;
+    memcpy(f->rho, s->rho, N * sizeof *s->rho);
+    memcpy(f->flat, s->flat, nv * sizeof *s->flat);
+    memcpy(f->ending.vertex, s->vertex, (size_t)s->vertices * sizeof *s->vertex);
+    memcpy(f->ending.crease, s->crease, (size_t)s->creases * sizeof *s->crease);
+    f->track.count = s->states;
+    if (n > 0) {
+        memcpy(f->track.rho, s->track_rho, n * N * sizeof *s->track_rho);
+        memcpy(f->track.flat, s->track_flat, n * nv * sizeof *s->track_flat);
+        memcpy(f->track.progress, s->track_progress, n * sizeof *s->track_progress);
+        memcpy(f->track.closure, s->track_closure, n * sizeof *s->track_closure);
+    }
+    if (s->steers) {
+        const rg_vec2 *X = s->steered ? rg_fold_pattern(f, f->first) : m->X; /* the leg's */
+        rg_mesh_sectors(m, X, f->theta);
+        rg_steer_return(f->steer, f->theta, &s->leg);
+    }
+    rg_fold_look(f);
+    return RG_OK;
+}
+
+rg_status rg_fold_clone(const rg_fold *f, rg_fold **clone)
+{
+    rg_snapshot *s = NULL;
+    rg_fold *g = NULL;
+    rg_status status = rg_fold_snapshot(f, &s);
+    if (status == RG_OK) status = rg_fold_on(f->shared, &f->mem, &f->settings, &g);
+    if (status == RG_OK) status = rg_fold_restore(g, s);
+    rg_snapshot_destroy(s);
+    if (status == RG_OK) *clone = g;
+    else rg_fold_destroy(g);
+    return status;
+}
+
+/* --------------------------------------------------------------------------------------------- a motion of it ---- */
+
+/* What its creases aim at, and from where. */
+static void set_aims(rg_motion *m, const rg_fold *f)
+{
+    const rg_motion *old = f->shared->motion;
+    for (int32_t i = 0; i < m->mesh.N; i++) {
+        m->from[i] = f->steered ? f->steer->from[i] : old->from[i];
+        m->target[i] = old->target[i];
+        if (!f->steered) continue;
+        const int counts = f->steer->role[i] == RG_ROLE_WISHES || f->steer->role[i] == RG_ROLE_DRIVEN;
+        m->target[i] = counts ? f->steer->target[i] : NAN;
+        m->mesh.target[m->mesh.crease_edge[i]] = m->target[i];
+    }
+}
+
+static void set_report(rg_motion *m, const rg_fold *f)
+{
+    rg_report *r = &m->report;
+    const rg_report *old = &f->shared->motion->report;
+    const int ended = f->steered && f->ending.outcome != RG_RUNNING;
+    r->added_creases = m->mesh.added, r->unknowns = m->mesh.N, r->constraints = 3 * m->mesh.M;
+    r->triangulation = old->triangulation, r->why_triangulated = old->why_triangulated;
+    r->method = f->steered ? "steered" : old->method;
+    r->solver = f->steered ? f->steer->P.solver == RG_SOLVER_CG ? "cg" : f->steer->P.solver == RG_SOLVER_SVD ? "svd" : "cholesky" : old->solver;
+    r->rung = f->steered ? "steered" : old->rung, r->direction = f->steered ? "forward" : old->direction;
+    snprintf(r->strategy, sizeof r->strategy, "%s", f->steered ? "driven creases, and least motion of the others" : old->strategy);
+    r->outcome = f->steered ? f->ending.outcome : old->outcome;
+    snprintf(r->reason, sizeof r->reason, "%s", f->steered ? ended ? f->ending.reason : "as far as it was taken" : old->reason);
+    if (f->steered) r->steps = f->steer->steps, r->solves = f->steer->P.solves, r->cg_iterations = f->steer->P.iterations, r->factorizations = f->steer->P.factorizations;
+    r->tries = f->steered ? 1 : old->tries;
+    r->blocking_vertex_count = f->steered ? f->ending.outcome == RG_STOPPED ? f->ending.vertices : 0 : old->blocking_vertex_count;
+    r->blocking_crease_count = f->steered ? f->ending.outcome == RG_STOPPED ? f->ending.creases : 0 : old->blocking_crease_count;
+    memcpy(m->blocking_vertex, f->steered ? f->ending.vertex : old->blocking_vertices, (size_t)r->blocking_vertex_count * sizeof *m->blocking_vertex);
+    memcpy(m->blocking_crease, f->steered ? f->ending.crease : old->blocking_creases, (size_t)r->blocking_crease_count * sizeof *m->blocking_crease);
+    for (int32_t k = 0; k < r->blocking_vertex_count; k++) {
+        const rg_vec2 at = m->mesh.X[m->blocking_vertex[k]];
+        m->blocking_at[k][0] = at.x;
+        m->blocking_at[k][1] = m->source.y_down ? 0 - at.y : at.y;
+    }
+    r->blocking_vertices = m->blocking_vertex, r->blocking_creases = m->blocking_crease;
+    r->blocking_at = (const double(*)[2])m->blocking_at;
+}
+
+static rg_status fill(rg_motion *m, const rg_fold *f)
+{
+    const rg_motion *old = f->shared->motion;
+    const size_t N = (size_t)m->mesh.N, nv = (size_t)m->mesh.nv, n = (size_t)rg_fold_states(f);
+    int moved = 0;
+    for (size_t k = 0; k < n; k++) moved |= memcmp(rg_fold_pattern(f, (int32_t)k), m->mesh.X, nv * sizeof(rg_vec2)) != 0;
+    m->info = old->info;
+    m->info.title = m->title = rg_mem_string(&m->mem, old->info.title);
+    m->info.author = m->author = rg_mem_string(&m->mem, old->info.author);
+    m->report.pattern = &m->info;
+    m->report.frame_count = (int32_t)n;
+    m->target = rg_mem_array(&m->mem, N, sizeof *m->target);
+    m->from = rg_mem_array(&m->mem, N, sizeof *m->from);
+    m->rho = rg_mem_array(&m->mem, n * N, sizeof *m->rho);
+    m->flat = moved ? rg_mem_array(&m->mem, n * nv, sizeof *m->flat) : NULL;
+    m->frame = rg_mem_array(&m->mem, n, sizeof *m->frame);
+    m->blocking_vertex = rg_mem_array(&m->mem, (size_t)m->mesh.M, sizeof *m->blocking_vertex);
+    m->blocking_crease = rg_mem_array(&m->mem, N, sizeof *m->blocking_crease);
+    m->blocking_at = rg_mem_array(&m->mem, (size_t)m->mesh.M, sizeof *m->blocking_at);
+    if (!m->title || !m->author || !m->target || !m->from || !m->rho || (moved && !m->flat) || !m->frame || !m->blocking_vertex ||
+        !m->blocking_crease || !m->blocking_at)
+        return RG_ENOMEM;
+    m->report.frames = m->frame;
+    for (size_t k = 0; k < n; k++) {
+        memcpy(m->rho + k * N, rg_fold_state(f, (int32_t)k), N * sizeof *m->rho);
+        if (moved) memcpy(m->flat + k * nv, rg_fold_pattern(f, (int32_t)k), nv * sizeof *m->flat);
+    }
+    set_aims(m, f);
+    set_report(m, f);
+    return RG_OK;
+}
+
+rg_status rg_fold_record(const rg_fold *f, rg_motion **motion, rg_diag *why)
+{
+    const double begun = rg_seconds();
+    rg_motion *m = rg_mem_array(&f->mem, 1, sizeof *m);
+    if (!m) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
+    m->mem = f->mem;
+    m->settings = f->settings;
+    rg_status s = rg_mesh_copy(rg_fold_mesh(f), &m->mesh);
+    if (s == RG_OK) s = rg_source_copy(&f->shared->motion->source, &m->mem, &m->source);
+    if (s == RG_OK) s = fill(m, f);
+    if (s == RG_OK) s = rg_tree_init(&m->mesh, f->settings.fixed_facet, &m->tree);
+    if (s == RG_OK) rg_motion_lend(m);
+    if (s == RG_OK) s = rg_measure_frames(m);
+    if (s == RG_OK) s = rg_ending_find(m, why);
+    if (s != RG_OK) {
+        rg_motion_destroy(m);
+        return rg_fail(s, why, 0, "%s", rg_status_text(s));
+    }
+    m->report.seconds_total = rg_seconds() - begun;
+    *motion = m;
+    return RG_OK;
+}
+
+/* ---------------------------------------------------------------------------------------------- driven at once ---- */
+
+/* One try, on facets as drawn or cut. */
+static rg_status drive(const rg_pattern *p, int32_t count, const rg_driven *driven, const rg_settings *s, rg_progress progress, void *ctx,
+                       rg_motion **motion, rg_diag *why)
+{
+    rg_fold *f = NULL;
+    int32_t n = 0;
+    rg_status status = rg_fold_create_flat(p, s, &f, why);
+    if (status != RG_OK) return status;
+    int32_t *crease = rg_mem_array(&f->mem, (size_t)count, sizeof *crease);
+    double *angle = rg_mem_array(&f->mem, (size_t)count, sizeof *angle);
+    if (!crease || !angle) status = rg_fail(RG_ENOMEM, why, 0, "out of memory");
+    for (; status == RG_OK && n < count; n++) {
+        const int32_t e = driven[n].edge;
+        crease[n] = e >= 0 && e < p->ne ? rg_fold_mesh(f)->edge_crease[e] : -1;
+        angle[n] = driven[n].radians;
+        if (crease[n] < 0) status = rg_fail(RG_EARG, why, 0, "edge %d is no crease", (int)e);
+        else if (!(fabs(angle[n]) <= RG_PI)) status = rg_fail(RG_EARG, why, 0, "an angle of %g is not within -pi and pi", angle[n]);
+    }
+    if (status == RG_OK && (status = rg_fold_drive(f, n, crease, angle)) != RG_OK) rg_fail(status, why, 0, "%s", rg_status_text(status));
+    while (status == RG_OK && rg_fold_step(f)->outcome == RG_RUNNING)
+        if (progress && progress(ctx, f->progress)) break;
+    if (status == RG_OK) status = rg_fold_record(f, motion, why);
+    if (crease) rg_mem_free(&f->mem, crease);
+    if (angle) rg_mem_free(&f->mem, angle);
+    rg_fold_destroy(f);
+    return status;
+}
+
+static int is_better(const rg_motion *a, const rg_motion *b)
+{
+    return a->report.outcome == RG_FOLDED || a->report.folded_percent > b->report.folded_percent;
+}
+
+rg_status rg_motion_create_driven(const rg_pattern *p, int32_t count, const rg_driven *driven, const rg_settings *given,
+                                  rg_progress progress, void *ctx, rg_motion **motion, rg_diag *why)
+{
+    rg_settings s;
+    rg_motion *m = NULL, *cut = NULL;
+    rg_status status = rg_settings_take(given, &s, why);
+    if (status == RG_OK && count < 1) status = rg_fail(RG_EARG, why, 0, "nothing is driven");
+    if (status == RG_OK) status = drive(p, count, driven, &s, progress, ctx, &m, why);
+    if (status == RG_OK && m->report.outcome == RG_STOPPED && s.triangulate == RG_TRIANGULATE_AUTO) {
+        s.triangulate = RG_TRIANGULATE_ALL;
+        status = drive(p, count, driven, &s, progress, ctx, &cut, why);
+        if (status == RG_OK && is_better(cut, m)) {
+            rg_motion *t = m;
+            m = cut;
+            cut = t;
+            m->report.tries = 2;
+            m->report.why_triangulated = "stops short without added creases";
+        }
+        rg_motion_destroy(cut);
+    }
+    if (status == RG_OK) *motion = m;
+    else rg_motion_destroy(m);
+    return status;
+}

@@ -1,0 +1,191 @@
+/* steering.c -- new aims on the way: rigami.h, rg_fold_drive and others.
+ *
+ * A leg begins where the fold stands, with the step after something was set, and goes on the pattern that the state has. What was passed
+ * before stays in the track. All room is made when something is set: a step asks for none. */
+#include "motion/fold.h"
+
+#include <string.h>
+
+/* ------------------------------------------------------------------------------------------------- room ---- */
+
+static rg_status grow(rg_fold *f, int32_t states)
+{
+    const size_t N = (size_t)rg_fold_mesh(f)->N, nv = (size_t)rg_fold_mesh(f)->nv, n = (size_t)states;
+    rg_track *t = &f->track, more = {.count = t->count, .room = states};
+    if (states <= t->room) return RG_OK;
+    more.rho = rg_mem_array(&f->mem, n * N, sizeof *more.rho);
+    more.flat = rg_mem_array(&f->mem, n * nv, sizeof *more.flat);
+    more.progress = rg_mem_array(&f->mem, n, sizeof *more.progress);
+    more.closure = rg_mem_array(&f->mem, n, sizeof *more.closure);
+    const int ok = more.rho && more.flat && more.progress && more.closure;
+    if (ok && t->count > 0) {
+        memcpy(more.rho, t->rho, (size_t)t->count * N * sizeof *more.rho);
+        memcpy(more.flat, t->flat, (size_t)t->count * nv * sizeof *more.flat);
+        memcpy(more.progress, t->progress, (size_t)t->count * sizeof *more.progress);
+        memcpy(more.closure, t->closure, (size_t)t->count * sizeof *more.closure);
+    }
+    rg_track *const gone = ok ? t : &more;
+    void *block[] = {gone->rho, gone->flat, gone->progress, gone->closure};
+    for (int i = 0; i < 4; i++) rg_mem_free(&f->mem, block[i]);
+    if (ok) *t = more;
+    return ok ? RG_OK : RG_ENOMEM;
+}
+
+static void append(rg_fold *f, const double *rho, const rg_vec2 *flat, double progress, double closure)
+{
+    const size_t N = (size_t)rg_fold_mesh(f)->N, nv = (size_t)rg_fold_mesh(f)->nv;
+    rg_track *t = &f->track;
+    memcpy(t->rho + (size_t)t->count * N, rho, N * sizeof *rho);
+    memcpy(t->flat + (size_t)t->count * nv, flat, nv * sizeof *flat);
+    t->progress[t->count] = progress;
+    t->closure[t->count++] = closure;
+}
+
+rg_status rg_fold_own_track(rg_fold *f, int32_t states)
+{
+    if (states > INT32_MAX - 2 - f->at) return RG_ENOMEM;
+    const rg_status s = grow(f, f->at + 2 + states);
+    if (s != RG_OK || f->steered) return s;
+    const rg_motion *m = f->shared->motion;
+    for (int32_t k = 0; k <= f->at; k++)
+        append(f, rg_motion_angles(m, k), rg_motion_pattern(m, k), m->frame[k].percent / 100, m->frame[k].closure_residual);
+    f->steered = 1;
+    f->ending.outcome = RG_RUNNING;
+    f->ending.reason = "";
+    return RG_OK;
+}
+
+/* Creases aim at what the motion aimed at. */
+static void set_roles(rg_fold *f)
+{
+    const rg_motion *m = f->shared->motion;
+    for (int32_t i = 0; i < m->mesh.N; i++) {
+        const int still = m->mesh.still && m->mesh.still[m->mesh.crease_edge[i]];
+        f->steer->role[i] = still ? RG_ROLE_STILL : isnan(m->target[i]) ? RG_ROLE_FREE : RG_ROLE_WISHES;
+        f->steer->target[i] = isnan(m->target[i]) ? 0 : m->target[i];
+    }
+}
+
+rg_status rg_fold_make_steer(rg_fold *f)
+{
+    if (f->steer) return RG_OK;
+    rg_steer *steer = rg_mem_array(&f->mem, 1, sizeof *steer);
+    if (!steer) return RG_ENOMEM;
+    const rg_status s = rg_steer_init(steer, &f->mem, rg_fold_mesh(f), &f->settings);
+    if (s == RG_OK) {
+        f->steer = steer;
+        set_roles(f);
+    } else {
+        rg_steer_free(steer);
+        rg_mem_free(&f->mem, steer);
+    }
+    return s;
+}
+
+/* ------------------------------------------------------------------------------------------------ a leg ---- */
+
+const double *rg_fold_theta(rg_fold *f)
+{
+    rg_mesh_sectors(rg_fold_mesh(f), f->flat, f->theta);
+    return f->theta;
+}
+
+int rg_fold_has_more(const rg_fold *f) { return f->steered && f->ending.outcome == RG_RUNNING; }
+
+/* From where the fold stands, which is the last state of the track then. */
+static void begin(rg_fold *f)
+{
+    f->track.count = f->at + 1;
+    if (f->between) append(f, f->rho, f->flat, 0, f->closure);
+    f->first = f->at = f->track.count - 1;
+    f->between = 0;
+    f->track.progress[f->first] = 0;
+    f->progress = 0;
+    rg_steer_begin(f->steer, rg_fold_theta(f), f->rho);
+    f->aimed = 0;
+}
+
+static void end(rg_fold *f)
+{
+    f->ending.outcome = f->steer->outcome;
+    f->ending.reason = f->steer->reason;
+    if (f->ending.outcome == RG_STOPPED)
+        rg_steer_blame(f->steer, f->ending.vertex, &f->ending.vertices, f->ending.crease, &f->ending.creases);
+}
+
+void rg_fold_advance(rg_fold *f)
+{
+    if (f->aimed) begin(f);
+    rg_steer *F = f->steer;
+    const int32_t last = f->settings.frames - 1, next = f->track.count - f->first;
+    const double before = f->track.progress[f->track.count - 1];
+    if (F->outcome == RG_RUNNING) rg_steer_to(F, next >= last ? 1 : (double)next / last);
+    const double s = F->outcome == RG_STOPPED ? F->s : next >= last ? 1 : (double)next / last;
+    if (F->outcome != RG_STOPPED ? next <= last : s > before) append(f, F->out, rg_fold_pattern(f, f->first), s, F->closure);
+    if (F->outcome != RG_RUNNING) end(f);
+}
+
+/* Room for what comes after the present state, before anything is changed. */
+static rg_status prepare(rg_fold *f)
+{
+    rg_status s = rg_fold_make_steer(f);
+    if (s == RG_OK) s = rg_fold_own_track(f, f->settings.frames);
+    return s;
+}
+
+/* The rest of the track no longer holds. */
+static rg_status aim(rg_fold *f)
+{
+    f->track.count = f->at + 1;
+    f->ending.outcome = RG_RUNNING;
+    f->ending.reason = "";
+    f->aimed = 1;
+    rg_fold_look(f);
+    return RG_OK;
+}
+
+static int is_angle(double x) { return fabs(x) <= RG_PI; }
+
+/* What was driven is nobody's any more. */
+static void end_driving(rg_steer *F)
+{
+    for (int32_t i = 0; i < F->K.C.N; i++)
+        if (F->role[i] == RG_ROLE_DRIVEN) F->role[i] = RG_ROLE_FREE;
+}
+
+rg_status rg_fold_drive(rg_fold *f, int32_t count, const int32_t *creases, const double *radians)
+{
+    const int32_t N = rg_fold_mesh(f)->N;
+    if (count < 1 || count > N) return RG_EARG;
+    for (int32_t k = 0; k < count; k++)
+        if (creases[k] < 0 || creases[k] >= N || !is_angle(radians[k])) return RG_EARG;
+    const rg_status s = prepare(f);
+    if (s != RG_OK) return s;
+    for (int32_t i = 0; i < N; i++)
+        if (f->steer->role[i] != RG_ROLE_STILL) f->steer->role[i] = RG_ROLE_FREE;
+    for (int32_t k = 0; k < count; k++) {
+        f->steer->role[creases[k]] = RG_ROLE_DRIVEN;
+        f->steer->target[creases[k]] = radians[k];
+    }
+    return aim(f);
+}
+
+rg_status rg_fold_set_target(rg_fold *f, int32_t c, double radians)
+{
+    if (c < 0 || c >= rg_fold_mesh(f)->N || !(is_angle(radians) || radians == RG_FREE)) return RG_EARG;
+    const rg_status s = prepare(f);
+    if (s != RG_OK) return s;
+    end_driving(f->steer);
+    f->steer->role[c] = radians == RG_FREE ? RG_ROLE_FREE : RG_ROLE_WISHES;
+    f->steer->target[c] = radians == RG_FREE ? 0 : radians;
+    return aim(f);
+}
+
+rg_status rg_fold_pin(rg_fold *f, int32_t c)
+{
+    if (c < 0 || c >= rg_fold_mesh(f)->N) return RG_EARG;
+    const rg_status s = prepare(f);
+    if (s != RG_OK) return s;
+    f->steer->role[c] = RG_ROLE_STILL;
+    return aim(f);
+}
