@@ -1,4 +1,5 @@
 /* rigami fold -- folds a crease pattern, writes the motion, says how it went. */
+#include "aims.h"
 #include "commands.h"
 #include "input.h"
 #include "interrupt.h"
@@ -86,9 +87,23 @@ static int fold_states(const options *o, const states *q, progress *bar, rg_moti
         const rg_status same = rg_pattern_same_sheet(q->pattern[0], q->pattern[i], &why);
         if (same != RG_OK) return say_status(same, o->operand[q->operand[i]], &why);
     }
+    rg_driven *driven = calloc((size_t)o->aims + 1, sizeof *driven);
+    int32_t count = 0;
+    int aimed = driven ? ENDS_WELL : say_status(RG_ENOMEM, o->operand[0], &why);
+    for (int i = 0; i < q->count && aimed == ENDS_WELL; i++) aimed = aims_set(o, o->operand[q->operand[i]], q->pattern[i], driven, &count);
+    if (aimed == ENDS_WELL && count > 0 && q->count > 1) {
+        say("fold: --drive is for one pattern, not for a sequence of states");
+        aimed = ENDS_USAGE;
+    }
+    if (aimed != ENDS_WELL) {
+        free(driven);
+        return aimed;
+    }
     interrupt_hold();
-    rg_status s = rg_motion_create_states((const rg_pattern *const *)q->pattern, q->count, &o->settings, progress_show, bar, m, &why);
+    rg_status s = count > 0 ? rg_motion_create_driven(q->pattern[0], count, driven, &o->settings, progress_show, bar, m, &why)
+                            : rg_motion_create_states((const rg_pattern *const *)q->pattern, q->count, &o->settings, progress_show, bar, m, &why);
     progress_erase(bar);
+    free(driven);
     if (s == RG_OK) return ENDS_WELL;
     const int status = say_status(s, o->operand[0], &why);
     return s == RG_EABSENT ? ENDS_USAGE : status; /* a solver that this build lacks is an option that it lacks */

@@ -12,7 +12,7 @@
 #define DEG (3.14159265358979323846 / 180)
 
 /* How the value of an option is read, and where to. */
-typedef enum kind { SWITCH, WHOLE, REAL, ABOVE, CHOICE, TEXT, OUTPUT, KIND, FORM, PART, JOIN, FRAMES, SIZE, CAMERA, ADJUST, COLOURS, LINES } kind;
+typedef enum kind { SWITCH, WHOLE, REAL, ABOVE, CHOICE, TEXT, OUTPUT, KIND, FORM, PART, JOIN, FRAMES, SIZE, CAMERA, ADJUST, COLOURS, LINES, AIM } kind;
 
 typedef struct rule {
     int commands;            /* FOR_... */
@@ -86,6 +86,10 @@ static const rule rules[] = {
      "facets that pass through each other: look for a motion without, take the plain one and say, or do not look (avoid):"},
     {FOR_FOLD, "layers", 0, "N", WHOLE, AT(settings.layer_order), 0, INT32_MAX, 1, NULL,
      "which of the flat end's layer orders a motion without contact has, 0 the first (one that folds)"},
+    {FOR_FOLD, "drive", 0, "CREASE=DEG", AIM, 0, AIM_DRIVE, 0, 1, NULL,
+     "drive this crease, by its number or x,y of a point on it, to an angle; frames are even in it, the others follow; may be given many times"},
+    {FOR_FOLD, "pin", 0, "CREASE", AIM, 0, AIM_PIN, 0, 1, NULL, "this crease stays flat; may be given many times"},
+    {FOR_FOLD, "free", 0, "CREASE", AIM, 0, AIM_FREE, 0, 1, NULL, "nothing is wished of this crease, it follows the others; may be given many times"},
     {FOR_FOLD, "fixed", 0, "FACET", WHOLE, AT(settings.fixed_facet), 0, INT32_MAX, 1, NULL,
      "the facet that stays where it is (the one nearest the middle)"},
     {READS, "from", 0, "FORMAT", CHOICE, AT(format), 0, 0, 1, formats,
@@ -356,6 +360,7 @@ static int set(options *o, const rule *r, const char *text)
     case TEXT: *(const char **)to = text; return ENDS_WELL;
     case OUTPUT: o->output[o->outputs++] = text; return ENDS_WELL;
     case KIND: o->kind[o->reading.kinds++] = text; return ENDS_WELL;
+    case AIM: o->aim[o->aims++] = (aim){r->low == AIM_DRIVE ? AIM_DRIVE : r->low == AIM_PIN ? AIM_PIN : AIM_FREE, text}; return ENDS_WELL;
     case FORM: o->form[o->forms++] = text; return ENDS_WELL;
     case JOIN: return set_join(r, text, o);
     case PART: return set_part(r, text, o);
@@ -502,8 +507,9 @@ int options_parse(options *o, const command *c, int argc, char **argv)
     o->output = calloc((size_t)argc + 1, sizeof *o->output);
     o->kind = calloc((size_t)argc + 1, sizeof *o->kind);
     o->form = calloc((size_t)argc + 1, sizeof *o->form);
+    o->aim = calloc((size_t)argc + 1, sizeof *o->aim);
     o->reading.kind = o->kind;
-    if (!o->operand || !o->output || !o->kind || !o->form) {
+    if (!o->operand || !o->output || !o->kind || !o->form || !o->aim) {
         say("out of memory");
         return ENDS_UNWRITTEN;
     }
@@ -530,6 +536,7 @@ void options_free(options *o)
     free(o->output);
     free(o->kind);
     free(o->form);
+    free(o->aim);
     free(o->range);
     memset(o, 0, sizeof *o);
 }

@@ -11,6 +11,8 @@ enum { FOR_FOLD = 1, FOR_INFO = 2, FOR_CONVERT = 4, FOR_GEN = 8, FOR_CHART = 16,
 
 typedef struct frame_range { int32_t first, last; } frame_range; /* of a FOLD file; last below first: to its last one */
 
+typedef struct aim { enum { AIM_DRIVE, AIM_PIN, AIM_FREE } what; const char *text; } aim; /* of one crease, as it was said */
+
 typedef struct options {
     rg_settings settings;
     rg_reading reading;
@@ -20,6 +22,8 @@ typedef struct options {
     int operands, outputs;
     frame_range *range;                                   /* of --frame: states in one file; one frame alone is in `settings` too */
     int ranges;
+    aim *aim;                                             /* of --drive, --pin, --free */
+    int aims;
     int forms, merge, fresh, verify;                      /* of batch */
     int32_t jobs, part, parts;                            /* 0: as many as processors; all of them */
     double limit;                                         /* seconds a file, 0: none */
