@@ -69,7 +69,7 @@ const rg_step_info *rg_fold_look(rg_fold *f);
 /* Is there more to come of the last leg? Then one state more of it, at the end of the track. */
 int rg_fold_has_more(const rg_fold *f);
 void rg_fold_advance(rg_fold *f);
-/* Room for a track of so many states, which is a list of its own from now on. RG_ENOMEM. */
+/* Room for a track of so many states and a leg after them, which is a list of its own from now on. RG_ENOMEM. */
 rg_status rg_fold_own_track(rg_fold *f, int32_t states);
 /* The engine to steer by. RG_ENOMEM. */
 rg_status rg_fold_make_steer(rg_fold *f);

@@ -43,8 +43,8 @@ static void append(rg_fold *f, const double *rho, const rg_vec2 *flat, double pr
 
 rg_status rg_fold_own_track(rg_fold *f, int32_t states)
 {
-    if (states > INT32_MAX - 2 - f->at) return RG_ENOMEM;
-    const rg_status s = grow(f, f->at + 2 + states);
+    if (f->settings.frames > INT32_MAX - 1 - states) return RG_ENOMEM;
+    const rg_status s = grow(f, states + 1 + f->settings.frames);
     if (s != RG_OK || f->steered) return s;
     const rg_motion *m = f->shared->motion;
     for (int32_t k = 0; k <= f->at; k++)
@@ -129,7 +129,7 @@ void rg_fold_advance(rg_fold *f)
 static rg_status prepare(rg_fold *f)
 {
     rg_status s = rg_fold_make_steer(f);
-    if (s == RG_OK) s = rg_fold_own_track(f, f->settings.frames);
+    if (s == RG_OK) s = rg_fold_own_track(f, f->at + 1);
     return s;
 }
 

@@ -119,7 +119,7 @@ rg_status rg_fold_create_flat(const rg_pattern *p, const rg_settings *given, rg_
     const rg_memory mem = rg_mem_default(settings.memory);
     s = take_over(motion, &mem, &settings, &f);
     if (s == RG_OK) s = rg_fold_make_steer(f);
-    if (s == RG_OK) s = rg_fold_own_track(f, settings.frames);
+    if (s == RG_OK) s = rg_fold_own_track(f, 1);
     if (s != RG_OK) {
         rg_fold_destroy(f);
         return rg_fail(s, why, 0, "%s", rg_status_text(s));

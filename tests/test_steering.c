@@ -1,0 +1,412 @@
+/* motion/steering.c, stepping.c, keeping.c: a fold that is driven, taken back, kept and cloned. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "near.h"
+
+#include "counted.h"
+#include "draw.h"
+#include "generate/generate.h"
+
+static rg_pattern *generated(const char *kind, int32_t n)
+{
+    const rg_memory mem = rg_mem_default(NULL);
+    rg_lines l;
+    assert_int_equal(rg_generate_lines(kind, n, 0, 0, &mem, &l, NULL), RG_OK);
+    return pattern_of(&l);
+}
+
+static rg_fold *flat_fold(const rg_pattern *p, int32_t frames)
+{
+    rg_settings s = rg_settings_default();
+    rg_fold *f = NULL;
+    s.frames = frames;
+    assert_int_equal(rg_fold_create_flat(p, &s, &f, NULL), RG_OK);
+    return f;
+}
+
+static rg_fold *found_fold(const rg_pattern *p, int32_t frames)
+{
+    rg_settings s = rg_settings_default();
+    rg_fold *f = NULL;
+    s.frames = frames;
+    s.contact = RG_CONTACT_REPORT;
+    assert_int_equal(rg_fold_create(p, &s, NULL, NULL, &f, NULL), RG_OK);
+    return f;
+}
+
+static char letter(const rg_fold *f, int32_t c)
+{
+    const rg_sheet *s = rg_motion_get_sheet(rg_fold_motion(f));
+    return s->assignment[s->crease_edge[c]];
+}
+
+/* ------------------------------------------------------------------------------------------ against the closed form ---- */
+
+/* Zigzag creases of a Miura-ori turn by one angle, straight ones by another: tan(straight / 2) = cos(60 degrees) tan(zigzag / 2). Which is
+ * which is told by the largest angle of the first frame. */
+static void follows_the_closed_form(const rg_fold *f, int32_t driven, double angle, int driven_is_steep)
+{
+    int32_t N;
+    const double *rho = rg_fold_angles(f, &N);
+    const double own = tan(fabs(angle) / 2), steep = driven_is_steep ? own : 2 * own, shallow = steep / 2;
+    int32_t of_each[2] = {0, 0};
+    near(rho[driven], angle, 1e-15);
+    for (int32_t i = 0; i < N; i++) {
+        const double t = fabs(rho[i]), is_steep = fabs(t - 2 * atan(steep)) < fabs(t - 2 * atan(shallow));
+        near(t, 2 * atan(is_steep ? steep : shallow), 1e-10);
+        assert_true(rho[i] * angle * (letter(f, i) == letter(f, driven) ? 1 : -1) > 0);
+        of_each[is_steep != 0]++;
+    }
+    assert_true(of_each[0] > 0 && of_each[1] > 0);
+}
+
+static void one_crease_of_a_miura_ori(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("miura", 6);
+    for (int32_t driven = 0; driven < 60; driven += 7)
+        for (int against = 0; against < 2; against++) {
+            rg_fold *f = flat_fold(p, 61);
+            const double sign = (letter(f, driven) == 'V') != against ? 1 : -1, to = sign * 60 * RG_DEG;
+            assert_int_equal(rg_fold_drive(f, 1, &driven, &to), RG_OK);
+            int32_t frames = 1;
+            const rg_step_info *i;
+            int steep = -1;
+            do {
+                i = rg_fold_step(f);
+                const double angle = to * i->frame / 60;
+                assert_int_equal(i->frame, frames++);
+                near(i->progress, i->frame / 60.0, 1e-15);
+                below(i->closure, 1e-10);
+                if (steep < 0) {
+                    double most = 0;
+                    for (int32_t c = 0; c < 60; c++) most = fmax(most, fabs(rg_fold_angles(f, NULL)[c]));
+                    steep = most < 1.5 * fabs(angle);
+                }
+                follows_the_closed_form(f, driven, angle, steep);
+            } while (i->outcome == RG_RUNNING);
+            assert_int_equal(i->outcome, RG_FOLDED);
+            assert_int_equal(frames, 61);
+            rg_fold_destroy(f);
+        }
+    rg_pattern_destroy(p);
+}
+
+/* There and back to flat by driving, and on to the other side of the paper. */
+static void back_through_flat(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("miura", 4);
+    rg_fold *f = flat_fold(p, 21);
+    const int32_t c = 0;
+    const double there = 50 * RG_DEG, half = 20 * RG_DEG;
+    assert_int_equal(rg_fold_drive(f, 1, &c, &there), RG_OK);
+    while (rg_fold_step(f)->outcome == RG_RUNNING) {}
+    assert_int_equal(rg_fold_drive(f, 1, &c, &half), RG_OK);
+    while (rg_fold_step(f)->outcome == RG_RUNNING) {}
+    near(rg_fold_angles(f, NULL)[c], half, 1e-15);
+    follows_the_closed_form(f, c, half, rg_fold_angles(f, NULL)[c] > fabs(rg_fold_angles(f, NULL)[6]) - 1e-9);
+    assert_int_equal(rg_fold_get_info(f)->frames, 41);
+    for (int k = 0; k < 40; k++) rg_fold_step_back(f);
+    int32_t N, nv;
+    const double *rho = rg_fold_angles(f, &N);
+    for (int32_t i = 0; i < N; i++) near(rho[i], 0, 0);
+    const double (*x)[3] = rg_fold_positions(f, &nv);
+    for (int32_t v = 0; v < nv; v++) near(x[v][2], 0, 0);
+    rg_fold_destroy(f);
+    rg_pattern_destroy(p);
+}
+
+/* ---------------------------------------------------------------------------------------------- aims and pins ---- */
+
+static void targets_pins_and_free_creases(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("waterbomb", 2);
+    rg_fold *f = flat_fold(p, 11);
+    int32_t N;
+    const double *rho = rg_fold_angles(f, &N);
+    assert_int_equal(rg_fold_set_target(f, N, 1), RG_EARG);
+    assert_int_equal(rg_fold_set_target(f, 0, 4), RG_EARG);
+    assert_int_equal(rg_fold_set_target(f, 0, NAN), RG_EARG);
+    assert_int_equal(rg_fold_pin(f, -1), RG_EARG);
+    assert_int_equal(rg_fold_drive(f, 0, NULL, NULL), RG_EARG);
+    for (int k = 0; k < 4; k++) rg_fold_step(f);
+    assert_true(rg_fold_get_info(f)->outcome == RG_RUNNING);
+    const double kept = rho[3];
+    assert_true(fabs(kept) > 0.1);
+    assert_int_equal(rg_fold_pin(f, 3), RG_OK);
+    for (int32_t i = 0; i < N; i++)
+        if (i != 3) assert_int_equal(rg_fold_set_target(f, i, i % 2 ? RG_FREE : rho[i] + 0.05 * (rho[i] > 0 ? 1 : -1)), RG_OK);
+    const double before = rg_fold_angles(f, NULL)[0];
+    while (rg_fold_step(f)->outcome == RG_RUNNING) {
+        near(rg_fold_angles(f, NULL)[3], kept, 0);
+        below(rg_fold_get_info(f)->closure, 1e-10);
+    }
+    assert_true(fabs(rg_fold_angles(f, NULL)[0] - before) > 1e-3);
+    rg_fold_destroy(f);
+    rg_pattern_destroy(p);
+}
+
+/* A crease that cannot turn says so, with what holds it. */
+static void a_locked_crease(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("closed-adjust", 0);
+    rg_fold *f = flat_fold(p, 11);
+    const rg_sheet *s = rg_motion_get_sheet(rg_fold_motion(f));
+    const rg_closed *closed;
+    const rg_step_info *i;
+    assert_true(rg_pattern_closed(p, &closed) > 0);
+    int32_t c = -1;
+    for (int32_t k = 0; k < s->creases && c < 0; k++)
+        if (s->ends[s->crease_edge[k]][0] == closed[0].vertex || s->ends[s->crease_edge[k]][1] == closed[0].vertex) c = k;
+    const double to = letter(f, c) == 'V' ? 1 : -1;
+    assert_int_equal(rg_fold_drive(f, 1, &c, &to), RG_OK);
+    while ((i = rg_fold_step(f))->outcome == RG_RUNNING) {}
+    assert_int_equal(i->outcome, RG_STOPPED);
+    assert_true(i->reason[0] && i->blocking_crease_count == 1 && i->blocking_creases[0] == c);
+    rg_fold_destroy(f);
+    rg_pattern_destroy(p);
+}
+
+/* Pinned in the pattern, a crease stays flat whatever folds it: straight on, or with facets cut. */
+static void pinned_before_the_search(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("miura", 3);
+    const rg_plane *plane = rg_pattern_get_plane(p);
+    int32_t e = 0;
+    while (plane->assignment[e] == 'B') e++;
+    assert_int_equal(rg_pattern_pin(p, e), RG_OK);
+    rg_fold *f = found_fold(p, 9);
+    const int32_t c = rg_motion_get_sheet(rg_fold_motion(f))->edge_crease[e];
+    int32_t N;
+    double moved = 0;
+    for (const rg_step_info *i = rg_fold_get_info(f);; i = rg_fold_step(f)) {
+        const double *rho = rg_fold_angles(f, &N);
+        near(rho[c], 0, 0);
+        for (int32_t k = 0; k < N; k++) moved = fmax(moved, fabs(rho[k]));
+        if (i->outcome != RG_RUNNING) break;
+    }
+    assert_true(moved > 0.5);
+    rg_fold_destroy(f);
+    /* Free, it follows. */
+    assert_int_equal(rg_pattern_set_target(p, e, RG_FREE), RG_OK);
+    f = found_fold(p, 9);
+    while (rg_fold_step(f)->outcome == RG_RUNNING) {}
+    assert_int_equal(rg_fold_get_info(f)->outcome, RG_FOLDED);
+    near(fabs(rg_fold_angles(f, NULL)[c]), RG_PI, 1e-6);
+    rg_fold_destroy(f);
+    rg_pattern_destroy(p);
+}
+
+/* --------------------------------------------------------------------------------------------- anywhere on the track ---- */
+
+static const char *const KINDS[] = {"miura", "bird", "frog", "closed-adjust", "hypar"};
+
+static void between_frames(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 5; kind++) {
+        rg_pattern *p = generated(KINDS[kind], 0);
+        rg_fold *f = found_fold(p, 30);
+        const rg_report *r = rg_motion_report(rg_fold_motion(f));
+        int32_t N;
+        for (double percent = 1.3; percent < r->folded_percent; percent += 9.7) {
+            assert_int_equal(rg_fold_go_to(f, percent), RG_OK);
+            near(rg_fold_get_info(f)->progress, percent / 100, 1e-11);
+            below(rg_fold_get_info(f)->closure, 1e-10);
+            assert_int_equal(rg_fold_get_info(f)->frame, -1);
+            const double *rho = rg_fold_angles(f, &N);
+            double *kept = malloc((size_t)N * sizeof *kept);
+            memcpy(kept, rho, (size_t)N * sizeof *kept);
+            /* And by the angle of the crease that turns most there, from the beginning. */
+            int32_t c = 0, k = 0;
+            while (r->frames[k + 1].percent < percent) k++;
+            const double *a = rg_motion_angles(rg_fold_motion(f), k), *b = rg_motion_angles(rg_fold_motion(f), k + 1);
+            for (int32_t i = 0; i < N; i++)
+                if (fabs(b[i] - a[i]) > fabs(b[c] - a[c])) c = i;
+            assert_int_equal(rg_fold_go_to(f, 0), RG_OK);
+            assert_int_equal(rg_fold_get_info(f)->frame, 0);
+            assert_int_equal(rg_fold_go_to_angle(f, c, kept[c]), RG_OK);
+            near(rg_fold_angles(f, NULL)[c], kept[c], 1e-14);
+            below(rg_fold_get_info(f)->closure, 1e-10);
+            free(kept);
+        }
+        assert_int_equal(rg_fold_go_to(f, 100.0 * r->frames[7].percent / 100), RG_OK);
+        assert_int_equal(rg_fold_go_to(f, -1), RG_EARG);
+        assert_int_equal(rg_fold_go_to(f, 100.1), RG_EARG);
+        assert_int_equal(rg_fold_go_to(f, NAN), RG_EARG);
+        assert_int_equal(rg_fold_go_to_angle(f, 0, 3.2), RG_EARG);
+        rg_fold_destroy(f);
+        rg_pattern_destroy(p);
+    }
+}
+
+static double *angles(const rg_fold *f, size_t *bytes)
+{
+    int32_t N;
+    const double *rho = rg_fold_angles(f, &N);
+    *bytes = (size_t)N * sizeof *rho;
+    double *copy = malloc(*bytes + 1);
+    memcpy(copy, rho, *bytes);
+    return copy;
+}
+
+/* To 37 %, kept, to the end, back to flat, restored: the same bits, and the same bits after it. */
+static void kept_states(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 5; k++)
+        for (int steered = 0; steered < 2; steered++) {
+            rg_pattern *p = generated(KINDS[k], 0);
+            rg_fold *f = found_fold(p, 30), *other = NULL;
+            rg_snapshot *s = NULL;
+            size_t bytes;
+            int32_t nv;
+            for (int n = 0; steered && n < 5; n++) rg_fold_step(f);
+            for (int32_t i = 0; steered && i < 2; i++) assert_int_equal(rg_fold_set_target(f, i, RG_FREE), RG_OK);
+            assert_int_equal(rg_fold_go_to(f, 37), RG_OK);
+            double *then = angles(f, &bytes);
+            assert_int_equal(rg_fold_snapshot(f, &s), RG_OK);
+            assert_int_equal(rg_fold_clone(f, &other), RG_OK);
+            while (rg_fold_step(f)->outcome == RG_RUNNING) {}
+            double *end = angles(f, &bytes);
+            for (int n = 0; n < 100; n++) rg_fold_step_back(f);
+            const double *rho = rg_fold_angles(f, NULL);
+            for (size_t i = 0; i < bytes / sizeof *rho; i++) near(rho[i], 0, 1e-12);
+            const double (*x)[3] = rg_fold_positions(f, &nv), (*X)[2] = rg_fold_flat(f, &nv);
+            for (int32_t v = 0; v < nv; v++)
+                for (int i = 0; i < 3; i++) near(x[v][i], i < 2 ? X[v][i] : 0, 1e-12);
+            for (int again = 0; again < 2; again++) {
+                assert_int_equal(rg_fold_restore(f, s), RG_OK);
+                assert_memory_equal(rg_fold_angles(f, NULL), then, bytes);
+                while (rg_fold_step(f)->outcome == RG_RUNNING) {}
+                assert_memory_equal(rg_fold_angles(f, NULL), end, bytes);
+            }
+            rg_fold_destroy(f);
+            rg_pattern_destroy(p);
+            assert_memory_equal(rg_fold_angles(other, NULL), then, bytes);
+            while (rg_fold_step(other)->outcome == RG_RUNNING) {}
+            assert_memory_equal(rg_fold_angles(other, NULL), end, bytes);
+            p = generated("miura", 2);
+            f = found_fold(p, 5);
+            assert_int_equal(rg_fold_restore(f, s), RG_EARG);
+            rg_fold_destroy(f);
+            rg_fold_destroy(other);
+            rg_snapshot_destroy(s);
+            rg_pattern_destroy(p);
+            free(then);
+            free(end);
+        }
+    rg_snapshot_destroy(NULL);
+}
+
+/* What is lent of a state is that of the frame that it is. */
+static void positions_and_transforms(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("bird", 0);
+    rg_fold *f = found_fold(p, 12);
+    const rg_motion *m = rg_fold_motion(f);
+    const rg_sheet *s = rg_motion_get_sheet(m);
+    double (*xyz)[3] = calloc((size_t)s->vertices, sizeof *xyz);
+    for (const rg_step_info *i = rg_fold_get_info(f);; i = rg_fold_step(f)) {
+        int32_t nv, nf;
+        const double (*x)[3] = rg_fold_positions(f, &nv), (*X)[2] = rg_fold_flat(f, NULL);
+        const rg_transform *T = rg_fold_transforms(f, &nf);
+        assert_int_equal(nv, s->vertices);
+        assert_int_equal(nf, s->facets);
+        assert_int_equal(rg_motion_pose(m, i->frame, xyz), RG_OK);
+        assert_memory_equal(x, xyz, (size_t)nv * sizeof *xyz);
+        for (int32_t g = 0; g < nf; g++)
+            for (int32_t j = s->facet_start[g]; j < s->facet_start[g + 1]; j++)
+                for (int k = 0; k < 3; k++) {
+                    const int32_t v = s->facet_vertex[j];
+                    near(T[g].column[0][k] * X[v][0] + T[g].column[1][k] * X[v][1] + T[g].column[3][k], x[v][k], 1e-9);
+                }
+        if (i->outcome != RG_RUNNING) break;
+    }
+    free(xyz);
+    rg_fold_destroy(f);
+    rg_pattern_destroy(p);
+}
+
+/* The track as a motion: driven frames, measured. */
+static void recorded(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("miura", 4);
+    const rg_plane *plane = rg_pattern_get_plane(p);
+    rg_driven one = {0, 0};
+    rg_settings s = rg_settings_default();
+    rg_motion *m = NULL;
+    while (plane->assignment[one.edge] == 'B') one.edge++;
+    one.radians = plane->assignment[one.edge] == 'V' ? 1 : -1;
+    s.frames = 11;
+    assert_int_equal(rg_motion_create_driven(p, 1, &one, &s, NULL, NULL, &m, NULL), RG_OK);
+    const rg_report *r = rg_motion_report(m);
+    const int32_t c = rg_motion_get_sheet(m)->edge_crease[one.edge];
+    assert_int_equal(r->frame_count, 11);
+    assert_int_equal(r->outcome, RG_FOLDED);
+    below(r->max_closure_residual, 1e-10);
+    assert_int_equal(r->contact, RG_CONTACT_FREE);
+    for (int32_t k = 0; k < 11; k++) {
+        near(rg_motion_angles(m, k)[c], one.radians * k / 10, 1e-15);
+        near(r->frames[k].percent, 10 * k, 1e-9);
+    }
+    rg_motion_destroy(m);
+    one.edge = -1;
+    assert_int_equal(rg_motion_create_driven(p, 1, &one, &s, NULL, NULL, &m, NULL), RG_EARG);
+    assert_int_equal(rg_motion_create_driven(p, 0, &one, &s, NULL, NULL, &m, NULL), RG_EARG);
+    rg_pattern_destroy(p);
+}
+
+/* Steps of a driven leg, and back, and to the snapshot, ask for no memory. */
+static void steps_ask_for_nothing(void **state)
+{
+    (void)state;
+    counted count = {1000000000, 0, 0};
+    const rg_memory mem = {counted_resize, &count};
+    rg_pattern *p = generated("miura", 4);
+    rg_settings s = rg_settings_default();
+    rg_fold *f = NULL;
+    rg_snapshot *kept = NULL;
+    const int32_t c = 2;
+    const double to = 1;
+    s.memory = &mem;
+    s.frames = 20;
+    assert_int_equal(rg_fold_create_flat(p, &s, &f, NULL), RG_OK);
+    assert_int_equal(rg_fold_drive(f, 1, &c, &to), RG_OK);
+    assert_int_equal(rg_fold_snapshot(f, &kept), RG_OK);
+    assert_int_equal(rg_fold_restore(f, kept), RG_OK);
+    const long asked = count.asked;
+    count.left = 0;
+    while (rg_fold_step(f)->outcome == RG_RUNNING) {}
+    for (int k = 0; k < 12; k++) rg_fold_step_back(f);
+    assert_int_equal(rg_fold_restore(f, kept), RG_OK);
+    while (rg_fold_step(f)->outcome == RG_RUNNING) {}
+    assert_int_equal(count.asked, asked);
+    rg_snapshot_destroy(kept);
+    rg_fold_destroy(f);
+    assert_int_equal(count.out, 0);
+    rg_pattern_destroy(p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_crease_of_a_miura_ori), cmocka_unit_test(back_through_flat), cmocka_unit_test(targets_pins_and_free_creases),
+        cmocka_unit_test(a_locked_crease), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames),
+        cmocka_unit_test(kept_states), cmocka_unit_test(positions_and_transforms), cmocka_unit_test(recorded),
+        cmocka_unit_test(steps_ask_for_nothing)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
