@@ -125,8 +125,8 @@ static void facets_turned_over(void **state)
     int tried = 0;
     assert_true(u && X);
     rg_freedom_move(&f, u, X);
-    assert_true(rg_freedom_is_proper(&f, X, 0.1));
-    assert_true(rg_freedom_is_proper(&f, X, 1));
+    assert_true(rg_freedom_room(&f, X, 0.1, NULL));
+    assert_true(rg_freedom_room(&f, X, 1, NULL));
     for (int32_t k = 0; k < m.nf; k++)
         for (int32_t j = m.facet_start[k]; j < m.facet_start[k + 1] && m.facet_start[k + 1] - m.facet_start[k] == 3; j++) {
             const int32_t first = m.facet_start[k], i = j - first, v = m.facet_vertex[j];
@@ -138,14 +138,14 @@ static void facets_turned_over(void **state)
                 u[f.way[v][0]] = t * by.x;
                 u[f.way[v][1]] = t * by.y;
                 rg_freedom_move(&f, u, X);
-                assert_int_equal(rg_freedom_is_proper(&f, X, 0.2), 0); /* t of its height is gone */
-                if (t > 1) assert_int_equal(rg_freedom_is_proper(&f, X, 0), 0);
+                assert_int_equal(rg_freedom_room(&f, X, 0.2, NULL), 0); /* t of its height is gone */
+                if (t > 1) assert_int_equal(rg_freedom_room(&f, X, 0, NULL), 0);
                 tried++;
             }
         }
     assert_true(tried > 30);
     X[f.vertex[0]].x = NAN;
-    assert_int_equal(rg_freedom_is_proper(&f, X, 0.1), 0);
+    assert_int_equal(rg_freedom_room(&f, X, 0.1, NULL), 0);
     free(X);
     free(u);
     rg_freedom_free(&f);

@@ -176,10 +176,7 @@ static void go_on(const rg_pattern *p, rg_method method, double degrees, const d
     rg_step_info i;
     if (from) {
         assert_int_equal(rg_straight_step(f, &i), RG_OK);
-        memcpy(f->rho, from, (size_t)f->mesh.N * sizeof *from);
-        f->s = 0.25;
-        f->steps = 2;
-        f->frame = 2;
+        rg_straight_stand(f, from, 0.25, 2);
     }
     do assert_int_equal(rg_straight_step(f, &i), RG_OK);
     while (i.frame != (from ? 2 : 1) && i.outcome == RG_RUNNING);

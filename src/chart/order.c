@@ -49,9 +49,7 @@ static rg_status stand(rg_straight **f, const rg_mesh *m, const rg_settings *set
     for (int32_t p = 0, n = rg_straight_systems(*f, &system); p < n; p++) {
         rg_straight *g = system[p];
         for (int32_t i = 0; i < g->mesh.N; i++) g->rho[i] = rho[a->parts ? a->crease[a->start[p] + i] : i];
-        g->s = unit * from;
-        g->steps = 2;
-        g->frame = 1;
+        rg_straight_stand(g, g->rho, unit * from, 1);
     }
     return RG_OK;
 }

@@ -12,7 +12,6 @@ static const double SAME_WAY = 0.5;
 static const double LONGEST = 2, PATIENCE = 0.1;
 static const int REPEATS = 3;
 /* Steps that a run may take: the finest takes some thousands. The way out of the start and into the end adds a few nodes. */
-enum { MOST_NODES = 12000, NODES_OF_ENDS = 32 };
 
 /* What a run leaves to compare with: [frames] states at even progress. */
 typedef struct track { rg_frames rho, pattern; } track;
@@ -63,17 +62,6 @@ static rg_status begin(rg_relax *F, const rg_attempt *best, const rg_settings *s
     memset(F, 0, sizeof *F);
     rg_status status = from && to ? rg_relax_init(F, &best->mesh, s, &best->relax->how, best->backwards ? from : NULL, to) : RG_ENOMEM;
     if (status == RG_OK && best->symmetry) status = rg_relax_keep(F, best->symmetry);
-    if (status == RG_OK) {
-        double *node = rg_mem_array(&F->mem, (size_t)F->n * MOST_NODES, sizeof *node);
-        double *node_s = rg_mem_array(&F->mem, MOST_NODES, sizeof *node_s);
-        if (node) memcpy(node, F->node, (size_t)F->n * (size_t)F->nodes * sizeof *node);
-        if (node_s) memcpy(node_s, F->node_s, (size_t)F->nodes * sizeof *node_s);
-        rg_mem_free(&F->mem, F->node);
-        rg_mem_free(&F->mem, F->node_s);
-        F->node = node;
-        F->node_s = node_s;
-        status = node && node_s ? RG_OK : RG_ENOMEM;
-    }
     rg_mem_free(&best->mem, from);
     rg_mem_free(&best->mem, to);
     return status;
@@ -100,15 +88,8 @@ static rg_status fold(const rg_attempt *best, const rg_settings *settings, doubl
     r->error = r->pattern_error = NAN;
     const double begun = rg_seconds();
     rg_status status = begin(&F, best, &s);
-    /* What ends a try of the ladder, so many steps in all and so many that lead nowhere, is of as many more of smaller ones. */
-    const double share = fmin(1, step / settings->step);
-    double idle = 0;
-    int64_t steps = 0;
-    for (; status == RG_OK && F.outcome == RG_RUNNING && steps < MOST_NODES - NODES_OF_ENDS; steps++) {
-        F.steps = (int32_t)(share * (double)steps);
-        F.idle = (int32_t)idle;
+    while (status == RG_OK && F.outcome == RG_RUNNING) {
         rg_relax_step(&F);
-        idle = F.idle > (int32_t)idle ? idle + share : 0;
         if (is_ended(watch)) break;
     }
     r->seconds = rg_seconds() - begun;
@@ -117,7 +98,7 @@ static rg_status fold(const rg_attempt *best, const rg_settings *settings, doubl
         const rg_least *A = &F.J.A, *by_orbits = &F.orbits.A;
         r->outcome = folded ? RG_FOLDED : RG_STOPPED;
         r->percent = 100 * F.s;
-        r->steps = steps;
+        r->steps = F.steps;
         r->solves = A->solves + by_orbits->solves, r->iterations = A->iterations + by_orbits->iterations;
         r->factorizations = A->factorizations + by_orbits->factorizations, r->assemblies = F.assemblies;
         r->passes = all_passes(&F);

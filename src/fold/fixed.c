@@ -2,6 +2,8 @@
 #include "fold/newton.h"
 #include "fold/integrate.h"
 
+#include <string.h>
+
 /* Steps smaller than this part of the whole way are no progress. */
 static const double SMALLEST_STEP = 1e-6;
 static const double SOLVE_TOLERANCE = 1e-8;
@@ -37,7 +39,7 @@ static int land(rg_straight *f)
 {
     const int32_t N = f->mesh.N;
     double far = 0, refused = 0, wished = 0, left = 1 - f->s;
-    if (f->s_end < 1 || !f->end_is_closed || f->frame < f->settings.frames - 1) return 0;
+    if (f->s_end < 1 || !f->end_is_closed) return 0;
     for (int32_t i = 0; i < N; i++) {
         double d = f->end[i] - f->rho[i];
         far = fmax(far, fabs(d));
@@ -46,8 +48,7 @@ static int land(rg_straight *f)
     }
     /* The wish points straight at the end; near it the constraint agrees up to second order. */
     if (!(far <= f->settings.step && refused <= 0.01 * wished)) return 0;
-    rg_straight_accept(f, f->end, 1);
-    f->closure = rg_constraint_closure(&f->K, f->rho, NULL);
+    rg_path_insert(&f->path, 1, f->end, NULL);
     return 1;
 }
 
@@ -59,6 +60,8 @@ static int try_step(rg_straight *f, double ds)
                  : f->settings.method == RG_METHOD_RK4 ? rg_integrate_rk4(f, ds)
                                                        : 0;
     if (higher && !(rg_limit_pull(&f->limit, f->trial, f->pull) > 0)) return 1;
+    rg_constraint_assemble(&f->K, f->rho); /* it may be that of a frame, of which a step knows nothing */
+    rg_project_renew(&f->P);
     for (int32_t i = 0; i < f->mesh.N; i++) f->trial[i] = f->rho[i] + ds * f->t[i];
     pull_back(f, 0, LIMIT_GAIN);
     int closed = rg_newton_correct(f, f->s + ds, CORRECTIONS);
@@ -66,17 +69,26 @@ static int try_step(rg_straight *f, double ds)
     return closed;
 }
 
+/* t at the state, which is the last node: known there, or asked for. */
+static int find_tangent(rg_straight *f)
+{
+    const rg_path *p = &f->path;
+    const rg_node *last = p->count > 0 ? &p->node[p->count - 1] : NULL;
+    if (!last || !last->has_t) return rg_integrate_tangent(f, f->rho, f->s, 0, f->t) > 0;
+    memcpy(f->t, last->t, (size_t)p->N * sizeof *f->t);
+    return 1;
+}
+
 void rg_fixed_newton(rg_straight *f)
 {
     const int32_t N = f->mesh.N;
-    const double goal = rg_straight_frame_progress(f, f->frame);
-    if (!(rg_integrate_tangent(f, f->rho, f->s, 0, f->t) > 0)) {
+    if (!find_tangent(f)) {
         rg_straight_stop(f, "no motion that the facets allow folds any further");
         return;
     }
     if (land(f)) return;
     double fastest = largest(N, f->t), most = f->settings.step / fastest;
-    const double left = goal - f->s;
+    const double left = f->s_end - f->s;
     double ds = fmin(f->ds, most);
     if (!(ds < left - SMALLEST_STEP)) ds = left; /* leaves no rest that would be too small a step */
     for (;; ds /= 2) {
@@ -92,16 +104,16 @@ void rg_fixed_newton(rg_straight *f)
         }
         if (strayed <= FARTHEST_CORRECTION * way + 1e-6) break;
     }
-    int whole = ds >= left;
-    f->ds = whole ? fmax(2 * ds, f->ds == INFINITY ? 0 : f->ds) : 2 * ds;
-    rg_straight_accept(f, f->trial, whole ? goal : f->s + ds);
+    const double s = ds >= left ? f->s_end : f->s + ds;
+    f->ds = 2 * ds;
+    const int has_t = s < 1 && rg_integrate_tangent(f, f->trial, s, 0, f->t) > 0;
+    rg_path_insert(&f->path, s, f->trial, has_t ? f->t : NULL);
 }
 
 /* One solve, no correction: the paper's eq. (14) and nothing else. */
 void rg_fixed_euler(rg_straight *f)
 {
     const int32_t N = f->mesh.N;
-    const double goal = rg_straight_frame_progress(f, f->frame);
     rg_cg_report rep;
     rg_constraint_assemble(&f->K, f->rho);
     f->assemblies++;
@@ -119,12 +131,11 @@ void rg_fixed_euler(rg_straight *f)
         rg_straight_stop(f, "the step diverged");
         return;
     }
-    if (f->s + ds > goal - SMALLEST_STEP && ds > 0) part = (goal - f->s) / ds;
-    if (!(part * way > SMALLEST_STEP * f->settings.step)) {
+    if (f->s + ds > f->s_end - SMALLEST_STEP && ds > 0) part = (f->s_end - f->s) / ds;
+    if (!(part * way > SMALLEST_STEP * f->settings.step) || !(ds > 0)) {
         rg_straight_stop(f, "no motion that the facets allow folds any further");
         return;
     }
     for (int32_t i = 0; i < N; i++) f->trial[i] = f->rho[i] + part * f->t[i]; /* eq. (10) */
-    rg_straight_accept(f, f->trial, part != 1 ? goal : f->s + ds);
-    f->closure = rg_constraint_closure(&f->K, f->rho, NULL);
+    rg_path_insert(&f->path, part != 1 ? f->s_end : f->s + ds, f->trial, NULL);
 }

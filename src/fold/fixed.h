@@ -1,4 +1,4 @@
-/* fixed.h -- one step from the state, no farther than the next frame: the methods that go on from step to step.
+/* fixed.h -- one node more on the path, a step from the last one: the methods that go on from step to step.
  * Paper    eqs. (10), (14), section 4        Uses  system.h        Used by  straight.c */
 #ifndef RG_FIXED_H
 #define RG_FIXED_H

@@ -298,17 +298,19 @@ int rg_integrate_advance(rg_straight *f)
 int rg_integrate_read_off(rg_straight *f, double s)
 {
     const rg_path *p = &f->path;
+    const int is_euler = f->settings.method == RG_METHOD_EULER;
     int32_t first, n;
-    rg_path_window(p, s, &first, &n);
+    if (f->smooth) rg_path_window(p, s, &first, &n);
+    else rg_path_around(p, s, &first, &n);
     rg_path_evaluate(p, first, n, s, f->trial, f->t);
-    if (p->count > 1 && p->node[0].s == 0 && s < p->node[1].s) /* so near flat what closes is homogeneous: a ray */
+    if (!is_euler && p->count > 1 && p->node[0].s == 0 && s < p->node[1].s) /* so near flat what closes is homogeneous: a ray */
         for (int32_t i = 0; i < p->N; i++) {
             f->t[i] = p->node[1].rho[i] / p->node[1].s;
             f->trial[i] = s * f->t[i];
         }
     f->closure = rg_constraint_closure(&f->K, f->trial, NULL);
-    if (f->closure <= close_enough(f)) return 1;
-    const int free = !f->one_way && f->mesh.N > 3 * f->mesh.M && p->node[first].has_t;
+    if (is_euler || f->closure <= close_enough(f)) return 1;
+    const int free = f->smooth && !f->one_way && f->mesh.N > 3 * f->mesh.M && p->node[first].has_t;
     if (free && rg_newton_close(f, s, 1, 0, f->t)) return 1;
     return rg_newton_close(f, s, CORRECTIONS, 0, NULL);
 }

@@ -22,7 +22,7 @@ int rg_integrate_rk4(rg_straight *f, double ds);
  * Zero: the smooth way ends at the last node. */
 int rg_integrate_advance(rg_straight *f);
 /* f->trial = the path at progress s, closed to tolerance: read off the polynomial, which costs no solve, or, where that
- * is not close enough, corrected. The nodes stay as they are. Zero: not found. */
+ * is not close enough, corrected; Euler's chords are not closed. The nodes stay as they are. Zero: not found. */
 int rg_integrate_read_off(rg_straight *f, double s);
 
 #endif

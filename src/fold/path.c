@@ -100,6 +100,18 @@ void rg_path_evaluate(const rg_path *p, int32_t first, int32_t n, double s, doub
     if (t) combine(p, first, n, da, db, t);
 }
 
+void rg_path_around(const rg_path *p, double s, int32_t *first, int32_t *n)
+{
+    *first = 0;
+    while (*first + 2 < p->count && p->node[*first + 1].s < s) ++*first;
+    *n = p->count - *first < 2 ? p->count - *first : 2;
+}
+
+void rg_path_cut(rg_path *p, double s)
+{
+    while (p->count > 2 && p->node[p->count - 1].s > s) p->count--;
+}
+
 void rg_path_window(const rg_path *p, double s, int32_t *first, int32_t *n)
 {
     int32_t at = 0;

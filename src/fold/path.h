@@ -32,6 +32,10 @@ void rg_path_insert(rg_path *p, double s, const double *rho, const double *t);
 void rg_path_evaluate(const rg_path *p, int32_t first, int32_t n, double s, double *rho, double *t);
 /* The window of up to RG_PATH_WINDOW nodes that suits s best. */
 void rg_path_window(const rg_path *p, double s, int32_t *first, int32_t *n);
+/* The two nodes on either side of s, or what there is of them. */
+void rg_path_around(const rg_path *p, double s, int32_t *first, int32_t *n);
+/* Forgets the nodes beyond s, all but the first two. */
+void rg_path_cut(rg_path *p, double s);
 /* Product of |s - s_i| over the conditions at nodes first ... first + n - 1, what an error at s is proportional to: 2 a
  * node where t is known and counts, 1 elsewhere. */
 double rg_path_reach(const rg_path *p, int32_t first, int32_t n, double s, int conditions);

@@ -27,7 +27,9 @@ static double progress(const rg_relax *F, const double *rho, double *least)
 
 static rg_status make_room(rg_relax *F)
 {
-    const size_t N = (size_t)F->N, n = (size_t)F->n, room = (size_t)MOST_STEPS + 2 * (size_t)END_NODES + 6;
+    const size_t N = (size_t)F->N, n = (size_t)F->n;
+    F->room = (int32_t)fmin(MOST_NODES, MOST_STEPS / F->share) + 2 * END_NODES + 6;
+    const size_t room = (size_t)F->room;
     double **of_creases[] = {&F->from, &F->target, &F->slope, &F->end, &F->pull};
     double **of_both[] = {&F->z, &F->trial, &F->wish, &F->dz, &F->scale, &F->chord, &F->g, &F->t};
     int ok = (F->held = rg_mem_array(&F->mem, N, 1)) != NULL;
@@ -63,6 +65,8 @@ rg_status rg_relax_init(rg_relax *F, const rg_mesh *m, const rg_settings *s, con
     m = &F->mesh;
     F->how = *how;
     F->step = fmin(s->step, MOST_STEP);
+    F->share = fmin(1, F->step / USUAL_STEP);
+    F->foresees = 1;
     F->tol = s->tol;
     F->s_end = fabs(s->to);
     F->N = m->N;
@@ -210,9 +214,19 @@ static void correct_held(rg_relax *F, double s, double *z, int evenly)
     for (int32_t i = 0; i < F->n; i++) z[i] += F->dz[i];
 }
 
-/* The same until it closes, s NAN: whatever becomes of progress. Zero: it does not close. What a drawing is uneven by is left to
- * each vertex, where even corrections get no further. */
-static int correct(rg_relax *F, double *z, double s, int32_t most)
+/* Part f of the chord from z, which a correction may change by so much, radians; NULL: by anything. */
+typedef struct leash { double f, farthest; } leash;
+
+static int is_within(const rg_relax *F, const leash *by)
+{
+    double far = 0;
+    for (int32_t i = 0; by && i < F->N; i++) far = fmax(far, fabs(F->trial[i] - F->z[i] - by->f * F->chord[i]));
+    return !by || far <= by->farthest;
+}
+
+/* The same until it closes, s NAN: whatever becomes of progress. Zero: it does not close, or not within its leash. What a drawing is
+ * uneven by is left to each vertex, where even corrections get no further. */
+static int correct(rg_relax *F, double *z, double s, int32_t most, const leash *by)
 {
     double before = INFINITY;
     int poor = 0, evenly = F->symmetry != NULL, closes = 0, stiff = 0;
@@ -220,7 +234,7 @@ static int correct(rg_relax *F, double *z, double s, int32_t most)
         double off;
         F->closure = assemble(F, z, evenly, &off);
         closes = F->closure <= F->tol && off <= F->tol;
-        if (closes || n >= most || !(F->closure <= 2.5)) break;
+        if (closes || n >= most || !(F->closure <= 2.5) || !is_within(F, by)) break;
         if (evenly && F->closure > STILL_CLOSES * before) {
             evenly = F->by_orbits;
             if (!stiff && F->U > 0) stiffen(F, STIFF);
@@ -233,7 +247,7 @@ static int correct(rg_relax *F, double *z, double s, int32_t most)
         else correct_held(F, s, z, evenly);
     }
     if (stiff) stiffen(F, 1 / STIFF);
-    return closes;
+    return closes && is_within(F, by);
 }
 
 /* Once more, for z, which closes, to close better; taken back where it does not: near singular states more corrections chase
@@ -259,7 +273,7 @@ int rg_relax_close_on_pattern(rg_relax *F, double *rho)
     if (assemble(F, z, 0, NULL) <= F->tol) return 1;
     for (int32_t i = 0; i < F->N; i++) F->scale[i] = 1;
     for (int32_t i = F->N; i < F->n; i++) F->scale[i] *= FIXED;
-    int closed = correct(F, z, NAN, CORRECTIONS);
+    int closed = correct(F, z, NAN, CORRECTIONS, NULL);
     for (int32_t i = F->N; i < F->n; i++) F->scale[i] /= FIXED;
     memset(z + F->N, 0, (size_t)F->U * sizeof *z);
     closed = closed && assemble(F, z, 0, NULL) <= F->tol;
@@ -274,7 +288,7 @@ static int is_limited(const rg_relax *F) { return F->s >= FREE_UNTIL; }
 
 static void make_wish(rg_relax *F)
 {
-    const double ds = F->step * F->h / RG_PI, part = fmin(1, F->step / USUAL_STEP); /* ways back are paced by the step, too */
+    const double ds = F->step * F->h / RG_PI, part = F->share; /* ways back are paced by the step, too */
     rg_limit_pull(&F->limit, F->z, F->pull);
     for (int32_t i = 0; i < F->N; i++) {
         F->scale[i] = 1;
@@ -293,6 +307,9 @@ static void make_wish(rg_relax *F)
             F->scale[i] = BEYOND_GIVES;
         }
     }
+    rg_freedom_room(&F->freedom, F->J.X, LEAST_AREA, F->wish + F->N);
+    for (int32_t i = F->N; i < F->n; i++)
+        F->scale[i] = fmax(F->how.compliance, 1e-6) * F->freedom.reach[i - F->N] * sqrt(fmax(LEAST_READY * LEAST_READY, F->wish[i]));
     rg_adjust_wish(&F->adjust, F->z, F->how.gain, F->wish + F->N);
     for (int32_t i = F->N; i < F->n; i++) F->wish[i] = RETURN * part * (F->wish[i] - F->z[i]);
 }
@@ -317,6 +334,16 @@ static int32_t hold_what_overfolds(rg_relax *F, const double *dz, double beyond)
     return more;
 }
 
+/* Where dz loses progress: the least change of it that gains some, which is progress as one more row. A is renewed. */
+static void keep_gaining(rg_relax *F, int evenly)
+{
+    const double least = LEAST_GAIN * F->step * F->h / RG_PI, left = project_slope(F, F->z, evenly);
+    double gain = 0;
+    for (int32_t i = 0; i < F->N; i++) gain += F->g[i] / F->scale[i] * F->dz[i];
+    if (!(left > 0 && gain < least)) return;
+    for (int32_t i = 0; i < F->n; i++) F->dz[i] += F->scale[i] * (least - gain) / left * F->t[i];
+}
+
 /* wish - W A^T (A W A^T)^+ (A wish + r), the columns of A scaled by the root of W: eqs. (14), (19). */
 static void project(rg_relax *F, int evenly)
 {
@@ -325,6 +352,7 @@ static void project(rg_relax *F, int evenly)
     for (int32_t i = 0; i < F->n; i++) y[i] = F->wish[i] / F->scale[i];
     solve(F, evenly, y, F->J.r, F->dz);
     for (int32_t i = 0; i < F->n; i++) F->dz[i] = F->wish[i] - F->scale[i] * F->dz[i];
+    if (is_limited(F)) keep_gaining(F, evenly);
     if (evenly) even_out(F, F->dz);
 }
 
@@ -339,14 +367,14 @@ static double turned(const rg_relax *F, const double *a, const double *b)
 /* z + f dz, closed, in F->trial: is it a state to go on from? chord keeps dz, as correcting uses dz. */
 static int try_step(rg_relax *F, double f, double longest)
 {
-    double far = 0, least;
+    const leash by = {f, (is_limited(F) ? FARTHEST_CORRECTION : FARTHEST_AT_START) * f * longest + LITTLE};
+    double least;
     for (int32_t i = 0; i < F->n; i++) F->trial[i] = F->z[i] + f * F->chord[i];
     even_out(F, F->trial);
     const double s = progress(F, F->trial, &least);
-    if (!correct(F, F->trial, is_limited(F) && s > F->s ? s : NAN, CORRECTIONS) || !rg_freedom_is_proper(&F->freedom, F->J.X, LEAST_AREA)) return 0;
-    for (int32_t i = 0; i < F->N; i++) far = fmax(far, fabs(F->trial[i] - F->z[i] - f * F->chord[i]));
-    if (is_limited(F) && !(progress(F, F->trial, &least) >= F->s)) return 0;
-    return far <= (is_limited(F) ? FARTHEST_CORRECTION : FARTHEST_AT_START) * f * longest + LITTLE;
+    if (!correct(F, F->trial, is_limited(F) && s > F->s ? s : NAN, CORRECTIONS, &by)) return 0;
+    if (!rg_freedom_room(&F->freedom, F->J.X, LEAST_AREA, NULL)) return 0;
+    return !is_limited(F) || progress(F, F->trial, &least) >= F->s;
 }
 
 /* Does F->trial go past half a turn farther than F->z does? */
@@ -421,7 +449,7 @@ static int close_within_half_turns(rg_relax *F)
     for (int32_t i = 0; i < F->N; i++) F->scale[i] = 1;
     for (int32_t round = 0; round < ROUNDS; round++) {
         int32_t held = 0;
-        if (!correct(F, F->trial, NAN, CORRECTIONS_AT_END)) return 0;
+        if (!correct(F, F->trial, NAN, CORRECTIONS_AT_END, NULL)) return 0;
         for (int32_t i = 0; i < F->N && is_limited(F); i++) {
             if (!(fabs(F->trial[i]) > RG_PI + BEYOND / 10)) continue;
             F->trial[i] = copysign(RG_PI, F->trial[i]);
@@ -430,7 +458,7 @@ static int close_within_half_turns(rg_relax *F)
         }
         if (!held) return 1;
     }
-    return correct(F, F->trial, NAN, CORRECTIONS_AT_END);
+    return correct(F, F->trial, NAN, CORRECTIONS_AT_END, NULL);
 }
 
 /* Nodes from z down to the singular state `at`, nearer and nearer: what closes there is homogeneous, u of second order where rho
@@ -517,7 +545,7 @@ static int land(rg_relax *F, double least)
         F->s = 1;
         add_node(F, F->z, F->s);
         F->landed = 1;
-    } else if (F->end_is_closed && F->idle <= MOST_IDLE) {
+    } else if (F->end_is_closed && F->share * F->idle <= MOST_IDLE) {
         return 0;
     }
     stop(F, F->landed ? "folded" : "folded, as far as the pattern closes at its end");
@@ -537,6 +565,26 @@ static void accept(rg_relax *F)
     else add_node(F, F->z, F->s);
 }
 
+/* Has it fallen behind an even pace from its start to the last step that there may be? */
+static int is_slow(const rg_relax *F)
+{
+    return F->share * F->steps - SLOW_FROM > F->s / F->s_end * (MOST_STEPS - SLOW_FROM);
+}
+
+/* Is the work that there is too little, if every step is to make as much progress as it wishes for? */
+static int will_run_out(const rg_relax *F)
+{
+    const double more = (F->s_end - F->s) * RG_PI / F->step;
+    return F->budget > 0 && F->steps > KNOWN_FROM && F->work * (1 + more / F->steps) > F->budget / F->share;
+}
+
+void rg_relax_go_on(rg_relax *F, double work)
+{
+    F->waits = F->foresees = 0;
+    F->budget = F->work + work;
+    F->outcome = RG_RUNNING;
+}
+
 void rg_relax_step(rg_relax *F)
 {
     double least;
@@ -553,13 +601,16 @@ void rg_relax_step(rg_relax *F)
         snprintf(F->reason, sizeof F->reason, "as far as was asked for");
     } else if (land(F, least)) {
         return;
-    } else if (F->steps > MOST_STEPS || (F->budget > 0 && F->work > F->budget)) {
+    } else if (F->nodes + END_NODES + 4 > F->room || (F->budget > 0 && F->work > F->budget / F->share)) {
         stop(F, "the effort ran out");
+    } else if (F->foresees && (is_slow(F) || will_run_out(F))) {
+        F->waits = 1;
+        stop(F, "the effort would run out");
     } else if (!advance(F)) {
         stop(F, "the facets leave no way on");
     } else {
         accept(F);
-        if (F->idle > MOST_IDLE) stop(F, "no motion that the facets allow folds any further");
+        if (F->share * F->idle > MOST_IDLE) stop(F, "no motion that the facets allow folds any further");
     }
 }
 

@@ -6,8 +6,9 @@
  *
  *     dz = dz0 - W A^T (A W A^T)^+ (A dz0 + r),      W = diag(1 for a crease, (w l_v)^2 for a way of vertex v),
  *
- * l_v the shortest crease at v, w the vertex compliance. Creases at half a turn are held there. A step is taken when it closes,
- * stays on the branch that it came from, keeps the facets and does not lose progress; else it is shortened.
+ * l_v^2 the shortest crease at v squared, times what is left of what the facets round v may shrink; w the vertex compliance. Creases at
+ * half a turn are held there, and where the projected wish would lose progress, progress is one more row of A. A step is taken when it
+ * closes, stays on the branch that it came from and keeps the facets; else it is shortened.
  *
  * What was found is a path: nodes, each closed, by rising progress. Between two nodes the path is what closes the points of
  * their chord, so it depends on nothing but them. */
@@ -52,10 +53,13 @@ typedef struct rg_relax {
     double *pull;             /* [N] */
     unsigned char *held;      /* [N] at its limit in this step */
     double h;                 /* part of the largest step that is taken now */
-    int32_t steps, idle;
+    double share;             /* of the usual length that a step has, at most 1: counts of steps are of usual ones */
+    int32_t steps, idle, room; /* room: for nodes */
     double best_s, best_least; /* what idle steps failed to better */
     int64_t assemblies;
     double work, budget;      /* of factorisations, about seconds of a slow machine; 0: no budget */
+    int foresees;             /* ends as soon as the budget cannot do */
+    int waits;                /* ended so, or for being slow: may go on with foresees zero, rg_relax_go_on */
     double closure;           /* of trial */
     rg_outcome outcome;
     char reason[240];
@@ -70,6 +74,8 @@ rg_status rg_relax_keep(rg_relax *F, const rg_symmetry *G);
 void rg_relax_free(rg_relax *F);
 /* One step, of which F->s tells the progress. Allocates nothing. */
 void rg_relax_step(rg_relax *F);
+/* One that waits runs on, for so much more work. */
+void rg_relax_go_on(rg_relax *F, double work);
 /* z[n]: out, the state of the path at progress s, within the nodes there are. Depends on the nodes on either side alone.
  * Returns its closure, radians; NAN: none was found. Allocates nothing. */
 double rg_relax_at(rg_relax *F, double s, double *z);

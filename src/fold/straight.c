@@ -27,7 +27,7 @@ static rg_status make_system(rg_straight *f, rg_diag *why)
     const rg_memory *mem = &f->mem;
     rg_status s = rg_project_init(&f->P, mem, &f->K, f->settings.solver);
     if (s == RG_EABSENT) return rg_fail(s, why, 0, "this build has no such solver: it was made with GPL=0");
-    if (s == RG_OK && f->smooth) s = rg_path_init(&f->path, mem, f->mesh.N);
+    if (s == RG_OK) s = rg_path_init(&f->path, mem, f->mesh.N);
     double **array[] = {&f->trial, &f->wish, &f->t, &f->pull, &f->best, &f->end, &f->k[0], &f->k[1], &f->k[2]};
     for (int i = 0; i < 9; i++)
         if (!(*array[i] = rg_mem_array(mem, (size_t)f->mesh.N, sizeof(double))) && s == RG_OK) s = RG_ENOMEM;
@@ -150,6 +150,16 @@ void rg_straight_set_most_steps(rg_straight *f, int32_t most)
     for (int32_t p = 0; p < f->apart.parts; p++) f->apart.part[p]->most_steps = most;
 }
 
+void rg_straight_stand(rg_straight *f, const double *rho, double s, int32_t frame)
+{
+    f->smooth = 0;
+    f->steps = 2;
+    f->frame = frame;
+    rg_path_clear(&f->path);
+    rg_path_insert(&f->path, s, rho, NULL);
+    rg_straight_accept(f, rho, s);
+}
+
 void rg_straight_set_due(rg_straight *f, const double *due)
 {
     f->due = due;
@@ -158,45 +168,53 @@ void rg_straight_set_due(rg_straight *f, const double *due)
 
 static void leave_flat(rg_straight *f)
 {
-    double s1 = fmin(FIRST_ANGLE / RG_PI, f->smooth ? f->s_end / 2 : rg_straight_frame_progress(f, f->frame));
-    if (f->smooth) rg_path_insert(&f->path, 0, f->rho, NULL);
+    double s1 = fmin(FIRST_ANGLE / RG_PI, f->s_end / 2);
+    rg_path_insert(&f->path, 0, f->rho, NULL);
+    if (f->settings.method == RG_METHOD_EULER) return;
     if (!rg_start_leave_flat(f, s1)) {
         rg_straight_stop(f, "no way off the flat state was found");
         return;
     }
-    if (f->smooth && !(rg_integrate_tangent(f, f->rho, f->s, 0, f->t) > 0)) f->smooth = 0;
+    const int has_t = rg_integrate_tangent(f, f->rho, f->s, 0, f->t) > 0;
+    f->smooth = f->smooth && has_t;
     f->h = f->s;
     f->order = 1;
-    if (!f->smooth) return;
-    rg_path_insert(&f->path, f->s, f->rho, f->t);
+    rg_path_insert(&f->path, f->s, f->rho, has_t ? f->t : NULL);
     rg_straight_accept(f, f->path.node[0].rho, 0); /* frames may lie before that node */
 }
 
 /* The next frame off the nodes, or another node where they do not reach it yet. */
-static void step_adaptive(rg_straight *f)
+static void go_on(rg_straight *f)
 {
     rg_path *p = &f->path;
-    const double goal = rg_straight_frame_progress(f, f->frame);
-    const int32_t beyond = RG_PATH_WINDOW / 2;
-    double last = p->node[p->count - 1].s;
-    int ended = f->path_ended || last >= f->s_end;
-    int reached = goal <= last && (ended || (p->count > beyond && goal <= p->node[p->count - beyond].s));
+    const double goal = rg_straight_frame_progress(f, f->frame), last = p->node[p->count - 1].s;
+    const int32_t beyond = f->smooth ? RG_PATH_WINDOW / 2 : 1;
+    const int ended = f->path_ended || last >= f->s_end || !f->smooth;
+    const int reached = goal <= last && (ended || (p->count > beyond && goal <= p->node[p->count - beyond].s));
     if (reached && rg_integrate_read_off(f, goal)) {
         rg_straight_accept(f, f->trial, goal);
-        return;
-    }
-    if (!reached && !ended) {
+    } else if (reached && !f->smooth) { /* where nothing between two nodes closes: the nearer one */
+        int32_t first, n;
+        rg_path_around(p, goal, &first, &n);
+        const rg_node *a = &p->node[first], *b = a + n - 1;
+        rg_straight_accept(f, (goal - a->s < b->s - goal ? a : b)->rho, goal);
+    } else if (!reached && f->smooth && !ended) {
         f->steps++;
         f->path_ended = !rg_integrate_advance(f);
-        return;
+    } else if (f->smooth) { /* from the last node that can be read off on, step by step */
+        f->smooth = 0;
+        rg_path_cut(p, goal);
+    } else {
+        f->steps++;
+        rg_straight_accept(f, p->node[p->count - 1].rho, last);
+        if (f->settings.method == RG_METHOD_EULER) rg_fixed_euler(f);
+        else rg_fixed_newton(f);
     }
-    f->smooth = 0; /* from the last node on, or from the last frame if that is all there is, step by step */
-    if (!reached) rg_straight_accept(f, p->node[p->count - 1].rho, last);
 }
 
 static int creeps(rg_straight *f)
 {
-    const double s = f->smooth && f->path.count > 0 ? f->path.node[f->path.count - 1].s : f->s;
+    const double s = f->path.count > 0 ? f->path.node[f->path.count - 1].s : f->s;
     const double could = MOST_IDLE * f->settings.step / RG_PI;
     const double part = LEAST_PART * (f->graded ? fmin(could, fmin(s, 1 - s)) : could);
     if (s - f->idle_s >= fmin(LEAST_GAIN, part)) f->idle = 0, f->idle_s = s;
@@ -211,15 +229,13 @@ static int32_t step(rg_straight *f)
         f->s = rg_straight_frame_progress(f, f->frame);
         return f->frame;
     }
-    if (f->steps - f->frame > (f->most_steps ? f->most_steps : fmax(MOST_STEPS, MOST_WAYS * RG_PI / f->settings.step))) { /* besides those that frames ask for */
+    if (f->steps > (f->most_steps ? f->most_steps : fmax(MOST_STEPS, MOST_WAYS * RG_PI / f->settings.step))) {
         rg_straight_stop(f, "the number of steps ran out");
     } else if (creeps(f)) {
         rg_straight_stop(f, "the facets leave hardly any way on: it goes on in steps too small to get anywhere");
     } else {
-        if (f->settings.method == RG_METHOD_EULER) rg_fixed_euler(f);
-        else if (f->steps == 1 && f->s == 0) leave_flat(f);
-        else if (f->smooth) step_adaptive(f);
-        else rg_fixed_newton(f);
+        if (f->path.count == 0) leave_flat(f);
+        else go_on(f);
         if (f->outcome == RG_RUNNING && f->s >= rg_straight_frame_progress(f, f->frame)) return f->frame;
     }
     return -1;
@@ -249,7 +265,7 @@ rg_status rg_straight_step(rg_straight *f, rg_step_info *info)
             f->outcome = RG_FOLDED;
             if (f->s_end >= 1) rg_straight_stop(f, "all frames are made");
         }
-        f->steps += !f->smooth || f->steps < 2;
+        f->steps += f->steps < 2;
     }
     f->seconds_solving += rg_seconds() - from;
     const rg_cost is = rg_straight_cost(f);

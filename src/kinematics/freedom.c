@@ -118,10 +118,18 @@ static double area(const rg_mesh *m, int32_t facet, const rg_vec2 *X)
     return twice / 2;
 }
 
-int rg_freedom_is_proper(const rg_freedom *f, const rg_vec2 *X, double least)
+int rg_freedom_room(const rg_freedom *f, const rg_vec2 *X, double least, double *room)
 {
     const rg_mesh *m = f->mesh;
-    for (int32_t k = 0; f->U > 0 && k < m->nf; k++)
-        if (!(area(m, k, X) >= least * area(m, k, m->X))) return 0;
-    return 1;
+    int proper = 1;
+    for (int32_t i = 0; room && i < f->U; i++) room[i] = 1;
+    for (int32_t k = 0; f->U > 0 && k < m->nf; k++) {
+        const double now = area(m, k, X), given = area(m, k, m->X), part = (now / given - least) / (1 - least);
+        if (!(now >= least * given)) proper = 0;
+        for (int32_t j = 2 * m->facet_start[k]; room && part < 1 && j < 2 * m->facet_start[k + 1]; j++) {
+            const int32_t way = f->way[m->facet_vertex[j / 2]][j % 2];
+            if (way >= 0) room[way] = fmax(0, fmin(room[way], part));
+        }
+    }
+    return proper;
 }

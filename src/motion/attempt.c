@@ -255,6 +255,46 @@ static rg_status make_relaxed(rg_attempt *t, const rg_settings *settings, const 
     return s;
 }
 
+/* The relaxation to its end, or to where it waits; and what comes of it. */
+static rg_status run_relaxed(rg_attempt *t, rg_watch *watch)
+{
+    rg_relax *F = t->relax;
+    const double begun = rg_seconds();
+    while (F->outcome == RG_RUNNING) {
+        rg_relax_step(F);
+        if (is_cancelled(watch, F->s_end > 0 ? F->s / F->s_end : 1)) break;
+    }
+    t->outcome = watch->cancelled || (t->backwards && !F->landed) ? RG_STOPPED : F->outcome;
+    snprintf(t->reason, sizeof t->reason, "%.190s", watch->cancelled ? "interrupted" : F->reason);
+    if (t->outcome == RG_STOPPED) {
+        const rg_status s = rg_diagnose_relaxed(F, t->vertex, &t->vertices, t->crease, &t->creases);
+        if (s != RG_OK) return s;
+    }
+    measure(t);
+    /* Backwards, a way that does not lead to its beginning is no motion. */
+    if (t->backwards && t->outcome != RG_FOLDED) t->score = -1;
+    if (t->is_from_flat) {
+        const double to = t->backwards ? 1 - fabs(t->to) : fabs(t->to);
+        double *z = rg_mem_array(&t->mem, (size_t)F->n, sizeof *z);
+        if (!z) return RG_ENOMEM;
+        rg_relax_at(F, fmin(to, F->node_s[F->nodes - 1]), z);
+        judge(t, z);
+        rg_mem_free(&t->mem, z);
+    }
+    t->work = F->work;
+    const rg_least *A = &F->J.A, *by_orbits = &F->orbits.A;
+    t->cost = (rg_cost){F->steps, A->solves + by_orbits->solves, A->iterations + by_orbits->iterations,
+                        A->factorizations + by_orbits->factorizations, F->assemblies, t->cost.seconds + rg_seconds() - begun};
+    return RG_OK;
+}
+
+rg_status rg_attempt_go_on(rg_attempt *t, double work, rg_watch *watch, rg_diag *why)
+{
+    rg_relax_go_on(t->relax, work);
+    const rg_status s = run_relaxed(t, watch);
+    return s == RG_OK ? s : rg_fail(s, why, 0, "%s", rg_status_text(s));
+}
+
 rg_status rg_attempt_relaxed(rg_attempt *t, rg_mesh *m, const rg_settings *settings, const rg_relaxation *how, const double *from,
                              const double *target, const rg_symmetry *G, int backwards, double budget, rg_watch *watch, rg_diag *why)
 {
@@ -263,6 +303,9 @@ rg_status rg_attempt_relaxed(rg_attempt *t, rg_mesh *m, const rg_settings *setti
     t->mem = rg_mem_default(settings->memory);
     t->to = settings->to;
     t->backwards = backwards;
+    t->is_from_flat = !from;
+    t->method = "relaxed";
+    t->solver = "cholesky";
     t->mesh = *m;
     memset(m, 0, sizeof *m);
     rg_status s = make_room(t, &t->mesh);
@@ -276,42 +319,14 @@ rg_status rg_attempt_relaxed(rg_attempt *t, rg_mesh *m, const rg_settings *setti
         s = t->symmetry ? rg_symmetry_on(t->symmetry, G, &t->mesh) : RG_ENOMEM;
         if (s == RG_OK) s = rg_relax_keep(t->relax, t->symmetry);
     }
-    rg_relax *F = t->relax;
     if (s == RG_OK) {
-        F->budget = budget;
-        while (F->outcome == RG_RUNNING) {
-            rg_relax_step(F);
-            if (is_cancelled(watch, F->s_end > 0 ? F->s / F->s_end : 1)) break;
-        }
-        t->outcome = watch->cancelled || (backwards && !F->landed) ? RG_STOPPED : F->outcome;
-        snprintf(t->reason, sizeof t->reason, "%.190s", watch->cancelled ? "interrupted" : F->reason);
-        if (t->outcome == RG_STOPPED) s = rg_diagnose_relaxed(F, t->vertex, &t->vertices, t->crease, &t->creases);
+        t->relax->budget = budget;
+        t->cost.seconds = rg_seconds() - begun;
+        s = run_relaxed(t, watch);
     }
-    if (s == RG_OK) {
-        measure(t);
-        /* Backwards, a way that does not lead to its beginning is no motion. */
-        if (backwards && t->outcome != RG_FOLDED) t->score = -1;
-        if (!from) {
-            const double to = backwards ? 1 - fabs(t->to) : fabs(t->to);
-            double *z = rg_mem_array(&t->mem, (size_t)F->n, sizeof *z);
-            if (z) rg_relax_at(F, fmin(to, F->node_s[F->nodes - 1]), z);
-            if (z) judge(t, z);
-            else s = RG_ENOMEM;
-            rg_mem_free(&t->mem, z);
-        }
-        t->work = F->work;
-        t->method = "relaxed";
-        t->solver = "cholesky";
-        const rg_least *A = &F->J.A, *by_orbits = &F->orbits.A;
-        t->cost = (rg_cost){F->steps, A->solves + by_orbits->solves, A->iterations + by_orbits->iterations,
-                            A->factorizations + by_orbits->factorizations, F->assemblies, 0};
-    }
-    if (s != RG_OK) {
-        rg_attempt_free(t);
-        return rg_fail(s, why, 0, "%s", rg_status_text(s));
-    }
-    t->cost.seconds = rg_seconds() - begun;
-    return RG_OK;
+    if (s == RG_OK) return s;
+    rg_attempt_free(t);
+    return rg_fail(s, why, 0, "%s", rg_status_text(s));
 }
 
 /* -------------------------------------------------------------------------------------------- frames ---- */
@@ -416,7 +431,7 @@ rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *set
     t->rho = rg_mem_array(&t->mem, ((size_t)frames + 1) * N, sizeof *t->rho);
     t->flat = rg_mem_array(&t->mem, ((size_t)frames + 1) * nv, sizeof *t->flat);
     if (!due || !sum || !t->rho || !t->flat) s = RG_ENOMEM;
-    for (int32_t k = 0; due && k < frames; k++) due[k] = to * k / (frames - 1);
+    for (int32_t k = 0; due && k < frames; k++) due[k] = to * ((double)k / (frames - 1));
     for (int pass = 0; s == RG_OK && pass <= (settings->pace == RG_PACE_STEADY); pass++) {
         if (pass) pace_by_states(t->rho, N, frames, to, frames, sum, due);
         for (t->count = 0; t->count < frames; t->count++)
@@ -461,7 +476,7 @@ rg_status rg_attempt_read(rg_attempt *t, const rg_settings *settings)
     if (s == RG_OK) {
         /* Stopped short, frames keep the pace that the whole way would have had. */
         for (t->count = 0; t->count < frames; t->count++) {
-            const double d = s0 + (t->backwards ? -to : to) * t->count / (frames - 1);
+            const double d = s0 + (t->backwards ? -to : to) * ((double)t->count / (frames - 1));
             if (!t->backwards && t->outcome != RG_FOLDED && !(d < last)) break;
             due[t->count] = fmin(d, last);
         }

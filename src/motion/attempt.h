@@ -27,6 +27,7 @@ typedef struct rg_attempt {
     rg_relax *relax;          /* owned; NULL: straight on */
     rg_symmetry *symmetry;    /* owned: what the relaxation keeps; NULL: none */
     int backwards;            /* found from its end: its path runs the other way round */
+    int is_from_flat;
     double to;                /* of the settings */
     double *rho;              /* [count][mesh.N] frames; NULL: not read off yet */
     rg_vec2 *flat;            /* [count][mesh.nv] the pattern of each; NULL: that of the mesh */
@@ -54,6 +55,8 @@ rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *s, i
  * vertices, kept; NULL: none. *m is taken over, also on failure. budget: of its work. */
 rg_status rg_attempt_relaxed(rg_attempt *t, rg_mesh *m, const rg_settings *s, const rg_relaxation *how, const double *from,
                              const double *target, const rg_symmetry *G, int backwards, double budget, rg_watch *watch, rg_diag *why);
+/* One whose relaxation waits runs on, for so much more work. */
+rg_status rg_attempt_go_on(rg_attempt *t, double work, rg_watch *watch, rg_diag *why);
 /* A path that was found some other way, from flat to `target`: read(ctx, progress, rho[N], X[nv]) gives its state at a progress
  * 0 ... 1. Its frames are read off at once. *m is taken over, also on failure. RG_ENOMEM. */
 typedef void rg_attempt_reader(void *ctx, double progress, double *rho, rg_vec2 *X);

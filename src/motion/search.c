@@ -234,6 +234,18 @@ static void keep(rg_search *q, const ladder *l, int32_t k)
     snprintf(q->strategy, sizeof q->strategy, "%s%s", r->name, r->backwards ? ", unfolded from its end" : "");
 }
 
+/* Where no try folds, the best of those that were ended early may show how far it comes after all. */
+static rg_status go_on(ladder *l, rg_diag *why)
+{
+    int32_t best = -1;
+    for (int32_t j = 0; j < l->jobs; j++) {
+        const rg_attempt *t = &l->attempt[j];
+        if (t->mem.resize && t->relax && t->relax->waits && (best < 0 || is_better(t, &l->attempt[best]))) best = j;
+    }
+    rg_watch watch = {.progress = tell, .ctx = l};
+    return best >= 0 ? rg_attempt_go_on(&l->attempt[best], MOST_WORK[l->settings->effort], &watch, why) : RG_OK;
+}
+
 static rg_status climb(rg_search *q, ladder *l, rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(l->settings->memory);
@@ -242,6 +254,7 @@ static rg_status climb(rg_search *q, ladder *l, rg_diag *why)
     l->attempt = rg_mem_array(&mem, (size_t)l->jobs, sizeof *l->attempt);
     if (!l->attempt) return RG_ENOMEM;
     const int32_t winner = rg_race_run(&rules, &done);
+    if (l->status == RG_OK && winner < 0 && !l->watch->cancelled) l->status = go_on(l, &l->why);
     if (l->status == RG_OK) {
         const int32_t counted = done ? done : l->jobs; /* ended: what there is */
         for (int32_t j = 0; j < counted; j++) {
