@@ -419,6 +419,23 @@ typedef struct rg_try {
     char reason[200];             /* why it ended */
 } rg_try;
 
+/* A simple fold: layers on one side of a line, turned over it by half a turn. */
+typedef struct rg_simple_turn {
+    int32_t creases;      /* how many it makes, */
+    const int32_t *crease; /* and which, by their numbers; of a crease that added ones cut, its parts */
+    int over;             /* seen with the front of the facet nearest the sheet's middle up: +1 over the others, a valley fold; -1 behind */
+    double line[2][2];    /* where that line is on the folded sheet, as that facet lies in the pattern; file coordinates */
+} rg_simple_turn;
+
+/* A part of a motion that goes in stages: simple folds that go together, or all of its creases at once. Borrowed, as all it points to. */
+typedef struct rg_folding_stage {
+    int32_t first_frame, last_frame; /* it is folded flat in both, or not folded at all */
+    int32_t creases;            /* how many it makes, */
+    const int32_t *crease;      /* and which */
+    int32_t folds;              /* how many simple folds; 0: all its creases at once */
+    const rg_simple_turn *fold; /* these */
+} rg_folding_stage;
+
 /* A motion, measured. Degrees where the name ends in _deg. */
 typedef struct rg_report {
     const rg_pattern_info *pattern; /* borrowed */
@@ -471,6 +488,8 @@ typedef struct rg_report {
     const rg_frame *frames; /* borrowed */
     int32_t states, states_reached; /* of a sequence of states; 0: the motion is of one pattern */
     const int32_t *state_frame;     /* [states_reached] the frame that is that state; borrowed */
+    int32_t stages;                 /* it is folded in so many, one after the other, as nothing is free all at once; 0: at once */
+    const rg_folding_stage *stage;  /* these; borrowed */
     int32_t by_flat_count;          /* ways from one state to the next that went through flat paper, */
     const int32_t *by_flat;         /* and the states, from 1, that they begin at; borrowed */
     int32_t tried_count;            /* what was tried, in its order, */

@@ -21,6 +21,46 @@ static const double ON_THE_PATTERN = 1e-4;
 /* A pattern that was moved by less is the one given, for all that one sees. */
 static const double SEEN = 1e-3;
 
+/* A coordinate as people write it: rounding is no place. */
+static double tidy(double x, double size) { return fabs(x) > 1e-9 * size ? x : 0; }
+
+/* One line, "1: 76 creases at once; 2: 4 simple folds"; what comes after the room for it is left to -v and the report. */
+static void summarize_stages(const rg_report *r)
+{
+    char text[240] = "";
+    size_t n = 0;
+    for (int32_t k = 0; k < r->stages; k++) {
+        const rg_folding_stage *s = &r->stage[k];
+        const int32_t many = s->folds ? s->folds : s->creases;
+        char one[60];
+        const size_t used = (size_t)snprintf(one, sizeof one, "%s%d: %d %s%s%s", k ? "; " : "", (int)k + 1, (int)many, s->folds ? "simple fold" : "crease",
+                                             many == 1 ? "" : "s", s->folds ? "" : " at once");
+        if (n + used + 8 > sizeof text) {
+            snprintf(text + n, sizeof text - n, "; ...");
+            break;
+        }
+        n += (size_t)snprintf(text + n, sizeof text - n, "%s", one);
+    }
+    if (r->stages > 0) printf("  stages    %s\n", text);
+}
+
+/* As instructions, fold by fold. */
+static void tell_stages(const rg_report *r)
+{
+    const double size = r->pattern->size;
+    for (int32_t k = 0; k < r->stages; k++) {
+        const rg_folding_stage *s = &r->stage[k];
+        printf("  stage %-3d frames %d to %d, to %.1f %%", (int)k + 1, (int)s->first_frame, (int)s->last_frame, r->frames[s->last_frame].percent);
+        if (s->folds == 0) printf(": %d creases at once", (int)s->creases);
+        for (int32_t f = 0; f < s->folds; f++) {
+            const rg_simple_turn *t = &s->fold[f];
+            printf("%s %s fold from (%.4g, %.4g) to (%.4g, %.4g), %d crease%s", f ? ";" : ":", t->over > 0 ? "valley" : "mountain", tidy(t->line[0][0], size),
+                   tidy(t->line[0][1], size), tidy(t->line[1][0], size), tidy(t->line[1][1], size), (int)t->creases, t->creases == 1 ? "" : "s");
+        }
+        putchar('\n');
+    }
+}
+
 /* The first line says what came of it, the second what was written. */
 static void summarize(const options *o, const char *name, const rg_motion *m)
 {
@@ -28,14 +68,14 @@ static void summarize(const options *o, const char *name, const rg_motion *m)
     char files[4096], moved[120] = "";
     if (r->max_adjustment > SEEN)
         snprintf(moved, sizeof moved, ", with creases moved by up to %.2g %% of the sheet (--adjust off keeps them)", 100 * r->max_adjustment);
-    const char *what = r->outcome == RG_RESTS ? "rests, as undriven creases leave its end open" : r->contact == RG_CONTACT_CROSSES ? "folded, passing through itself" : "folded";
+    char staged[40];
+    snprintf(staged, sizeof staged, "folded in %d stages", (int)r->stages);
+    const char *what = r->outcome == RG_RESTS ? "rests, as undriven creases leave its end open" : r->contact == RG_CONTACT_CROSSES ? "folded, passing through itself" : r->stages > 0 ? staged : "folded";
     printf("%s: %s, %.1f %%%s; %d frames in %.2f s\n", name, what, r->folded_percent, moved, (int)r->frame_count, r->seconds_total);
     verdict_files(o, "  written   ", files, sizeof files);
     if (files[0]) puts(files);
+    summarize_stages(r);
 }
-
-/* A coordinate as people write it: rounding is no place. */
-static double tidy(double x, double size) { return fabs(x) > 1e-9 * size ? x : 0; }
 
 /* Of a motion that reaches its end through itself: from where on, and which facets first. Of one that stopped short, -v says it. */
 static void say_contact(const char *name, const rg_report *r)
@@ -63,6 +103,7 @@ static void tell_details(const rg_motion *m)
     const rg_report *r = rg_motion_report(m);
     int32_t ways;
     printf("  reason    %s\n  least     %.1f %% of any crease\n", r->reason, r->least_folded_percent);
+    tell_stages(r);
     if (r->states > 0)
         printf("  states    %d of %d, %d of the ways through flat\n", (int)r->states_reached, (int)r->states, (int)r->by_flat_count);
     printf("  closure   %.1e rad at the worst vertex, edge strain %.1e, facet gap %.1e\n", r->max_closure_residual,

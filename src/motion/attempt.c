@@ -445,6 +445,7 @@ rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *set
     }
     memcpy(t->target, target, N * sizeof *target);
     t->outcome = RG_FOLDED;
+    t->is_read = 1;
     measure(t);
     for (int32_t k = 0; k < t->count; k++)
         for (size_t v = 0; v < nv; v++)
@@ -465,6 +466,7 @@ rg_status rg_attempt_read(rg_attempt *t, const rg_settings *settings)
 {
     const rg_relax *F = t->relax;
     const int32_t frames = settings->frames;
+    if (t->is_read) return RG_OK;
     if (!F && settings->pace == RG_PACE_STEADY && t->outcome != RG_STOPPED && t->count == frames) return read_steadily(t, settings);
     if (!F || t->rho) return RG_OK;
     const double to = fabs(settings->to), last = F->node_s[F->nodes - 1];

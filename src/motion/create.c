@@ -7,6 +7,7 @@
 #include "motion/measure.h"
 #include "motion/motion.h"
 #include "motion/search.h"
+#include "motion/stages.h"
 #include "motion/unfolding.h"
 #include "pattern/source.h"
 
@@ -95,6 +96,23 @@ static rg_status adopt(rg_motion *m, rg_search *c)
     return RG_OK;
 }
 
+/* The stages, as the report lends them; and what is whose in the file, where their mesh is finer than the pattern's. */
+static rg_status adopt_stages(rg_motion *m, rg_stages *q)
+{
+    rg_report *r = &m->report;
+    m->stages = *q;
+    memset(q, 0, sizeof *q);
+    r->stages = m->stages.count;
+    r->stage = m->stages.stage;
+    for (int32_t j = 0; j < r->stages; j++) /* their folds stand one after the other */
+        for (int32_t k = 0; k < r->stage[j].folds; k++)
+            for (int i = 0; m->source.y_down && i < 2; i++) {
+                double *y = &m->stages.fold[r->stage[j].fold - m->stages.fold + k].line[i][1];
+                *y = 0 - *y;
+            }
+    return m->stages.vertex ? rg_source_follow(&m->source, m->mesh.nv, m->stages.vertex, m->mesh.ne, m->stages.edge) : RG_OK;
+}
+
 rg_status rg_motion_create(const rg_pattern *p, const rg_settings *given, rg_progress progress, void *ctx,
                            rg_motion **motion, rg_diag *why)
 {
@@ -110,15 +128,20 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *given, rg_pro
     rg_report *r = &m->report;
     rg_watch watch = {.progress = progress, .ctx = ctx};
     rg_search search = {0};
+    rg_stages stages = {0};
+    int wanted = 0;
     rg_mesh none = {0};
     s = rg_motion_name(m, p);
     if (s == RG_OK) s = rg_source_copy(&p->source, &mem, &m->source);
     if (s == RG_OK) s = rg_mesh_from_pattern(p, &mem, &none, why);
     const rg_problem problem = {&none, NULL, NULL, 1};
     if (s == RG_OK) s = rg_search_run(&search, &problem, settings, &watch, why);
-    if (s == RG_OK) s = rg_unfolding_try(&search, &none, settings, &watch, why);
+    if (s == RG_OK) s = rg_unfolding_try(&search, &none, settings, &watch, &wanted, why);
+    if (s == RG_OK && wanted) s = rg_stages_try(&stages, &search, &none, settings, &watch, why);
     if (s == RG_OK) s = rg_attempt_read(&search.best, settings);
     if (s == RG_OK) s = adopt(m, &search);
+    if (s == RG_OK) s = adopt_stages(m, &stages);
+    rg_motion_free_stages(&stages);
     if (s == RG_OK) rg_motion_lend(m);
     rg_attempt_free(&search.best);
     if (s == RG_OK) s = rg_tree_init(&m->mesh, settings->fixed_facet, &m->tree);

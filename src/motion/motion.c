@@ -9,6 +9,14 @@
 /* A point that is meant to be on a crease is no farther from it than this part of the sheet's size. */
 static const double ON_CREASE = 0.01;
 
+void rg_motion_free_stages(rg_stages *q)
+{
+    if (!q->mem.resize) return;
+    void *block[] = {q->stage, q->fold, q->crease, q->vertex, q->edge};
+    for (int i = 0; i < 5; i++) rg_mem_free(&q->mem, block[i]);
+    memset(q, 0, sizeof *q);
+}
+
 void rg_motion_destroy(rg_motion *m)
 {
     if (!m) return;
@@ -19,6 +27,7 @@ void rg_motion_destroy(rg_motion *m)
                      m->state_frame, m->by_flat, m->space};
     for (int i = 0; i < 11; i++) rg_mem_free(&m->mem, block[i]);
     rg_layers_destroy(m->layers);
+    rg_motion_free_stages(&m->stages);
     rg_source_free(&m->source);
     rg_mem_free(&mem, m->title);
     rg_mem_free(&mem, m->author);

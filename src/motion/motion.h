@@ -6,6 +6,17 @@
 #include "mesh/mesh.h"
 #include "pose/pose.h"
 
+/* The stages of a motion, and how its mesh is made of the pattern's. */
+typedef struct rg_stages {
+    rg_memory mem;
+    rg_folding_stage *stage;      /* [count] as in the report; 0: not in stages */
+    int32_t count;
+    rg_simple_turn *fold;
+    int32_t *crease;
+    int32_t *vertex;      /* [mesh nv] which of the pattern's vertices each of the motion's mesh is, -1: none; NULL: the same ones */
+    int32_t *edge;        /* [mesh ne] which of its edges it is a part of, -1: none */
+} rg_stages;
+
 struct rg_motion {
     rg_memory mem;
     rg_settings settings;
@@ -24,11 +35,13 @@ struct rg_motion {
     int32_t *blocking_vertex, *blocking_crease;
     double (*blocking_at)[2];
     int32_t *state_frame, *by_flat; /* of a sequence of states, as in the report; NULL: of one pattern */
+    rg_stages stages;      /* in which it goes; count 0: at once */
     rg_layers *layers;     /* of its flat end, see ending.h; NULL: not looked for */
     int ends_flat;         /* non-zero: the last frame is folded flat */
     rg_report report;
 };
 
+void rg_motion_free_stages(rg_stages *q);
 /* The pattern of a frame, [mesh.nv]. */
 const rg_vec2 *rg_motion_pattern(const rg_motion *m, int32_t f);
 /* x[mesh.nv]: out, positions in frame f, 0 <= f < report.frame_count. RG_ENOMEM. */

@@ -45,7 +45,7 @@ static rg_status first_crossing(const rg_attempt *t, int32_t *frame)
 }
 
 /* The same of the path itself; what went straight on has its frames only. */
-static rg_status path_crosses(rg_attempt *t, const rg_settings *settings, int32_t *frame)
+rg_status rg_unfolding_crosses(rg_attempt *t, const rg_settings *settings, int32_t *frame)
 {
     rg_settings look = *settings;
     look.frames = LOOKED_AT;
@@ -55,6 +55,8 @@ static rg_status path_crosses(rg_attempt *t, const rg_settings *settings, int32_
     rg_attempt_forget_frames(t);
     return s;
 }
+
+const char *const RG_UNFOLDED = "unfolded without contact";
 
 static int stop(void *ctx, double done)
 {
@@ -95,17 +97,17 @@ static void adopt(rg_search *c, rg_attempt *t, const rg_unfold *u)
     memset(t, 0, sizeof *t);
     c->triangulation = c->best.mesh.added ? "all" : "none";
     c->why_triangulated = "a motion in which facets do not pass through each other bends them";
-    c->rung = "unfolded without contact";
+    c->rung = RG_UNFOLDED;
     c->direction = "backward";
     c->compliance = GIVE;
     snprintf(c->strategy, sizeof c->strategy, "%s", u->how);
 }
 
-static rg_status unfold(rg_search *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why)
+rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings *s, double part, rg_watch *watch, rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(s->memory);
     const double begun = rg_seconds();
-    const rg_unfold_wish wish = {s->to < 0 ? -1 : 1, s->layer_order, 0, MOST_WORK[s->effort], stop, watch};
+    const rg_unfold_wish wish = {s->to < 0 ? -1 : 1, s->layer_order, 0, part * MOST_WORK[s->effort], stop, watch};
     rg_unfold u;
     rg_attempt t = {0};
     int32_t crossing = 0;
@@ -123,14 +125,18 @@ static rg_status unfold(rg_search *c, const rg_mesh *none, const rg_settings *s,
     return status;
 }
 
-rg_status rg_unfolding_try(rg_search *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why)
+rg_status rg_unfolding_try(rg_search *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, int *wanted, rg_diag *why)
 {
     int32_t crossing = -1;
+    *wanted = 0;
     if (s->contact != RG_CONTACT_AVOID || s->effort == RG_EFFORT_FAST || s->to == 0 || watch->cancelled) return RG_OK;
-    if (s->adjust == 0 || s->triangulate == RG_TRIANGULATE_NONE) return RG_OK; /* it bends facets and moves the pattern */
     if (none->still) return RG_OK; /* its end is no flat one */
+    const int may_bend = s->adjust != 0 && s->triangulate != RG_TRIANGULATE_NONE; /* facets, and move the pattern */
     const int stopped = c->best.outcome == RG_STOPPED;
-    rg_status status = stopped ? RG_OK : path_crosses(&c->best, s, &crossing);
-    if (status == RG_OK && (stopped || crossing >= 0)) status = unfold(c, none, s, watch, why);
+    rg_status status = stopped ? RG_OK : rg_unfolding_crosses(&c->best, s, &crossing);
+    if (status == RG_OK && (stopped || crossing >= 0)) {
+        if (may_bend) status = rg_unfolding_run(c, none, s, 1, watch, why);
+        *wanted = status == RG_OK && c->rung != RG_UNFOLDED;
+    }
     return status == RG_ENOMEM ? rg_fail(status, why, 0, "%s", rg_status_text(status)) : status;
 }

@@ -1,11 +1,18 @@
 /* unfolding.h -- a motion in which no facets pass through each other, where the plain one is none.
- * Paper    section 4's future work        Uses  search.h unfold.h contact.h        Used by  create.c */
+ * Paper    section 4's future work        Uses  search.h unfold.h contact.h        Used by  create.c stages.c */
 #ifndef RG_UNFOLDING_H
 #define RG_UNFOLDING_H
 
 #include "motion/search.h"
 
-/* Looks for one where what was chosen does not fold, or crosses; *c becomes it if there is. RG_OK also when there is none. */
-rg_status rg_unfolding_try(rg_search *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why);
+extern const char *const RG_UNFOLDED; /* the rung of what was found so */
+
+/* Looks for one where what was chosen does not fold, or crosses; *c becomes it if there is. *wanted: out, non-zero: there is none, and
+ * one was looked for. RG_OK also then. */
+rg_status rg_unfolding_try(rg_search *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, int *wanted, rg_diag *why);
+/* The same whatever was chosen; *c may be empty. part: of the work that may be spent. */
+rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings *s, double part, rg_watch *watch, rg_diag *why);
+/* The first of evenly spaced states of a path in which facets cross; -1: none. Frames that can be read off again are let go. */
+rg_status rg_unfolding_crosses(rg_attempt *t, const rg_settings *s, int32_t *frame);
 
 #endif

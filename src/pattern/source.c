@@ -116,6 +116,29 @@ void rg_source_free(rg_source *s)
     memset(s, 0, sizeof *s);
 }
 
+rg_status rg_source_follow(rg_source *s, int32_t nv, const int32_t *vertex, int32_t ne, const int32_t *edge)
+{
+    int32_t *of_vertex = s->vertex ? rg_mem_array(&s->mem, (size_t)nv, sizeof *of_vertex) : NULL;
+    int32_t *of_edge = s->edge ? rg_mem_array(&s->mem, (size_t)ne, sizeof *of_edge) : NULL;
+    int32_t *where = s->where ? rg_mem_array(&s->mem, (size_t)ne, sizeof *where) : NULL;
+    if ((s->vertex && !of_vertex) || (s->edge && !of_edge) || (s->where && !where)) {
+        void *block[] = {of_vertex, of_edge, where};
+        for (int i = 0; i < 3; i++) rg_mem_free(&s->mem, block[i]);
+        return RG_ENOMEM;
+    }
+    for (int32_t v = 0; of_vertex && v < nv; v++) of_vertex[v] = vertex[v] >= 0 && vertex[v] < s->nv ? s->vertex[vertex[v]] : -1;
+    for (int32_t e = 0; e < ne; e++) {
+        const int known = edge[e] >= 0 && edge[e] < s->ne;
+        if (of_edge) of_edge[e] = known ? s->edge[edge[e]] : -1;
+        if (where) where[e] = known ? s->where[edge[e]] : 0;
+    }
+    void *old[] = {s->vertex, s->edge, s->where};
+    for (int i = 0; i < 3; i++) rg_mem_free(&s->mem, old[i]);
+    s->vertex = of_vertex, s->edge = of_edge, s->where = where;
+    s->nv = nv, s->ne = ne;
+    return RG_OK;
+}
+
 /* ------------------------------------------------------------------------------------------------------- faces ---- */
 
 /* A set of numbers as one: order does not matter. The constants are those of splitmix64. */

@@ -13,6 +13,9 @@ rg_status rg_source_sort(rg_graph *g, const rg_lines *lines);
 rg_status rg_source_init(rg_source *s, const rg_graph *g, rg_lines *lines);
 /* A copy with an allocator of its own; the frame is shared. RG_ENOMEM leaves *out empty. */
 rg_status rg_source_copy(const rg_source *s, const rg_memory *mem, rg_source *out);
+/* Of a finer pattern: vertex[nv], edge[ne]: which of ours each of its vertices is, and which each of its edges is a part of; -1: none.
+ * RG_ENOMEM leaves *s as it was. */
+rg_status rg_source_follow(rg_source *s, int32_t nv, const int32_t *vertex, int32_t ne, const int32_t *edge);
 void rg_source_free(rg_source *s);
 /* source[nf]: out, the face of the file that has the vertices of each facet, -1: none. RG_ENOMEM. */
 rg_status rg_source_faces(const rg_source *s, int32_t nf, const int32_t *facet_start, const int32_t *facet_vertex, int32_t *source);

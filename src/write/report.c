@@ -161,6 +161,37 @@ static void states(rg_json *j, const rg_report *r)
     rg_json_close(j);
 }
 
+/* As a folder reads them: one after the other, each from flat to flat. */
+static void stages(rg_json *j, const rg_report *r)
+{
+    if (!r->stages) return;
+    rg_json_open(j, "stages", '[');
+    for (int32_t k = 0; k < r->stages; k++) {
+        const rg_folding_stage *s = &r->stage[k];
+        rg_json_open(j, NULL, '{');
+        rg_json_integer(j, "number", k + 1);
+        rg_json_string(j, "kind", s->folds ? "simple folds" : "all at once");
+        rg_json_integer(j, "first_frame", s->first_frame);
+        rg_json_integer(j, "last_frame", s->last_frame);
+        rg_json_number(j, "from_percent", r->frames[s->first_frame].percent);
+        rg_json_number(j, "to_percent", r->frames[s->last_frame].percent);
+        rg_json_integers(j, "creases", s->crease, s->creases);
+        rg_json_open(j, "folds", '[');
+        for (int32_t f = 0; f < s->folds; f++) {
+            rg_json_open_line(j, NULL, '{');
+            rg_json_string(j, "fold", s->fold[f].over > 0 ? "valley" : "mountain");
+            rg_json_open_line(j, "line", '[');
+            for (int i = 0; i < 2; i++) rg_json_numbers(j, NULL, s->fold[f].line[i], 2);
+            rg_json_close(j);
+            rg_json_integers(j, "creases", s->fold[f].crease, s->fold[f].creases);
+            rg_json_close(j);
+        }
+        rg_json_close(j);
+        rg_json_close(j);
+    }
+    rg_json_close(j);
+}
+
 /* Which crease is which: the numbers are those of the columns of .csv, of the ids in .svg. */
 static void creases(rg_json *j, const rg_motion *m)
 {
@@ -205,6 +236,7 @@ rg_status rg_report_write(const rg_motion *m, double seconds_writing, double pea
     result(&j, m, at_end);
     search(&j, r);
     states(&j, r);
+    stages(&j, r);
     creases(&j, m);
     rg_json_open(&j, "frames", '[');
     for (int32_t k = 0; k < r->frame_count; k++) {
