@@ -1,9 +1,14 @@
 # make            the library and the command line        make demo      set up, build, fold a pattern, say where it is
 # make test       set up, build, run every test           make check     everything a change must pass
 # make bench      times, as CSV                           make install   prefix=/usr/local DESTDIR=
+<<<<<<< HEAD
 # make debian     a source package and what it builds     make abi       keep what the libraries show now
 # make asan, coverage, werror, layers, equations, abi-check, outputs, format, pictures, figures, corpus [fresh=1], chart, stability, uninstall, clean
 # config=release|debug|asan|coverage   GL=osmesa|egl|none (the first that is there)   GPL=1|0   CC=gcc|clang   WERROR=0|1
+=======
+# make asan, coverage, werror, layers, equations, outputs, format, pictures, figures, corpus [fresh=1], chart, stability, uninstall, clean
+# config=release|debug|asan|coverage|tsan|fuzz   GL=osmesa|egl|none (the first that is there)   GPL=1|0   CC=gcc|clang   WERROR=0|1
+>>>>>>> 1096161 (Fuzzing in the tree: a target for each reader, for read-convert-read and for the whole fold; messages are one line whatever the file says)
 # V=1 shows whole commands
 config  ?= release
 GPL     ?= 1
@@ -27,8 +32,8 @@ endif
 ifeq ($(filter $(GL),osmesa egl none),)
 $(error GL is one of osmesa, egl, none)
 endif
-ifeq ($(filter $(config),release debug asan coverage),)
-$(error config is one of release, debug, asan, coverage)
+ifeq ($(filter $(config),release debug asan coverage tsan fuzz),)
+$(error config is one of release, debug, asan, coverage, tsan, fuzz)
 endif
 
 B := build/$(config)$(if $(filter-out osmesa,$(GL)),-gl-$(GL))$(if $(filter 0,$(GPL)),-nogpl)$(if $(filter clang%,$(CC)),-clang)$(if $(filter 1,$(WERROR)),-werror)
@@ -55,7 +60,9 @@ endif
 optimise_release  := -O2 -g
 optimise_debug    := -O0 -g
 optimise_asan     := -O1 -g
-optimise_coverage := -O0 -g
+optimise_coverage := -O1 -g
+optimise_tsan     := -O1 -g
+optimise_fuzz     := -O1 -g
 CFLAGS   ?= $(optimise_$(config))
 ldflags  :=
 ifeq ($(config),asan)
@@ -64,6 +71,12 @@ cflags   += $(ldflags) -fno-sanitize-recover=all -fno-omit-frame-pointer
 else ifeq ($(config),coverage)
 ldflags  += --coverage
 cflags   += --coverage
+else ifeq ($(config),tsan)
+ldflags  += -fsanitize=thread
+cflags   += $(ldflags)
+else ifeq ($(config),fuzz)
+ldflags  += -fsanitize=address,undefined
+cflags   += -fsanitize=fuzzer-no-link $(ldflags) -fno-sanitize-recover=all -fno-omit-frame-pointer
 endif
 # One short line a command; V=1 shows the whole of it.
 Q := $(if $(filter 1,$(V)),,@)
@@ -347,5 +360,6 @@ clean:
 
 .PHONY: all build test demo run-tests run-demo asan coverage coverage-table bench run-bench check werror everything without-gpl \
         without-gl layers equations outputs header format pictures figures corpus install uninstall install-check clean
+include tools/checks.mk
 .SECONDARY:
 -include $(shell find $B -name '*.d' 2>/dev/null)

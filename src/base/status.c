@@ -24,6 +24,12 @@ int rg_version_number(void)
     return RG_VERSION_NUMBER;
 }
 
+void rg_status_one_line(char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text < ' ' || *text == 0x7F) *text = ' ';
+}
+
 rg_status rg_fail(rg_status s, rg_diag *why, int line, const char *format, ...)
 {
     if (why) {
@@ -31,6 +37,7 @@ rg_status rg_fail(rg_status s, rg_diag *why, int line, const char *format, ...)
         va_start(args, format);
         vsnprintf(why->text, sizeof why->text, format, args);
         va_end(args);
+        rg_status_one_line(why->text);
         why->line = line;
     }
     return s;

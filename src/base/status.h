@@ -6,10 +6,13 @@
 #include "rigami.h"
 
 /* Writes a printf-style message and a line number (0: none) into *why (may be NULL) and returns `s`, so that a
- * failing branch is one statement: return rg_fail(RG_EFORMAT, why, line, "..."). Long text is cut. */
+ * failing branch is one statement: return rg_fail(RG_EFORMAT, why, line, "..."). Long text is cut, and is one line. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif
 rg_status rg_fail(rg_status s, rg_diag *why, int line, const char *format, ...);
+
+/* Blanks for control characters, so that what a file says stays one line of a message, and moves no cursor. */
+void rg_status_one_line(char *text);
 
 #endif

@@ -279,6 +279,7 @@ static rg_status write_fold(rg_lines *l, const rg_reading *settings, const char 
     if (s == RG_OK) s = letter_edges(&p, &l->mem);
     if (s == RG_OK) s = number(&p, l);
     if (s == RG_OK) s = number_faces(&p, l);
+    if (s == RG_OK && p.g.ne == 0) s = rg_fail(RG_EFORMAT, why, 0, "there is no line that has a length");
     if (s == RG_OK && p.g.ne < lines)
         s = rg_lines_warn(l, 0, "%d lines that lie on others, or have no length, are left out", (int)(lines - p.g.ne));
     rg_fold_sheet *f = &p.sheet;

@@ -1,5 +1,6 @@
 #include "lines/lines.h"
 #include "base/memory.h"
+#include "base/status.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -42,6 +43,7 @@ rg_status rg_lines_warn(rg_lines *l, int32_t where, const char *format, ...)
     if (is_last) snprintf(d->text, sizeof d->text, "more warnings are left out");
     else vsnprintf(d->text, sizeof d->text, format, args);
     va_end(args);
+    rg_status_one_line(d->text);
     d->line = where;
     return RG_OK;
 }

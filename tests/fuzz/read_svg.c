@@ -1,0 +1,2 @@
+#define FORMAT RG_FORMAT_SVG
+#include "reader.h"
