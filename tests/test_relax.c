@@ -478,6 +478,32 @@ static void memory(void **state)
     end(&r);
 }
 
+/* What the exit status 0 promises: a run that ends with a crease short of its target by more than 1 % has not folded. */
+static void one_percent_is_one_percent(void **state)
+{
+    (void)state;
+    static const struct { double part; rg_outcome outcome; } all[] = {{0.9925, RG_FOLDED}, {0.9901, RG_FOLDED}, {0.9899, RG_STOPPED}, {0.96, RG_STOPPED}};
+    for (int k = 0; k < 4; k++)
+        for (int alone = 0; alone < 2; alone++) {
+            run r;
+            begin(&r, generated("fish", 0), 1, &GIVING, NULL);
+            for (int n = 0; n < 5; n++) rg_relax_step(&r.F);
+            assert_int_equal(r.F.outcome, RG_RUNNING);
+            int32_t driven = 0;
+            for (int32_t i = 0; i < r.m.N; i++) {
+                if (isnan(r.target[i]) || r.target[i] == 0) continue;
+                r.F.z[i] = (alone && driven ? 1 : all[k].part) * r.target[i];
+                driven++;
+            }
+            for (int32_t i = 0; i < r.F.U; i++) r.F.z[r.F.N + i] = 0;
+            assert_true(driven > 1);
+            r.F.steps = 1000000; /* it is over */
+            rg_relax_step(&r.F);
+            assert_int_equal(r.F.outcome, all[k].outcome);
+            end(&r);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -487,7 +513,7 @@ int main(void)
         cmocka_unit_test(four_mountains_never_fold), cmocka_unit_test(kept_flat_foldable), cmocka_unit_test(states_between),
         cmocka_unit_test(no_crease_goes_past_half_a_turn), cmocka_unit_test(nor_does_one_of_a_crane),
         cmocka_unit_test(as_far_as_asked_for), cmocka_unit_test(unfolding), cmocka_unit_test(the_same_bits_twice),
-        cmocka_unit_test(memory),
+        cmocka_unit_test(memory), cmocka_unit_test(one_percent_is_one_percent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,6 +14,7 @@
 #include "folded.h"
 #include "folding.h"
 #include "fold/straight.h"
+#include "fold/system.h"
 #include "generate/generate.h"
 
 static rg_pattern *generated(const char *kind, int32_t n, double degrees)
@@ -379,6 +380,32 @@ static void solvers_say_the_same(void **state)
     rg_pattern_destroy(q);
 }
 
+/* What the exit status 0 promises, of every crease: within 1 % of its target, on either side of it, and on the way to the end. */
+static void one_percent_is_one_percent(void **state)
+{
+    (void)state;
+    static const struct { double part; rg_outcome outcome; } all[] = {{1, RG_FOLDED}, {0.9901, RG_FOLDED}, {0.9899, RG_STOPPED},
+        {0.97, RG_STOPPED}, {0.951, RG_STOPPED}, {1.0099, RG_FOLDED}, {1.0101, RG_STOPPED}, {1.04, RG_STOPPED}, {-1, RG_STOPPED}};
+    rg_settings s = rg_settings_default();
+    rg_pattern *p = generated("bird", 0, 0);
+    rg_straight *f = fold_of(p, &s);
+    assert_int_equal(f->apart.parts, 0);
+    for (int k = 0; k < 9; k++)
+        for (int32_t short_of = -1; short_of < f->mesh.N; short_of++) { /* -1: all of them */
+            for (int32_t i = 0; i < f->mesh.N; i++) f->rho[i] = (short_of < 0 || i == short_of ? all[k].part : 1) * f->drive.target[i];
+            rg_straight_stop(f, "");
+            const int counts = short_of < 0 || rg_drive_is_driven(&f->drive, short_of);
+            assert_int_equal(f->outcome, counts ? all[k].outcome : RG_FOLDED);
+        }
+    /* A motion that was not to go to the end has not come there. */
+    for (int32_t i = 0; i < f->mesh.N; i++) f->rho[i] = f->drive.target[i];
+    f->s_end = 0.999;
+    rg_straight_stop(f, "");
+    assert_int_equal(f->outcome, RG_STOPPED);
+    rg_straight_destroy(f);
+    rg_pattern_destroy(p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -394,6 +421,7 @@ int main(void)
         cmocka_unit_test(memory_may_be_short),
         cmocka_unit_test(what_stops_is_closed),
         cmocka_unit_test(solvers_say_the_same),
+        cmocka_unit_test(one_percent_is_one_percent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
