@@ -121,12 +121,13 @@ static rg_status write_count(rg_layers *l)
     enum { DIGITS_A_PART = 20 };
     const rg_parts *q = &l->parts;
     const size_t room = sizeof at_least + 2 + DIGITS_A_PART * (size_t)q->count;
-    char *digit = rg_mem_array(&l->mem, 2 * room, 1), *next = digit + room; /* values, the last one first */
+    char *digit = rg_mem_array(&l->mem, 2 * room, 1); /* values, the last one first, and the next ones */
     l->count = rg_mem_array(&l->mem, room, 1);
     if (!digit || !l->count) {
         rg_mem_free(&l->mem, digit);
         return RG_ENOMEM;
     }
+    char *next = digit + room;
     size_t n = 1;
     int more = 0;
     digit[0] = 1;
@@ -396,12 +397,13 @@ int32_t rg_layers_levels(const rg_layers *l, int32_t *level, int32_t *cuts)
     const rg_pairs *p = &l->pairs;
     const size_t nf = (size_t)l->flat.nf;
     int32_t *room = rg_mem_array(&l->mem, 4 * nf, sizeof *room), top = 0, cut = 0;
-    climb c = {l, room, room + nf, room + 2 * nf, room + 3 * nf, rg_mem_array(&l->mem, (size_t)p->count, 1), 0, 0};
-    if (!room || !c.seen) {
+    unsigned char *seen = rg_mem_array(&l->mem, (size_t)p->count, 1);
+    if (!room || !seen) {
         rg_mem_free(&l->mem, room);
-        rg_mem_free(&l->mem, c.seen);
+        rg_mem_free(&l->mem, seen);
         return -1;
     }
+    climb c = {l, room, room + nf, room + 2 * nf, room + 3 * nf, seen, 0, 0};
     mark_seen(l, c.seen);
     for (int32_t i = 0; i < p->count; i++) c.under[p->facet[i][l->orders.value[i] > 0]]++;
     for (int32_t f = 0; f < l->flat.nf; f++) {

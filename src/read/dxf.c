@@ -421,10 +421,11 @@ static rg_status facet(reader *r, const entity *e, const entity *v, const grid *
     int n = 0;
     while (n < 4 && v->corner[n]) n++;
     for (int k = 0; s == RG_OK && n > 1 && k < n; k++) {
-        const long p = labs(v->corner[k]), q = labs(v->corner[(k + 1) % n]);
-        if (p > g->count || q > g->count)
-            return rg_fail(RG_EFORMAT, r->why, v->where, "%.*s: a facet of vertex %ld, they end at %d", show(e->name), e->name.s, p > q ? p : q,
-                           (int)g->count);
+        const long from = v->corner[k], to = v->corner[(k + 1) % n], most = g->count; /* the least long has no labs */
+        if (from > most || from < -most || to > most || to < -most)
+            return rg_fail(RG_EFORMAT, r->why, v->where, "%.*s: a facet of vertex %ld, they end at %d", show(e->name), e->name.s,
+                           from > most || from < -most ? from : to, (int)g->count);
+        const long p = labs(from), q = labs(to);
         if (v->corner[k] > 0) s = facet_side(r, e, g->x[p - 1], g->x[q - 1]);
     }
     return s;
@@ -434,7 +435,7 @@ static rg_status grid_lines(reader *r, const entity *e, const grid *g)
 {
     const int32_t m = (int32_t)e->rows, n = (int32_t)e->columns;
     rg_status s = RG_OK;
-    if (e->rows < 2 || e->columns < 2 || e->rows * e->columns != g->count)
+    if (e->rows < 2 || e->columns < 2 || e->rows > g->count || e->columns > g->count || e->rows * e->columns != g->count)
         return rg_fail(RG_EFORMAT, r->why, e->where, "%.*s: a mesh of %ld by %ld with %d vertices", show(e->name), e->name.s, e->rows, e->columns,
                        (int)g->count);
     for (int32_t i = 0; i < m; i++)
@@ -485,7 +486,8 @@ static rg_status face(reader *r, entity *e)
     rg_status s = groups(r, e, 0);
     inherit(r, e);
     e->in_space = 1;
-    const int n = memcmp(&(rg_vec3[]){point(e, 2)}, &(rg_vec3[]){point(e, 3)}, sizeof(rg_vec3)) == 0 ? 3 : 4;
+    const rg_vec3 third = point(e, 2), fourth = point(e, 3);
+    const int n = third.x == fourth.x && third.y == fourth.y && third.z == fourth.z ? 3 : 4;
     for (int k = 0; s == RG_OK && k < n; k++)
         if (!(e->flags >> k & 1)) s = facet_side(r, e, point(e, k), point(e, (k + 1) % n));
     return s;

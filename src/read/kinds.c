@@ -46,7 +46,7 @@ static int index_of(const char *s, size_t n)
     char digits[8] = "";
     if (n == 0 || n >= sizeof digits) return 0;
     memcpy(digits, s, n);
-    if (strspn(digits, "0123456789") == n) return atoi(digits);
+    if (strspn(digits, "0123456789") == n) return (int)strtol(digits, NULL, 10);
     for (int i = 1; i < 8; i++)
         if (same(s, n, names[i], strlen(names[i]))) return i;
     return 0;

@@ -395,7 +395,7 @@ static int cannot_fold(const reader *r, const paint *p)
 
 static rg_status line(reader *r, const rg_xml_node *n, const paint *p)
 {
-    rg_vec2 a, b;
+    rg_vec2 a = {0, 0}, b = {0, 0};
     rg_status s = length(r, n, p, "x1", &a.x);
     if (s == RG_OK) s = length(r, n, p, "y1", &a.y);
     if (s == RG_OK) s = length(r, n, p, "x2", &b.x);
@@ -405,7 +405,7 @@ static rg_status line(reader *r, const rg_xml_node *n, const paint *p)
 
 static rg_status rectangle(reader *r, const rg_xml_node *n, const paint *p)
 {
-    double x, y, w, h, rx, ry;
+    double x = 0, y = 0, w = 0, h = 0, rx = 0, ry = 0;
     rg_status s = length(r, n, p, "x", &x);
     if (s == RG_OK) s = length(r, n, p, "y", &y);
     if (s == RG_OK) s = length(r, n, p, "width", &w);

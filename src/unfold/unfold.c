@@ -103,7 +103,7 @@ static int number_order(rg_unfold *u, const rg_unfold_wish *wish, int32_t n)
             return 1;
         }
     /* Then, by their numbers, some that differ in more. */
-    return rg_layers_which(u->layers, (uint64_t)(q->count + n), u->which) == RG_OK;
+    return rg_layers_which(u->layers, (uint64_t)q->count + (uint64_t)n, u->which) == RG_OK;
 }
 
 /* ---- the path */

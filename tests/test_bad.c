@@ -1,0 +1,113 @@
+/* Files that broke something once, and files that were made to: each is read or refused, in one line that a user can do something with.
+ * What `make fuzz` finds is put there. Sanitizers look on in `make asan`. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "near.h"
+
+#include "rigami.h"
+
+#include <ctype.h>
+#include <dirent.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char FOLDER[] = "patterns/bad";
+
+static void one_line(const rg_diag *why, const char *name)
+{
+    assert_true(why->text[0] && why->line >= 0);
+    for (const char *c = why->text; *c; c++)
+        if (iscntrl((unsigned char)*c)) fail_msg("%s: a control character in \"%s\"", name, why->text);
+}
+
+static void tell(void *name, const rg_diag *warning) { one_line(warning, name); }
+
+/* Read, looked at, converted: with the status of a bad file, where it is one. */
+static void read_or_refused(void **state)
+{
+    (void)state;
+    DIR *folder = opendir(FOLDER);
+    const rg_settings s = rg_settings_default();
+    int files = 0, refused = 0;
+    assert_non_null(folder);
+    for (const struct dirent *e; (e = readdir(folder));) {
+        char path[300];
+        rg_pattern *p = NULL;
+        rg_diag why = {0, ""};
+        if (e->d_name[0] == '.') continue;
+        snprintf(path, sizeof path, "%s/%s", FOLDER, e->d_name);
+        const rg_status status = rg_pattern_read(path, &s, &p, &why);
+        if (status == RG_OK) {
+            const rg_diag *warning;
+            const int32_t n = rg_pattern_warnings(p, &warning);
+            for (int32_t i = 0; i < n; i++) one_line(&warning[i], path);
+            assert_int_equal(rg_info_write(p, "/dev/null", &why), RG_OK);
+        } else {
+            assert_int_equal(status, RG_EFORMAT);
+            one_line(&why, path);
+            refused++;
+        }
+        rg_pattern_destroy(p);
+        for (rg_format to = RG_FORMAT_OPX; to <= RG_FORMAT_DXF; to++) {
+            const rg_status converted = rg_convert(path, "/dev/null", to, &s, tell, path, &why);
+            if (converted == RG_OK) continue;
+            assert_int_equal(converted, RG_EFORMAT);
+            one_line(&why, path);
+        }
+        files++;
+    }
+    closedir(folder);
+    assert_true(files > 10 && refused > 0 && refused < files);
+}
+
+static void is_refused(const char *name, const char *words)
+{
+    char path[300];
+    const rg_settings s = rg_settings_default();
+    rg_pattern *p = NULL;
+    rg_diag why = {0, ""};
+    snprintf(path, sizeof path, "%s/%s", FOLDER, name);
+    assert_int_equal(rg_pattern_read(path, &s, &p, &why), RG_EFORMAT);
+    if (!strstr(why.text, words)) fail_msg("%s: \"%s\", not \"%s\"", name, why.text, words);
+}
+
+/* A number was shown as the file has it, with what stands in its lines: a file could say anything in the program's name. */
+static void what_a_file_says_is_one_line(void **state)
+{
+    (void)state;
+    is_refused("lines-in-number.opx", "which is no number");
+}
+
+/* The least of all whole numbers has no absolute value, and passed for a vertex; the product of two sizes can be any number. */
+static void numbers_of_vertices_are_within(void **state)
+{
+    (void)state;
+    is_refused("facet-corner.dxf", "a facet of vertex -9223372036854775808, they end at 3");
+    is_refused("mesh-size.dxf", "a mesh of 4294967298 by 4294967298 with 4 vertices");
+}
+
+/* Converted to FOLD, such lines left a file that could not be read again. */
+static void lines_without_length_are_no_pattern(void **state)
+{
+    (void)state;
+    const rg_settings s = rg_settings_default();
+    rg_diag why = {0, ""};
+    assert_int_equal(rg_convert("patterns/bad/no-length.cp", "/dev/null", RG_FORMAT_FOLD, &s, NULL, NULL, &why), RG_EFORMAT);
+    assert_non_null(strstr(why.text, "no line that has a length"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(read_or_refused),
+        cmocka_unit_test(what_a_file_says_is_one_line),
+        cmocka_unit_test(numbers_of_vertices_are_within),
+        cmocka_unit_test(lines_without_length_are_no_pattern),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
