@@ -1,14 +1,11 @@
 # make            the library and the command line        make demo      set up, build, fold a pattern, say where it is
 # make test       set up, build, run every test           make check     everything a change must pass
 # make bench      times, as CSV                           make install   prefix=/usr/local DESTDIR=
-<<<<<<< HEAD
 # make debian     a source package and what it builds     make abi       keep what the libraries show now
-# make asan, coverage, werror, layers, equations, abi-check, outputs, format, pictures, figures, corpus [fresh=1], chart, stability, uninstall, clean
-# config=release|debug|asan|coverage   GL=osmesa|egl|none (the first that is there)   GPL=1|0   CC=gcc|clang   WERROR=0|1
-=======
-# make asan, coverage, werror, layers, equations, outputs, format, pictures, figures, corpus [fresh=1], chart, stability, uninstall, clean
+# make fuzz [seconds=600] [target=fold]    make mutants    make check-long   what takes longer than a change can wait for
+# make asan, coverage, tsan, valgrind, lint, werror, layers, equations, abi-check, outputs, format, pictures, figures, corpus [fresh=1],
+#      chart, stability, uninstall, clean
 # config=release|debug|asan|coverage|tsan|fuzz   GL=osmesa|egl|none (the first that is there)   GPL=1|0   CC=gcc|clang   WERROR=0|1
->>>>>>> 1096161 (Fuzzing in the tree: a target for each reader, for read-convert-read and for the whole fold; messages are one line whatever the file says)
 # V=1 shows whole commands
 config  ?= release
 GPL     ?= 1
@@ -204,16 +201,6 @@ run-demo: all
 asan:
 	@$(MAKE) --no-print-directory $(jobs) config=asan run-tests
 
-coverage:
-	@find build -path 'build/coverage*' -name '*.gcda' -exec rm -f {} +
-	@$(MAKE) --no-print-directory $(jobs) config=coverage run-tests
-	@$(MAKE) --no-print-directory config=coverage coverage-table
-
-coverage-table:
-	@for o in $(lib_o); do gcov -n -o $$o $$o 2>/dev/null; done | \
-	    awk -F"'" '/^File/ {f = $$2} /^Lines executed/ && f ~ /^src.*c$$/ {print f ": " $$0; f = ""}' | sort -u | \
-	    sed 's/Lines executed://' | column -t
-
 bench:
 	@$(setup)
 	@$(MAKE) --no-print-directory $(jobs) run-bench
@@ -228,7 +215,7 @@ check:
 	@$(setup) check
 	@mkdir -p build
 	@$(if $(tested),,$(MAKE) --no-print-directory $(jobs) run-tests)
-	@for part in layers equations header docs werror install-check outputs without-gpl without-gl asan; do \
+	@for part in layers equations header docs werror install-check outputs without-gpl without-gl lint valgrind tsan fuzz-smoke coverage asan; do \
 	    echo "== $$part"; $(MAKE) --no-print-directory $(jobs) $$part >build/check.log 2>&1 || \
 	        { cat build/check.log; echo "check: $$part FAILED"; exit 1; }; \
 	    grep '^SKIPPED' build/check.log; tail -n 1 build/check.log; \
@@ -358,7 +345,7 @@ install-check: build
 clean:
 	rm -rf build rigami
 
-.PHONY: all build test demo run-tests run-demo asan coverage coverage-table bench run-bench check werror everything without-gpl \
+.PHONY: all build test demo run-tests run-demo asan bench run-bench check werror everything without-gpl \
         without-gl layers equations outputs header format pictures figures corpus install uninstall install-check clean
 include tools/checks.mk
 .SECONDARY:

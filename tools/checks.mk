@@ -1,9 +1,51 @@
-# Further checks: fuzzing, mutants, coverage, threads, memory, and what compilers and linters say. Included by the Makefile.
+# Further checks: coverage, threads, memory, what linters say, fuzzing, mutants. Included by the Makefile; docs/reliability.md says what
+# each of them promises.
 
-# ------------------------------------------------------------------------------------------------ fuzz
-# seconds=N: of each target.   target=NAME: only that one.
-fuzz_c   := $(sort $(wildcard tests/fuzz/read_*.c)) tests/fuzz/convert.c tests/fuzz/fold.c
-fuzz_bin := $(fuzz_c:%.c=$B/%)
+# -------------------------------------------------------------------------------------------------- coverage
+
+# Lines that the tests must run through, percent: of src/, and of the readers, which see what others write.
+floor         := 90
+floor_readers := 95
+
+# gcov does not take a second run of the same objects for one: what was counted before is taken away.
+coverage:
+	@find build -path 'build/coverage*' -name '*.gcda' -exec rm -f {} +
+	@$(MAKE) --no-print-directory $(jobs) config=coverage run-tests
+	@$(MAKE) --no-print-directory config=coverage coverage-table
+
+coverage-table:
+	@for o in $(lib_o); do gcov -n -o $$o $$o 2>/dev/null; done | sh tools/check_coverage $(floor) $(floor_readers)
+
+# ------------------------------------------------------------------------------------------- threads, memory
+
+# Those that fold with two threads, and those whose pictures are drawn by several; tsan_tests=all: every one.
+tsan_tests ?= test_motion test_attempt test_kept test_stepping
+tsan_bin    = $(if $(filter all,$(tsan_tests)),$(test_bin),$(tsan_tests:%=$B/tests/%))
+
+tsan:
+	@$(MAKE) --no-print-directory $(jobs) config=tsan run-tsan
+run-tsan: $(tsan_bin)
+	@TSAN_OPTIONS=halt_on_error=1 sh tools/run_tests $(tsan_bin)
+
+# Under valgrind a test takes some thirty times as long: those of reading, planarising, the mesh and the constraint.
+valgrind_tests ?= bad read_cp read_dxf read_fold read_svg opx ori xml json number mesh constraint coupled limit loop turn pose project
+valgrind: build
+	@sh tools/check_valgrind $B/rigami
+valgrind-long: build $(valgrind_tests:%=$B/tests/test_%)
+	@sh tools/check_valgrind $B/rigami $(valgrind_tests:%=$B/tests/test_%)
+
+# ------------------------------------------------------------------------------------------------------ lint
+
+lint: $B/made/write/page.h
+	@sh tools/check_lint quick $(cppflags) -I$B/made -std=c11
+lint-deep: $B/made/write/page.h
+	@sh tools/check_lint deep $(cppflags) -I$B/made -std=c11
+
+# ------------------------------------------------------------------------------------------------------ fuzz
+
+# seconds=N: of each target.   target="NAME ...": only those.
+fuzz_c    := $(sort $(wildcard tests/fuzz/read_*.c)) tests/fuzz/convert.c tests/fuzz/fold.c
+fuzz_bin  := $(fuzz_c:%.c=$B/%)
 fuzz_help := $(addprefix $B/tests/fuzz/,fuzz.o text.o lines.o)
 
 $B/tests/fuzz/%: $B/tests/fuzz/%.o $(fuzz_help) $B/librigami.a
@@ -15,6 +57,29 @@ fuzz-targets: $(fuzz_bin) $B/rigami
 
 fuzz:
 	@$(setup) check
-	@$(MAKE) --no-print-directory $(jobs) config=fuzz CC=clang fuzz-targets
-	@sh tools/fuzz build/fuzz-clang $(or $(seconds),600) $(target)
-.PHONY: fuzz fuzz-targets
+	@sh tools/fuzz can || exit 0; \
+	 $(MAKE) --no-print-directory $(jobs) config=fuzz CC=clang fuzz-targets && sh tools/fuzz build/fuzz-clang $(or $(seconds),600) $(target)
+# As long as a change can wait for.
+fuzz-smoke:
+	@$(MAKE) --no-print-directory fuzz seconds=5
+
+# --------------------------------------------------------------------------------------------------- mutants
+
+mutants:
+	@$(setup) check
+	@$(MAKE) --no-print-directory $(jobs) CC=gcc build/release/librigami.a $(tests:%.c=build/release/%)
+	@$(MAKE) --no-print-directory $(jobs) CC=gcc config=coverage build/coverage/librigami.a $(tests:%.c=build/coverage/%)
+	@CC=gcc tools/mutants $(MUTANTS)
+
+# --------------------------------------------------------------------------------------------------- at length
+
+# What does not fit into the time that a change can wait for. Hours.
+check-long: check
+	@for part in lint-deep "tsan tsan_tests=all" valgrind-long "fuzz seconds=60" mutants; do \
+	    echo "== $$part"; $(MAKE) --no-print-directory $(jobs) $$part >build/check.log 2>&1 || \
+	        { cat build/check.log; echo "check-long: $$part FAILED"; exit 1; }; \
+	    grep '^SKIPPED' build/check.log; tail -n 1 build/check.log; \
+	done
+	@echo "check-long: all parts passed"
+
+.PHONY: coverage coverage-table tsan run-tsan valgrind valgrind-long lint lint-deep fuzz fuzz-targets fuzz-smoke mutants check-long
