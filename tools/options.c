@@ -311,9 +311,10 @@ static int set_join(const rule *r, const char *text, options *o)
 
 static int set_part(const rule *r, const char *text, options *o)
 {
-    int32_t k, n;
-    char end;
-    if (strspn(text, "0123456789/") == strlen(text) && strlen(text) < 16 && sscanf(text, "%d/%d%c", &k, &n, &end) == 2 && k >= 1 && k <= n) {
+    const size_t a = strspn(text, "0123456789"), b = text[a] ? strspn(text + a + 1, "0123456789") : 0;
+    const int is_part = a > 0 && a < 9 && text[a] == '/' && b > 0 && b < 9 && text[a + 1 + b] == 0;
+    const int32_t k = is_part ? (int32_t)atol(text) : 0, n = is_part ? (int32_t)atol(text + a + 1) : 0;
+    if (k >= 1 && k <= n) {
         o->part = k;
         o->parts = n;
         return ENDS_WELL;
