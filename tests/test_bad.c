@@ -32,7 +32,7 @@ static void read_or_refused(void **state)
 {
     (void)state;
     DIR *folder = opendir(FOLDER);
-    const rg_settings s = rg_settings_default();
+    const rg_reading s = rg_reading_default();
     int files = 0, refused = 0;
     assert_non_null(folder);
     for (const struct dirent *e; (e = readdir(folder));) {
@@ -68,7 +68,7 @@ static void read_or_refused(void **state)
 static void is_refused(const char *name, const char *words)
 {
     char path[300];
-    const rg_settings s = rg_settings_default();
+    const rg_reading s = rg_reading_default();
     rg_pattern *p = NULL;
     rg_diag why = {0, ""};
     snprintf(path, sizeof path, "%s/%s", FOLDER, name);
@@ -95,7 +95,7 @@ static void numbers_of_vertices_are_within(void **state)
 static void lines_without_length_are_no_pattern(void **state)
 {
     (void)state;
-    const rg_settings s = rg_settings_default();
+    const rg_reading s = rg_reading_default();
     rg_diag why = {0, ""};
     assert_int_equal(rg_convert("patterns/bad/no-length.cp", "/dev/null", RG_FORMAT_FOLD, &s, NULL, NULL, &why), RG_EFORMAT);
     assert_non_null(strstr(why.text, "no line that has a length"));

@@ -47,7 +47,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static const rg_format formats[] = {RG_FORMAT_OPX, RG_FORMAT_CP, RG_FORMAT_FOLD, RG_FORMAT_SVG, RG_FORMAT_DXF};
     static const char *const names[] = {"x.opx", "x.cp", "x.fold", "x.svg", "x.dxf"};
     static const char *const again[] = {"y.opx", "y.cp", "y.fold", "y.svg", "y.dxf"};
-    const rg_settings s = rg_settings_default();
+    const rg_reading s = rg_reading_default();
     rg_lines l, k;
     rg_diag why = {0, ""};
     rg_status status = rg_read_bytes(data, size, NULL, &s, 0, &l, &why);

@@ -30,7 +30,6 @@ static rg_settings settings_of(dice d)
     s.symmetry = dice_below(&d, 4) ? RG_SYMMETRY_AUTO : RG_SYMMETRY_OFF;
     s.pace = dice_below(&d, 2) ? RG_PACE_PERCENT : RG_PACE_STEADY;
     s.to = dice_below(&d, 4) ? 1 : (const double[]){-1, 0.5, -0.3, 0.01}[dice_below(&d, 4)];
-    s.aux_creases = dice_below(&d, 4) == 0;
     return s;
 }
 
@@ -59,10 +58,9 @@ static void check_verdict(const rg_motion *m, const rg_pattern *p, const char *p
     rg_status status = rg_motion_write(m, path, NULL, &why);
     sound(status, &why);
     if (status != RG_OK) return;
-    status = rg_certificate_create(path, p, s, &c, &why);
+    status = rg_certificate_create(path, p, NULL, &c, &why);
     promise(status == RG_OK);
-    rg_certificate_info info;
-    rg_certificate_get_info(c, &info);
+    const rg_certificate_info info = *rg_certificate_get_info(c);
     if (r->outcome == RG_FOLDED && s->contact != RG_CONTACT_IGNORE && r->isometric && r->contact_frames == 0 && r->contact_unproved == 0 &&
         r->max_wrong_side_deg == 0) {
         if (!info.valid) rg_certificate_write(c, 0, "-", &why);
@@ -79,15 +77,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     rg_motion *m = NULL;
     rg_diag why = {0, ""};
     rg_lines l;
-    rg_status status = rg_read_bytes(data, size, NULL, &s, 0, &l, &why);
+    const rg_reading r = rg_reading_default();
+    rg_status status = rg_read_bytes(data, size, NULL, &r, 0, &l, &why);
     if (status != RG_OK) return 0;
     const int32_t count = l.count;
     rg_lines_free(&l);
     if (count > EDGES) return -1; /* not kept: too much to fold */
     watch_begin();
-    status = rg_pattern_parse(data, size, &s, &p, &why);
+    status = rg_pattern_parse(data, size, &r, &p, &why);
     rg_pattern_info info = {0};
-    if (status == RG_OK) rg_pattern_get_info(p, &info);
+    if (status == RG_OK) info = *rg_pattern_get_info(p);
     if (status == RG_OK && info.edges <= EDGES) {
         int left = CALLS;
         status = rg_motion_create(p, &s, count_down, &left, &m, &why);

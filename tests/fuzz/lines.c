@@ -136,7 +136,7 @@ size_t mutate_lines(uint8_t *data, size_t size, size_t most, dice *d)
 {
     enum { ROOM = 1 << 17 };
     static char out[ROOM];
-    const rg_settings s = rg_settings_default();
+    const rg_reading s = rg_reading_default();
     rg_lines l;
     rg_diag why;
     if (rg_read_bytes(data, size, NULL, &s, 0, &l, &why) != RG_OK) return 0;

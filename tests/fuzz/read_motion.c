@@ -8,7 +8,7 @@ static const double SECONDS = 4; /* it is read twice, and looked at for facets t
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     const char *path = scratch("motion.fold");
-    const rg_settings s = rg_settings_default();
+    const rg_reading s = rg_reading_default();
     rg_diag why = {0, ""};
     rg_motion *m = NULL;
     rg_certificate *c = NULL;
@@ -23,11 +23,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         sound(rg_report_write(m, 0, 0, "/dev/null", &why), &why);
     }
     rg_motion_destroy(m);
-    status = rg_certificate_create(path, NULL, &s, &c, &why);
+    status = rg_certificate_create(path, NULL, NULL, &c, &why);
     sound(status, &why);
     if (status == RG_OK) {
-        rg_certificate_info info;
-        rg_certificate_get_info(c, &info);
+        const rg_certificate_info info = *rg_certificate_get_info(c);
         promise(info.valid == (info.faults == 0));
         sound(rg_certificate_write(c, 1, "/dev/null", &why), &why);
     }

@@ -24,8 +24,7 @@ static void check_lines(const rg_lines *l)
 
 static void check_pattern(const rg_pattern *p)
 {
-    rg_pattern_info info;
-    rg_pattern_get_info(p, &info);
+    const rg_pattern_info info = *rg_pattern_get_info(p);
     promise(info.vertices >= 0 && info.edges >= 0 && info.creases + info.boundary_edges <= info.edges + info.vertices);
     promise(isfinite(info.size) && info.size >= 0);
     promise(info.is_disk || info.not_disk[0]);
@@ -34,7 +33,7 @@ static void check_pattern(const rg_pattern *p)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     dice d = dice_of(data, size);
-    rg_settings s = rg_settings_default();
+    rg_reading s = rg_reading_default();
     s.format = FORMAT;
     s.flip = dice_below(&d, 4) == 0;
     s.targets = dice_below(&d, 4) != 0;
