@@ -72,10 +72,10 @@ static void derivatives(void **state)
 
 /* ----------------------------------------------------------------------------------------------------- interior ---- */
 
-enum { ROWS = 6, WAYS = 4 };
+enum { ROWS = 6, WAYS = 5, ALL = WAYS + 1 + ROWS };
 
-/* A x = b by Gauss, n <= ROWS, with pivots. Zero: singular. */
-static int solve(int n, double A[ROWS][ROWS], double *b)
+/* A x = b by Gauss, with pivots. Zero: singular. */
+static int solve(int n, double A[ALL][ALL], double *b)
 {
     for (int i = 0; i < n; i++) {
         int p = i;
@@ -101,54 +101,192 @@ static int solve(int n, double A[ROWS][ROWS], double *b)
     return 1;
 }
 
-/* The one set of active rows whose multipliers are positive and whose other rows are kept; copies of rows among them. */
+typedef struct program {
+    double J[WAYS][WAYS], E[WAYS], g[WAYS], R[ROWS][WAYS], c[ROWS], d[ROWS];
+} program;
+
+/* The one set of active rows whose multipliers are positive and whose other rows are kept: v. */
+static int by_trying(const program *p, double *v)
+{
+    for (int set = 0; set < 1 << ROWS; set++) {
+        double A[ALL][ALL] = {{0}}, b[ALL] = {0};
+        int at[ROWS], m = 0, right = 1;
+        for (int i = 0; i < ROWS; i++)
+            if (set >> i & 1) at[m++] = i;
+        for (int j = 0; j < WAYS; j++) {
+            A[j][j] = p->g[j];
+            for (int k = 0; k < WAYS; k++)
+                for (int i = 0; i < WAYS; i++) A[j][k] += p->J[i][j] * p->J[i][k];
+            A[j][WAYS] = A[WAYS][j] = p->E[j];
+            for (int i = 0; i < m; i++) A[j][WAYS + 1 + i] = A[WAYS + 1 + i][j] = p->R[at[i]][j];
+        }
+        for (int i = 0; i < m; i++) A[WAYS + 1 + i][WAYS + 1 + i] = -p->c[at[i]], b[WAYS + 1 + i] = p->d[at[i]];
+        if (!solve(WAYS + 1 + m, A, b)) continue;
+        for (int i = 0; i < m; i++) right &= b[WAYS + 1 + i] <= 0; /* the multiplier, its sign turned */
+        for (int i = 0; i < ROWS; i++) {
+            double kept = -p->d[i];
+            for (int j = 0; j < WAYS; j++) kept += p->R[i][j] * b[j];
+            right &= set >> i & 1 || kept >= -1e-9;
+        }
+        if (!right) continue;
+        memcpy(v, b, WAYS * sizeof *v);
+        return 1;
+    }
+    return 0;
+}
+
+/* Against all sets of active rows; copies of rows among them. A row taken many times, each as many times as
+ * compliant, is the same row. */
 static void multipliers(void **state)
 {
     (void)state;
+    const int32_t col[] = {0, 1, 2, 3, 4};
+    const rg_memory mem = rg_mem_default(NULL);
     unsigned seed = 11;
-    for (int trial = 0; trial < 60; trial++) {
-        rg_interior q = {.mem = rg_mem_default(NULL)};
-        double F[ROWS][WAYS], best[WAYS] = {0};
-        int found = 0;
-        assert_int_equal(rg_interior_reserve(&q, ROWS, WAYS), RG_OK);
+    for (int trial = 0; trial < 120; trial++) {
+        program p;
+        rg_interior q;
+        double best[WAYS];
+        const int times = trial % 2 ? 7 : 1;
+        for (int i = 0; i < WAYS; i++) {
+            for (int j = 0; j < WAYS; j++) p.J[i][j] = noise(&seed);
+            p.E[i] = noise(&seed);
+            p.g[i] = 1.5 + noise(&seed);
+        }
         for (int i = 0; i < ROWS; i++) {
-            for (int j = 0; j < WAYS; j++) F[i][j] = trial % 3 == 0 && i == ROWS - 1 ? F[0][j] : noise(&seed);
-            q.d[i] = trial % 3 == 0 && i == ROWS - 1 ? q.d[0] : noise(&seed);
-            q.c[i] = 1e-6 * (1.5 + noise(&seed));
-            for (size_t j = 0; j < rg_interior_stride(WAYS); j++) q.F[(size_t)i * rg_interior_stride(WAYS) + j] = j < WAYS ? F[i][j] : 0;
+            const int copy = trial % 3 == 0 && i == ROWS - 1;
+            for (int j = 0; j < WAYS; j++) p.R[i][j] = copy ? p.R[0][j] : noise(&seed);
+            p.d[i] = copy ? p.d[0] : noise(&seed);
+            p.c[i] = 1e-6 * (1.5 + noise(&seed));
         }
-        for (int set = 0; set < 1 << ROWS && !found; set++) {
-            double A[ROWS][ROWS], x[ROWS] = {0}, full[ROWS] = {0}, v[WAYS] = {0};
-            int at[ROWS], n = 0, right = 1;
-            for (int i = 0; i < ROWS; i++)
-                if (set >> i & 1) at[n++] = i;
-            for (int i = 0; i < n; i++) {
-                for (int k = 0; k < n; k++) {
-                    A[i][k] = i == k ? q.c[at[i]] : 0;
-                    for (int j = 0; j < WAYS; j++) A[i][k] += F[at[i]][j] * F[at[k]][j];
-                }
-                x[i] = q.d[at[i]];
+        assert_true(by_trying(&p, best));
+        assert_int_equal(rg_interior_init(&q, &mem, WAYS), RG_OK);
+        assert_int_equal(rg_interior_reserve(&q, ROWS * times), RG_OK);
+        memcpy(q.g, p.g, sizeof p.g);
+        for (int i = 0; i < WAYS; i++) assert_int_equal(rg_rows_add(&q.J, WAYS, col, p.J[i]), RG_OK);
+        assert_int_equal(rg_rows_add(&q.E, WAYS, col, p.E), RG_OK);
+        for (int i = 0; i < ROWS; i++) {
+            assert_int_equal(rg_rows_add(&q.R, WAYS, col, p.R[i]), RG_OK);
+            for (int k = 0; k < times; k++) {
+                const int at = i * times + k;
+                q.of[at] = i, q.c[at] = p.c[i] * times, q.d[at] = p.d[i];
             }
-            if (!solve(n, A, x)) continue;
-            for (int i = 0; i < n; i++) {
-                full[at[i]] = x[i];
-                right &= x[i] >= 0;
-                for (int j = 0; j < WAYS; j++) v[j] += x[i] * F[at[i]][j];
-            }
-            for (int i = 0; i < ROWS; i++) {
-                double kept = q.c[i] * full[i] - q.d[i];
-                for (int j = 0; j < WAYS; j++) kept += F[i][j] * v[j];
-                right &= set >> i & 1 || kept >= -1e-9;
-            }
-            found = right;
-            if (found) memcpy(best, v, sizeof best);
         }
-        assert_true(found);
-        rg_interior_solve(&q, ROWS, WAYS);
+        assert_int_equal(rg_interior_solve(&q, ROWS * times), RG_OK);
         for (int j = 0; j < WAYS; j++) near(q.v[j], best[j], 1e-5 * (1 + fabs(best[j])));
-        for (int i = 0; i < ROWS; i++) assert_true(q.x[i] >= 0);
+        for (int i = 0; i < ROWS * times; i++) assert_true(q.x[i] >= 0);
         rg_interior_free(&q);
     }
+}
+
+/* A program too large to try: what makes a solution one is looked at instead, in numbers of its own. */
+static void many_rows(void **state)
+{
+    (void)state;
+    enum { N = 90, M = 400 };
+    const rg_memory mem = rg_mem_default(NULL);
+    rg_interior q;
+    unsigned seed = 17;
+    assert_int_equal(rg_interior_init(&q, &mem, N), RG_OK);
+    assert_int_equal(rg_interior_reserve(&q, M), RG_OK);
+    for (int round = 0; round < 4; round++) {
+        double (*G)[N] = calloc(N, sizeof *G), (*E)[N] = calloc(N, sizeof *E), off[N] = {0};
+        assert_true(G && E);
+        rg_interior_clear(&q);
+        for (int32_t j = 0; j < N; j++) {
+            const int32_t fold[] = {j, (j + 1) % N, (j + 5) % N}, rigid[] = {j, (j + 1) % N};
+            const double a[] = {noise(&seed), noise(&seed), noise(&seed)}, e[] = {1.5 + noise(&seed), noise(&seed)};
+            G[j][j] += q.g[j] = j % 3 ? 1 : 0.2;
+            assert_int_equal(rg_rows_add(&q.J, 3, fold, a), RG_OK);
+            if (j % 3 == 0) assert_int_equal(rg_rows_add(&q.E, 2, rigid, e), RG_OK);
+            for (int i = 0; i < 3; i++)
+                for (int k = 0; k < 3; k++) G[fold[i]][fold[k]] += a[i] * a[k];
+        }
+        const int32_t some = round % 2 ? M : 16; /* these are solved by rows */
+        for (int32_t i = 0; i < some; i++) {
+            const int32_t at = (i * 37 + round * 11) % N, touched[] = {at, (at + 2) % N, (at + 40 + i % (3 + round)) % N};
+            const double a[] = {noise(&seed), noise(&seed), noise(&seed)};
+            if (i % 2 == 0) assert_int_equal(rg_rows_add(&q.R, 3, touched, a), RG_OK);
+            q.of[i] = i / 2;
+            q.c[i] = i % 2 ? 1e-2 : 1e-9;
+            q.d[i] = 0.1 * noise(&seed) - (i % 2 ? 0 : 0.2);
+        }
+        const int64_t before = q.many.analyses;
+        assert_int_equal(rg_interior_solve(&q, some), RG_OK);
+        if (round < 2) assert_int_equal(q.many.analyses - before, round);
+        for (int32_t i = 0; i < N; i++)
+            for (int32_t k = 0; k < N; k++) off[i] += G[i][k] * q.v[k];
+        for (int32_t i = 0; i < q.E.count; i++) {
+            near(rg_rows_dot(&q.E, i, q.v), 0, 1e-8);
+            for (int32_t j = 0; j < N; j++) E[i][j] = 0;
+            rg_rows_gather(&q.E, i, 1, E[i]);
+        }
+        for (int32_t i = 0; i < some; i++) {
+            const double kept = rg_rows_dot(&q.R, q.of[i], q.v) + q.c[i] * q.x[i] - q.d[i];
+            assert_true(q.x[i] >= 0 && kept >= -1e-7);
+            near(fmin(q.x[i], kept), 0, 1e-4);
+            rg_rows_gather(&q.R, q.of[i], -q.x[i], off);
+        }
+        for (int32_t i = 0; i < q.E.count; i++) /* no force but along rows of E: off less its part along them, Gram and Schmidt */
+            for (int32_t k = 0; k <= q.E.count; k++) {
+                double *of = i < k ? (k < q.E.count ? E[k] : off) : NULL, part = 0, whole = 0;
+                for (int32_t j = 0; of && j < N; j++) part += of[j] * E[i][j], whole += E[i][j] * E[i][j];
+                for (int32_t j = 0; of && j < N; j++) of[j] -= part / whole * E[i][j];
+            }
+        for (int32_t i = 0; i < N; i++) near(off[i], 0, 1e-6);
+        free(G), free(E);
+    }
+    assert_true(q.many.analyses >= 1 && q.many.analyses <= 4);
+    rg_interior_free(&q);
+}
+
+/* The places of a closed sheet and its fold angles move alike: what creases turn by, and that edges keep their length. */
+static void places(void **state)
+{
+    (void)state;
+    const char *file[] = {"patterns/frog.opx", "patterns/crane.opx", "patterns/boxpleat.opx"};
+    const rg_memory mem = rg_mem_default(NULL);
+    unsigned seed = 23;
+    for (int k = 0; k < 3; k++)
+        for (int flat = 0; flat < 2; flat++) {
+            rg_mesh none, m;
+            rg_linkage P;
+            rg_nearest q;
+            rg_rows fold, rigid;
+            mesh_of(file[k], &none);
+            assert_int_equal(rg_triangulate_all(&none, &m), RG_OK);
+            for (int32_t v = 0; v < m.nv; v++) m.X[v] = (rg_vec2){m.X[v].x / none.size, m.X[v].y / none.size};
+            assert_int_equal(rg_linkage_init(&P, &mem, &m), RG_OK);
+            assert_int_equal(rg_nearest_init(&q, &mem, &P), RG_OK);
+            rg_stride_scale(&P, 0.7, q.scale);
+            double *z = calloc((size_t)P.n, sizeof *z), *v = calloc((size_t)rg_places_count(&P), sizeof *v);
+            assert_true(z && v);
+            for (int32_t i = 0; i < P.N; i++) z[i] = flat ? 0 : 0.3 * noise(&seed);
+            assert_true(rg_stride_close(&P, &q, z, 1e-12, 40));
+            rg_coupled_assemble(&P.J, z, z + P.N, NULL);
+            rg_coupled_renew(&P.J, q.scale);
+            rg_linkage_put(&P, z);
+            for (int32_t i = 0; i < P.n; i++) q.wish[i] = noise(&seed) * q.scale[i];
+            rg_nearest_project(&q, q.wish, P.J.r);
+            assert_int_equal(rg_rows_init(&fold, &mem), RG_OK);
+            assert_int_equal(rg_rows_init(&rigid, &mem), RG_OK);
+            assert_int_equal(rg_places_rows(&P, q.scale, &fold, &rigid), RG_OK);
+            rg_places_of(&P, q.scale, q.dz, q.dp, v);
+            double most = 0;
+            for (int32_t i = 0; i < P.N; i++) {
+                near(rg_rows_dot(&fold, i, v), q.dz[i] / q.scale[i], 1e-8);
+                most = fmax(most, fabs(q.dz[i]));
+            }
+            assert_true(most > 0.1); /* it does move */
+            for (int32_t i = 0; i < rigid.count; i++) near(rg_rows_dot(&rigid, i, v), 0, 1e-8);
+            free(z), free(v);
+            rg_rows_free(&fold);
+            rg_rows_free(&rigid);
+            rg_nearest_free(&q);
+            rg_linkage_free(&P);
+            rg_mesh_free(&m);
+            rg_mesh_free(&none);
+        }
 }
 
 /* ---------------------------------------------------------------------------------------------------- proximity ---- */
@@ -437,7 +575,9 @@ static void stopped(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(derivatives),  cmocka_unit_test(multipliers), cmocka_unit_test(distances),      cmocka_unit_test(meetings),
+        cmocka_unit_test(derivatives),  cmocka_unit_test(multipliers),
+        cmocka_unit_test(many_rows),
+        cmocka_unit_test(places), cmocka_unit_test(distances),      cmocka_unit_test(meetings),
         cmocka_unit_test(free_motions), cmocka_unit_test(the_check_sees), cmocka_unit_test(no_end),      cmocka_unit_test(same_bits),
         cmocka_unit_test(without_memory), cmocka_unit_test(stopped),
     };

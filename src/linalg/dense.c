@@ -5,40 +5,6 @@
 
 RG_WITHIN double sum_of(const rg_quad *s) { return ((*s)[0] + (*s)[1]) + ((*s)[2] + (*s)[3]); }
 
-RG_WIDE double rg_dense_dot(int32_t n, const double *x, const double *y)
-{
-    rg_quad s = {0};
-    for (int32_t i = 0; i < n; i += 4) s += *(const rg_quad_anywhere *)(x + i) * *(const rg_quad_anywhere *)(y + i);
-    return sum_of(&s);
-}
-
-RG_WIDE void rg_dense_gram(int32_t from, int32_t m, int32_t n, const double *g, size_t stride, double *H, size_t room)
-{
-    for (int32_t i = from; i < m; i++) {
-        const double *x = g + (size_t)i * stride;
-        int32_t j = 0;
-        for (; j + 4 <= i + 1; j += 4) {
-            const double *a = g + (size_t)j * stride, *b = a + stride, *c = b + stride, *d = c + stride;
-            rg_quad s = {0}, t = {0}, u = {0}, v = {0};
-            for (int32_t k = 0; k < n; k += 4) {
-                const rg_quad q = *(const rg_quad_anywhere *)(x + k);
-                s += q * *(const rg_quad_anywhere *)(a + k);
-                t += q * *(const rg_quad_anywhere *)(b + k);
-                u += q * *(const rg_quad_anywhere *)(c + k);
-                v += q * *(const rg_quad_anywhere *)(d + k);
-            }
-            double *to = H + (size_t)i * room + j;
-            to[0] = sum_of(&s), to[1] = sum_of(&t), to[2] = sum_of(&u), to[3] = sum_of(&v);
-        }
-        for (; j <= i; j++) {
-            const double *a = g + (size_t)j * stride;
-            rg_quad s = {0};
-            for (int32_t k = 0; k < n; k += 4) s += *(const rg_quad_anywhere *)(x + k) * *(const rg_quad_anywhere *)(a + k);
-            H[(size_t)i * room + (size_t)j] = sum_of(&s);
-        }
-    }
-}
-
 /* What `first` columns before take from the next n <= 4: u (columns of `room`, from row `first` on), written in full fours. */
 RG_WIDE static void updates(int32_t m, int32_t first, const double *A, size_t room, double *u)
 {

@@ -1,6 +1,7 @@
 #include "linalg/supernodal.h"
 #include "base/lanes.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -268,7 +269,7 @@ void rg_supernodal_clear(rg_supernodal *L)
     memset(L->x, 0, (size_t)L->S.panel[L->S.count] * sizeof *L->x);
 }
 
-int32_t rg_supernodal_slot(const rg_supernodal *L, int32_t i, int32_t j)
+int32_t rg_supernodal_find(const rg_supernodal *L, int32_t i, int32_t j)
 {
     int32_t r = L->S.place[i], c = L->S.place[j];
     if (r < c) r = L->S.place[j], c = L->S.place[i];
@@ -278,7 +279,15 @@ int32_t rg_supernodal_slot(const rg_supernodal *L, int32_t i, int32_t j)
         if (L->S.row[middle] <= r) low = middle;
         else high = middle;
     }
+    if (L->S.row[low] != r) return -1;
     return L->S.panel[s] + (c - L->S.column[s]) * rg_symbolic_stride(&L->S, s) + (low - L->S.start[s]);
+}
+
+int32_t rg_supernodal_slot(const rg_supernodal *L, int32_t i, int32_t j)
+{
+    const int32_t slot = rg_supernodal_find(L, i, j);
+    assert(slot >= 0);
+    return slot;
 }
 
 /* The room that `multiply` needs at the most. */

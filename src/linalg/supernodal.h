@@ -24,6 +24,8 @@ void rg_supernodal_free(rg_supernodal *L);
 
 /* Where A's number at (i, j), which is that at (j, i), belongs in x. */
 int32_t rg_supernodal_slot(const rg_supernodal *L, int32_t i, int32_t j);
+/* The same; -1: L has no number there, neither of A nor filled in. */
+int32_t rg_supernodal_find(const rg_supernodal *L, int32_t i, int32_t j);
 /* Makes x zero, to be filled with A. */
 void rg_supernodal_clear(rg_supernodal *L);
 /* Non-zero: done; zero: a pivot is not positive (or NaN), x is spoilt. */

@@ -1,16 +1,17 @@
 /* nearest.h -- the nearest step to a wished one that keeps the sheet closed, and rows that say what must not come nearer.
- * Paper    eqs. (14), (15), (19), with inequalities        Uses  linkage.h interior.h        Used by  end.c stride.c
+ * Paper    eqs. (14), (15), (19), with inequalities        Uses  places.h interior.h        Used by  end.c stride.c
  *
  *     min  1/2 |W^-1/2 (dz - wish)|^2 + sum s_i^2 / (2 c_i)
  *     s.t. A dz = -r,   row_i dz + s_i >= b_i
  *
- * with W^1/2 = diag(scale). y = W^-1/2 dz; what is free of A W^1/2 is projected onto, eq. (15), row by row, and the rest is
- * interior.h's. Rows are made only when the step would break them: of thousands, most never are. */
+ * with W^1/2 = diag(scale). y = W^-1/2 dz. What closes is projected onto, eq. (15); what rows change of it is interior.h's, by the
+ * places of vertices, where it is sparse; and is projected once more. Rows are made only when the step would break them: of
+ * thousands, most never are. */
 #ifndef RG_NEAREST_H
 #define RG_NEAREST_H
 
 #include "unfold/interior.h"
-#include "unfold/linkage.h"
+#include "unfold/places.h"
 
 enum { RG_ROW_TERMS = 6 };
 
@@ -23,7 +24,9 @@ typedef struct rg_row {
     double soft_b, soft_c; /* the same once more, more compliant; soft_c 0: no */
     int glued;             /* non-zero: of layers that still lie on each other */
     double floor;          /* what its gap may not be less than after the step, for the caller */
+    double base;           /* what the row is along the projected wish */
     int32_t at;            /* among the rows that are made, -1: not */
+    int active;            /* flags: the row, 1, and its soft form, 2 */
 } rg_row;
 
 typedef struct rg_nearest {
@@ -33,16 +36,13 @@ typedef struct rg_nearest {
     rg_row *row;
     size_t room;
     int32_t count;
-    /* Rows made, projected and divided by norm[], are F Q: Q orthonormal, the directions that they span. */
-    double *Q, *F, *norm;
-    size_t stride, Q_room, F_room, norm_room;
-    int32_t made, ways;
     int32_t *active;    /* 2 * row, and 1 more for its soft form */
     size_t active_room;
-    int32_t actives, pushed; /* pushed: of the last quadratic program, q.x of each */
-    int carry;          /* non-zero: rows come in the same order each time; those that pushed are active from the start */
-    double *y0, *y, *dz, *scratch; /* [n filled up to fours] */
-    double *wish;       /* the same, for the caller */
+    int32_t actives;
+    int all;            /* non-zero: most rows are expected to push: all are active from the start */
+    int laid;           /* the rows of places.h are those of the state */
+    double *y0, *y, *dz, *scratch; /* [n] */
+    double *wish;       /* [n] for the caller */
     double *right;      /* [rows of A] */
     rg_vec3 *dp;        /* [nv] */
     rg_interior q;

@@ -94,8 +94,7 @@ rg_status rg_open(rg_linkage *P, const rg_end *e, const rg_open_way *way, double
     memcpy(z, e->z, (size_t)P->n * sizeof *z);
     double *wish = q->wish, part = way->grow ? FIRST : way->part;
     rg_status s = RG_OK;
-    q->pushed = 0;
-    q->carry = 1;
+    q->all = 1;
     for (int32_t n = 0; n < ITERATIONS && s == RG_OK && q->work + q->q.work < most; n++) {
         const double angle = stand(P, q, z);
         for (int32_t i = 0; i < P->n; i++) wish[i] = (i < P->N ? 1 - part : 1) * e->z[i] - z[i];
@@ -108,7 +107,7 @@ rg_status rg_open(rg_linkage *P, const rg_end *e, const rg_open_way *way, double
         if (part == way->part && step < (way->grow ? STILL * part : STILL_AT_ONCE) && angle < CLOSED_ENOUGH) break;
         if (n >= SETTLE) part = fmin(way->part, GROWTH * part);
     }
-    q->carry = 0;
+    q->all = 0;
     if (s != RG_OK) return s;
     rg_stride_close(P, q, z, CLOSED, CLOSE);
     result->angle = stand(P, q, z);
