@@ -134,7 +134,7 @@ static void saddle(rg_interior *q, const double *v, const double *y)
         q->Ev[i] = rg_rows_dot(&q->E, i, v);
         rg_rows_gather(&q->E, i, -y[i], q->off);
     }
-    q->work += 2 * (double)(q->J.start[q->J.count] + q->E.start[q->E.count]);
+    q->work += LAYING * (double)(q->J.start[q->J.count] + q->E.start[q->E.count]);
 }
 
 /* z = the v of G v - E^T y = row, E v = 0: solved, and corrected once. */
@@ -239,10 +239,12 @@ static rg_status set_ways(rg_interior *q)
             slots[i]->used = 0, slots[i]->rows = 0;
             s = rg_normal_find(&q->many, lists[i], slots[i], &fits);
         }
+        q->work += numbers(&q->many, &q->many_R);
         q->many_laid = 0;
     }
     if (s == RG_OK)
         s = rg_mem_grow(&q->mem, (void **)&q->many_base, &q->many_base_room, rg_normal_numbers(&q->many), sizeof *q->many_base);
+    q->work += LAYING * (double)q->many_R.used;
     if (s == RG_OK && !q->many_laid) lay(q, &q->many, &q->many_J, &q->many_E, q->many_base);
     q->many_laid = s == RG_OK;
     return s;
@@ -282,7 +284,7 @@ static void newton(problem *p)
         for (int32_t i = 0; i < q->E.count; i++) q->dy[i] = -(q->Ev[i] + rg_rows_dot(&q->E, i, q->dv)) / EPS;
         measure(p, q->dv);
         for (int32_t i = 0; i < m; i++) q->dx[i] = (q->dx[i] - q->sum[q->of[i]]) * q->inverse[i];
-        q->work += 2 * q->many.L.S.entries;
+        q->work += 2 * q->many.L.S.entries + LAYING * (double)q->R.start[q->R.count];
     }
     for (int32_t i = 0; i < m; i++) q->dslack[i] = q->both[i] - (1 / q->inverse[i] - q->c[i]) * q->dx[i];
 }

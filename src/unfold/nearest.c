@@ -3,8 +3,10 @@
 
 /* A row counts as broken when it misses its bound by more than the first (lengths of the sheet, radians) and this part of it. */
 static const double BROKEN = 1e-9, BROKEN_PART = 1e-3;
-/* Times that broken rows are added: most steps need one to three. */
-static const int ROUNDS = 8;
+/* Times that broken rows are added: most steps need one to four. In the first of them of all that a corner or an edge would meet
+ * one way, within 60 degrees, only the nearest: in a stack that is the next layer, which mostly keeps it from those behind. */
+static const int ROUNDS = 8, NEAREST_ROUNDS = 4;
+static const double ONE_WAY = 0.5;
 /* A compliance below this is too near to rounding to be told from none. */
 static const double LEAST_COMPLIANCE = 1e-11;
 
@@ -18,7 +20,10 @@ rg_status rg_nearest_init(rg_nearest *q, const rg_memory *mem, rg_linkage *P)
     for (int i = 0; i < 6; i++) ok &= (*vector[i] = rg_mem_array(mem, (size_t)P->n, sizeof(double))) != NULL;
     q->right = rg_mem_array(mem, (size_t)P->J.A.rows, sizeof *q->right);
     q->dp = rg_mem_array(mem, (size_t)P->mesh->nv, sizeof *q->dp);
-    const rg_status s = ok && q->right && q->dp ? rg_interior_init(&q->q, mem, rg_places_count(P)) : RG_ENOMEM;
+    const size_t features = (size_t)P->mesh->nv + (size_t)P->mesh->ne;
+    q->head = rg_mem_array(mem, features, sizeof *q->head);
+    for (size_t i = 0; q->head && i < features; i++) q->head[i] = -1;
+    const rg_status s = ok && q->right && q->dp && q->head ? rg_interior_init(&q->q, mem, rg_places_count(P)) : RG_ENOMEM;
     if (s != RG_OK) rg_nearest_free(q);
     return s;
 }
@@ -27,8 +32,8 @@ void rg_nearest_free(rg_nearest *q)
 {
     if (!q->mem.resize) return;
     rg_interior_free(&q->q);
-    void *block[] = {q->scale, q->row, q->active, q->y0, q->y, q->dz, q->scratch, q->wish, q->right, q->dp};
-    for (int i = 0; i < 10; i++) rg_mem_free(&q->mem, block[i]);
+    void *block[] = {q->scale, q->row, q->active, q->y0, q->y, q->dz, q->scratch, q->wish, q->right, q->dp, q->head};
+    for (int i = 0; i < 11; i++) rg_mem_free(&q->mem, block[i]);
     memset(q, 0, sizeof *q);
 }
 
@@ -43,7 +48,7 @@ rg_row *rg_nearest_add(rg_nearest *q)
     if (rg_mem_grow(&q->mem, (void **)&q->row, &q->room, (size_t)q->count + 1, sizeof *q->row) != RG_OK) return NULL;
     rg_row *row = &q->row[q->count++];
     memset(row, 0, sizeof *row);
-    row->crease = row->at = -1;
+    row->crease = row->at = row->feature = row->next = -1;
     row->c = LEAST_COMPLIANCE;
     return row;
 }
@@ -126,20 +131,57 @@ static rg_status activate(rg_nearest *q, int32_t row, int soft)
     return RG_OK;
 }
 
+/* Flags: the row, 1, and its soft form, 2, that q->dz breaks and that are not active. */
+static int broken(const rg_nearest *q, const rg_row *row, int with_soft)
+{
+    const double value = rg_nearest_value(q, row);
+    int which = 0;
+    for (int soft = 0; soft <= (with_soft && row->soft_c > 0); soft++) {
+        const double b = soft ? row->soft_b : row->b;
+        if (!(row->active >> soft & 1) && b - value > BROKEN + BROKEN_PART * fabs(b)) which |= 1 << soft;
+    }
+    return which;
+}
+
+/* Takes a broken row into the list of its feature, or instead of one of it that is farther the same way. */
+static void list(rg_nearest *q, int32_t i, int only_nearest)
+{
+    rg_row *row = &q->row[i];
+    int32_t *at = &q->head[row->feature];
+    row->next = -1;
+    for (; *at >= 0; at = &q->row[*at].next) {
+        rg_row *other = &q->row[*at];
+        if (!only_nearest || rg_vec3_dot(row->n, other->n) < ONE_WAY) continue;
+        if (!(row->d < other->d)) return;
+        row->next = other->next;
+        break;
+    }
+    *at = i;
+}
+
 /* Activates what q->dz breaks. *more: out, whether there was anything. */
-static rg_status add_broken(rg_nearest *q, int with_soft, int *more)
+static rg_status add_broken(rg_nearest *q, int with_soft, int only_nearest, int *more)
 {
     rg_status s = RG_OK;
     *more = 0;
-    for (int32_t i = 0; i < q->count && s == RG_OK; i++) {
+    for (int32_t i = 0; i < q->count; i++) {
+        const int which = broken(q, &q->row[i], with_soft);
+        q->row[i].active = (q->row[i].active & 3) | which << 2;
+        *more |= which != 0;
+        if (which && q->row[i].feature >= 0) list(q, i, only_nearest);
+    }
+    for (int32_t i = 0; i < q->count; i++) {
         const rg_row *row = &q->row[i];
-        const double value = rg_nearest_value(q, row);
-        for (int soft = 0; soft <= (with_soft && row->soft_c > 0) && s == RG_OK; soft++) {
-            const double b = soft ? row->soft_b : row->b;
-            if (row->active >> soft & 1 || !(b - value > BROKEN + BROKEN_PART * fabs(b))) continue;
-            s = activate(q, i, soft);
-            *more = 1;
-        }
+        if (row->active < 4 || row->feature < 0) continue;
+        int listed = 0;
+        for (int32_t k = q->head[row->feature]; k >= 0 && !listed; k = q->row[k].next) listed = k == i;
+        if (!listed) q->row[i].active &= 3;
+    }
+    for (int32_t i = 0; i < q->count && s == RG_OK; i++) {
+        const int which = q->row[i].active >> 2;
+        if (q->row[i].feature >= 0) q->head[q->row[i].feature] = -1;
+        for (int soft = 0; soft < 2 && s == RG_OK; soft++)
+            if (which >> soft & 1) s = activate(q, i, soft);
     }
     return s;
 }
@@ -177,13 +219,13 @@ rg_status rg_nearest_solve(rg_nearest *q, const double *wish, const double *r, i
     }
     for (int32_t i = 0; q->all && i < q->count && s == RG_OK; i++)
         for (int soft = 0; soft <= (with_soft && q->row[i].soft_c > 0) && s == RG_OK; soft++) s = activate(q, i, soft);
-    if (s == RG_OK) s = add_broken(q, with_soft, &more);
+    if (s == RG_OK) s = add_broken(q, with_soft, 1, &more);
     more |= q->actives > 0;
     for (int round = 0; s == RG_OK && more && round < ROUNDS; round++) {
         s = push(q, r);
         if (s != RG_OK) break;
         move(q, q->y);
-        s = add_broken(q, with_soft, &more);
+        s = add_broken(q, with_soft, round + 1 < NEAREST_ROUNDS, &more);
     }
     return s;
 }

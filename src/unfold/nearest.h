@@ -23,10 +23,13 @@ typedef struct rg_row {
     double b, c;           /* bound, compliance */
     double soft_b, soft_c; /* the same once more, more compliant; soft_c 0: no */
     int glued;             /* non-zero: of layers that still lie on each other */
+    int32_t feature;       /* corner, or nv and an edge, that it is about; -1: neither */
+    double d;              /* how far from what it would meet */
     double floor;          /* what its gap may not be less than after the step, for the caller */
     double base;           /* what the row is along the projected wish */
     int32_t at;            /* among the rows that are made, -1: not */
-    int active;            /* flags: the row, 1, and its soft form, 2 */
+    int active;            /* flags: the row, 1, and its soft form, 2; 4 times them: what is broken of it */
+    int32_t next;          /* broken too, of the same feature; -1: none */
 } rg_row;
 
 typedef struct rg_nearest {
@@ -36,6 +39,7 @@ typedef struct rg_nearest {
     rg_row *row;
     size_t room;
     int32_t count;
+    int32_t *head;      /* [nv + ne] the first broken row of each feature */
     int32_t *active;    /* 2 * row, and 1 more for its soft form */
     size_t active_room;
     int32_t actives;

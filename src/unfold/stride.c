@@ -245,6 +245,8 @@ static rg_status add_pair_rows(rg_stride *s)
         row->terms = 4;
         for (int i = 0; i < 4; i++) row->v[i] = at->v[i], row->weight[i] = at->weight[i];
         row->n = n;
+        row->feature = at->kind == 0 ? at->i : s->P->mesh->nv + at->i;
+        row->d = d;
         row->c = HARD_COMPLIANCE;
         row->b = -DAMPER * fmax(0, d - s->dm);
         row->floor = d - DAMPER_CLOSING * fmax(0, d - s->dm) - BELOW_FLOOR * fmin(fmax(d, 0), s->dm);
