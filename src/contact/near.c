@@ -115,15 +115,6 @@ void rg_near_work_free(rg_near_work *w)
     memset(w, 0, sizeof *w);
 }
 
-typedef struct search {
-    const rg_plates *p;
-    const rg_vec3 *x;
-    const rg_near_work *w;
-    double reach;
-    rg_near_pair *pair;
-    int32_t room, count;
-} search;
-
 static int has_corner(const rg_mesh *m, int32_t f, int32_t v)
 {
     for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++)
@@ -166,59 +157,16 @@ static int edges_belong(const rg_mesh *m, int32_t d, int32_t e)
     return 0;
 }
 
-static void keep(search *s, const rg_near_pair *pair)
-{
-    if (s->count < s->room) s->pair[s->count] = *pair;
-    s->count++;
-}
+/* ---------------------------------------------------------------------------------------------- candidates ---- */
 
-/* Corners of part a, as far as they are looked at there, against part b. */
-static void corners(search *s, int32_t a, int32_t b)
-{
-    const rg_plates *p = s->p;
-    const rg_box box = s->w->box[s->w->leaf[b]];
-    const int32_t *t = p->vertex + p->start[b], n = p->start[b + 1] - p->start[b], f = p->facet[b];
-    for (int32_t j = p->start[a]; j < p->start[a + 1]; j++) {
-        const int32_t v = p->vertex[j];
-        const rg_vec3 at = s->x[v];
-        if (s->w->corner_part[v] != a || at.x - s->reach > box.high.x || at.x + s->reach < box.low.x || at.y - s->reach > box.high.y ||
-            at.y + s->reach < box.low.y || at.z - s->reach > box.high.z || at.z + s->reach < box.low.z || about(p->mesh, f, v))
-            continue;
-        rg_near_pair best = {.kind = RG_NEAR_CORNER, .facet = {p->facet[a], f}, .distance = INFINITY};
-        for (int32_t k = 1; k + 1 < n; k++) {
-            double w[3];
-            rg_vec3 m;
-            const double d = rg_near_triangle(at, s->x[t[0]], s->x[t[k]], s->x[t[k + 1]], w, &m);
-            if (!(d < best.distance)) continue;
-            best.distance = d;
-            best.n = m;
-            best.v[0] = v, best.v[1] = t[0], best.v[2] = t[k], best.v[3] = t[k + 1];
-            best.weight[0] = 1, best.weight[1] = -w[0], best.weight[2] = -w[1], best.weight[3] = -w[2];
-        }
-        if (best.distance < s->reach) keep(s, &best);
-    }
-}
-
-static void edges(search *s, int32_t a, int32_t b)
-{
-    const rg_plates *p = s->p;
-    const rg_mesh *m = p->mesh;
-    for (int32_t i = p->start[a]; i < p->start[a + 1]; i++) {
-        const int32_t d = s->w->side[i];
-        if (d < 0 || s->w->edge_part[d] != a) continue;
-        for (int32_t k = p->start[b]; k < p->start[b + 1]; k++) {
-            const int32_t e = s->w->side[k];
-            if (e < 0 || s->w->edge_part[e] != b) continue;
-            const int32_t *u = m->edge[d], *v = m->edge[e];
-            double at, other;
-            rg_vec3 n;
-            const double distance = rg_near_segments(s->x[u[0]], s->x[u[1]], s->x[v[0]], s->x[v[1]], &at, &other, &n);
-            if (!(distance < s->reach) || !(at > 0 && at < 1 && other > 0 && other < 1) || edges_belong(m, d, e)) continue;
-            keep(s, &(rg_near_pair){RG_NEAR_EDGES, {p->facet[a], p->facet[b]}, {u[0], u[1], v[0], v[1]},
-                                    {1 - at, at, other - 1, -other}, distance, n});
-        }
-    }
-}
+typedef struct candidates {
+    const rg_plates *p;
+    const rg_vec3 *x, *y;
+    const rg_near_work *w;
+    double reach;
+    rg_near_visitor *visit;
+    void *ctx;
+} candidates;
 
 static int are_near(const rg_box *a, const rg_box *b, double reach)
 {
@@ -226,38 +174,127 @@ static int are_near(const rg_box *a, const rg_box *b, double reach)
            b->low.y - a->high.y <= reach && a->low.z - b->high.z <= reach && b->low.z - a->high.z <= reach;
 }
 
-static void visit_two(search *s, int32_t i, int32_t k)
+/* Corners of part a, as far as they are looked at there, against part b. */
+static void corners(const candidates *c, int32_t a, int32_t b)
 {
-    if (!are_near(&s->w->box[i], &s->w->box[k], s->reach)) return;
-    const rg_plates_node *a = &s->p->node[i], *b = &s->p->node[k];
-    if (a->part >= 0 && b->part >= 0) {
-        if (s->p->facet[a->part] == s->p->facet[b->part]) return;
-        corners(s, a->part, b->part);
-        corners(s, b->part, a->part);
-        edges(s, a->part, b->part);
-    } else if (b->part >= 0 || (a->part < 0 && a->end - i >= b->end - k)) {
-        visit_two(s, i + 1, k);
-        visit_two(s, a->right, k);
-    } else {
-        visit_two(s, i, k + 1);
-        visit_two(s, i, b->right);
+    const rg_plates *p = c->p;
+    const rg_box *box = &c->w->box[c->w->leaf[b]];
+    for (int32_t j = p->start[a]; j < p->start[a + 1]; j++) {
+        const int32_t v = p->vertex[j];
+        if (c->w->corner_part[v] != a) continue;
+        rg_box at = {c->x[v], c->x[v]};
+        if (c->y) rg_box_take_in(&at, c->y[v]);
+        if (are_near(&at, box, c->reach)) c->visit(c->ctx, RG_NEAR_CORNER, v, b, a, b);
     }
 }
 
-static void visit(search *s, int32_t i)
+static rg_box around_edge(const candidates *c, int32_t e)
 {
-    const rg_plates_node *n = &s->p->node[i];
-    if (n->part >= 0) return;
-    visit(s, i + 1);
-    visit(s, n->right);
-    visit_two(s, i + 1, n->right);
+    const int32_t *v = c->p->mesh->edge[e];
+    rg_box box = {c->x[v[0]], c->x[v[0]]};
+    rg_box_take_in(&box, c->x[v[1]]);
+    for (int i = 0; c->y && i < 2; i++) rg_box_take_in(&box, c->y[v[i]]);
+    return box;
+}
+
+static void edges(const candidates *c, int32_t a, int32_t b)
+{
+    const rg_plates *p = c->p;
+    rg_box of_b[RG_PLATE_CORNERS];
+    for (int32_t k = p->start[b]; k < p->start[b + 1]; k++)
+        if (c->w->side[k] >= 0) of_b[k - p->start[b]] = around_edge(c, c->w->side[k]);
+    for (int32_t i = p->start[a]; i < p->start[a + 1]; i++) {
+        const int32_t d = c->w->side[i];
+        if (d < 0 || c->w->edge_part[d] != a) continue;
+        const rg_box box = around_edge(c, d);
+        for (int32_t k = p->start[b]; k < p->start[b + 1]; k++) {
+            const int32_t e = c->w->side[k];
+            if (e < 0 || c->w->edge_part[e] != b || !are_near(&box, &of_b[k - p->start[b]], c->reach)) continue;
+            c->visit(c->ctx, RG_NEAR_EDGES, d, e, a, b);
+        }
+    }
+}
+
+static int nodes_near(void *ctx, int32_t i, int32_t k)
+{
+    const candidates *c = ctx;
+    return are_near(&c->w->box[i], &c->w->box[k], c->reach);
+}
+
+static void features(void *ctx, int32_t i, int32_t k)
+{
+    const candidates *c = ctx;
+    const int32_t a = c->p->node[i].part, b = c->p->node[k].part;
+    if (c->p->facet[a] == c->p->facet[b]) return;
+    corners(c, a, b);
+    corners(c, b, a);
+    edges(c, a, b);
+}
+
+void rg_near_candidates(const rg_plates *p, const rg_vec3 *x, const rg_vec3 *y, double reach, rg_near_work *w, rg_near_visitor *visit,
+                        void *ctx)
+{
+    candidates c = {p, x, y, w, reach, visit, ctx};
+    rg_plates_boxes(p, x, w->box);
+    if (y) rg_plates_boxes_take_in(p, y, w->box);
+    rg_plates_walk_pairs(&(rg_plates_walk){p, nodes_near, features, &c});
+}
+
+/* ---------------------------------------------------------------------------------------------------- pairs ---- */
+
+typedef struct search {
+    const rg_plates *p;
+    const rg_vec3 *x;
+    double reach;
+    rg_near_pair *pair;
+    int32_t room, count;
+} search;
+
+static void keep(search *s, const rg_near_pair *pair)
+{
+    if (s->count < s->room) s->pair[s->count] = *pair;
+    s->count++;
+}
+
+static void look_at_corner(search *s, int32_t v, int32_t a, int32_t b)
+{
+    const rg_plates *p = s->p;
+    const int32_t *t = p->vertex + p->start[b], n = p->start[b + 1] - p->start[b], f = p->facet[b];
+    rg_near_pair best = {.kind = RG_NEAR_CORNER, .facet = {p->facet[a], f}, .distance = INFINITY};
+    if (about(p->mesh, f, v)) return;
+    for (int32_t k = 1; k + 1 < n; k++) {
+        double w[3];
+        rg_vec3 m;
+        const double d = rg_near_triangle(s->x[v], s->x[t[0]], s->x[t[k]], s->x[t[k + 1]], w, &m);
+        if (!(d < best.distance)) continue;
+        best.distance = d;
+        best.n = m;
+        best.v[0] = v, best.v[1] = t[0], best.v[2] = t[k], best.v[3] = t[k + 1];
+        best.weight[0] = 1, best.weight[1] = -w[0], best.weight[2] = -w[1], best.weight[3] = -w[2];
+    }
+    if (best.distance < s->reach) keep(s, &best);
+}
+
+static void look(void *ctx, rg_near_kind kind, int32_t i, int32_t j, int32_t a, int32_t b)
+{
+    search *s = ctx;
+    if (kind == RG_NEAR_CORNER) {
+        look_at_corner(s, i, a, b);
+        return;
+    }
+    const rg_mesh *m = s->p->mesh;
+    const int32_t *u = m->edge[i], *v = m->edge[j];
+    double at, other;
+    rg_vec3 n;
+    const double distance = rg_near_segments(s->x[u[0]], s->x[u[1]], s->x[v[0]], s->x[v[1]], &at, &other, &n);
+    if (!(distance < s->reach) || !(at > 0 && at < 1 && other > 0 && other < 1) || edges_belong(m, i, j)) return;
+    keep(s, &(rg_near_pair){RG_NEAR_EDGES, {s->p->facet[a], s->p->facet[b]}, {u[0], u[1], v[0], v[1]},
+                            {1 - at, at, other - 1, -other}, distance, n});
 }
 
 int32_t rg_near_find(const rg_plates *p, const rg_vec3 *x, double reach, rg_near_work *w, rg_near_pair *pair, int32_t room)
 {
-    search s = {.p = p, .x = x, .w = w, .reach = reach, .pair = pair, .room = room};
-    if (p->parts < 2) return 0;
-    rg_plates_boxes(p, x, w->box);
-    visit(&s, 0);
+    search s = {.p = p, .x = x, .reach = reach, .pair = pair, .room = room};
+    if (p->parts > 1) rg_near_candidates(p, x, NULL, reach, w, look, &s);
     return s.count;
 }

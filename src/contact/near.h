@@ -1,5 +1,5 @@
 /* near.h -- corners and edges that come near facets and edges they are not part of: what a motion without contact has to watch.
- * Uses  plates.h        Used by  motion
+ * Uses  plates.h        Used by  sweep.c, unfold/proximity.c
  *
  * Two plates that do not meet are nearest either at a corner of one and a point of the other, or at points of two edges. */
 #ifndef RG_NEAR_PAIRS_H
@@ -34,6 +34,13 @@ typedef struct rg_near_work {
 /* RG_ENOMEM: *w is zeroed. */
 rg_status rg_near_work_init(const rg_plates *p, rg_near_work *w);
 void rg_near_work_free(rg_near_work *w);
+
+/* Called with each pair of features whose boxes are no farther apart than `reach` at x[nv], or, with y not NULL, on the straight ways
+ * from x to y: corner i and part j, or the edges i and j; of parts a and b. Each pair once, in an order that depends on nothing but the
+ * sheet; also features that have a corner in common. Allocates nothing. */
+typedef void rg_near_visitor(void *ctx, rg_near_kind kind, int32_t i, int32_t j, int32_t a, int32_t b);
+void rg_near_candidates(const rg_plates *p, const rg_vec3 *x, const rg_vec3 *y, double reach, rg_near_work *w, rg_near_visitor *visit,
+                        void *ctx);
 
 /* The pairs nearer than `reach` (file units) as vertices are placed by x[nv], each once: no pair of features that have a corner
  * in common, or of the two facets of one crease. Returns how many there are; the first `room` are in pair[], in an order that

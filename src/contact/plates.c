@@ -275,3 +275,43 @@ void rg_plates_boxes(const rg_plates *p, const rg_vec3 *x, rg_box *box)
     }
     around_children(p, box);
 }
+
+void rg_plates_boxes_take_in(const rg_plates *p, const rg_vec3 *y, rg_box *box)
+{
+    for (int32_t i = 0; i < p->nodes; i++) {
+        const int32_t a = p->node[i].part;
+        for (int32_t j = a < 0 ? 0 : p->start[a]; a >= 0 && j < p->start[a + 1]; j++) rg_box_take_in(&box[i], y[p->vertex[j]]);
+    }
+    around_children(p, box);
+}
+
+/* ------------------------------------------------------------------------------------------------------ pairs ---- */
+
+static void visit_two(const rg_plates_walk *w, int32_t i, int32_t k)
+{
+    if (!w->may(w->ctx, i, k)) return;
+    const rg_plates_node *a = &w->p->node[i], *b = &w->p->node[k];
+    if (a->part >= 0 && b->part >= 0) {
+        w->meet(w->ctx, i, k);
+    } else if (b->part >= 0 || (a->part < 0 && a->end - i >= b->end - k)) {
+        visit_two(w, i + 1, k);
+        visit_two(w, a->right, k);
+    } else {
+        visit_two(w, i, k + 1);
+        visit_two(w, i, b->right);
+    }
+}
+
+static void visit(const rg_plates_walk *w, int32_t i)
+{
+    const rg_plates_node *n = &w->p->node[i];
+    if (n->part >= 0) return;
+    visit(w, i + 1);
+    visit(w, n->right);
+    visit_two(w, i + 1, n->right);
+}
+
+void rg_plates_walk_pairs(const rg_plates_walk *w)
+{
+    if (w->p->nodes > 0) visit(w, 0);
+}

@@ -65,7 +65,19 @@ static inline void rg_box_take_in(rg_box *box, rg_vec3 x)
     box->high.z = x.z > box->high.z ? x.z : box->high.z;
 }
 
+/* Goes down the tree as far as two nodes may have to do with each other: meet is called for every two leaves i, k that are reached,
+ * always in the same order. */
+typedef struct rg_plates_walk {
+    const rg_plates *p;
+    int (*may)(void *ctx, int32_t i, int32_t k);   /* zero: nothing below the one has to do with anything below the other */
+    void (*meet)(void *ctx, int32_t i, int32_t k);
+    void *ctx;
+} rg_plates_walk;
+void rg_plates_walk_pairs(const rg_plates_walk *w);
+
 /* box[nodes]: out, around the parts as placed by x[nv], and then around all below a node. */
 void rg_plates_boxes(const rg_plates *p, const rg_vec3 *x, rg_box *box);
+/* box: grown around the parts as placed by y[nv], too. */
+void rg_plates_boxes_take_in(const rg_plates *p, const rg_vec3 *y, rg_box *box);
 
 #endif

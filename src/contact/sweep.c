@@ -413,34 +413,17 @@ static int passes(const sweep *s, const rg_sweep_ball *a, const rg_sweep_ball *b
 }
 
 /* Whichever of a pair is the first. */
-static int may_meet(const sweep *s, int32_t i, int32_t k)
+static int may_meet(void *ctx, int32_t i, int32_t k)
 {
+    const sweep *s = ctx;
     const rg_sweep_ball *a = &s->w->ball[i], *b = &s->w->ball[k];
     return !passes(s, a, b) || !passes(s, b, a);
 }
 
-static void visit_two(sweep *s, int32_t i, int32_t k)
+static void meet_leaves(void *ctx, int32_t i, int32_t k)
 {
-    if (!may_meet(s, i, k)) return;
-    const rg_plates_node *a = &s->p->node[i], *b = &s->p->node[k];
-    if (a->part >= 0 && b->part >= 0) {
-        meet(s, a->part, b->part, fmax(s->w->ball[i].arm, s->w->ball[k].arm));
-    } else if (b->part >= 0 || (a->part < 0 && a->end - i >= b->end - k)) {
-        visit_two(s, i + 1, k);
-        visit_two(s, a->right, k);
-    } else {
-        visit_two(s, i, k + 1);
-        visit_two(s, i, b->right);
-    }
-}
-
-static void visit(sweep *s, int32_t i)
-{
-    const rg_plates_node *n = &s->p->node[i];
-    if (n->part >= 0) return;
-    visit(s, i + 1);
-    visit(s, n->right);
-    visit_two(s, i + 1, n->right);
+    sweep *s = ctx;
+    meet(s, s->p->node[i].part, s->p->node[k].part, larger(s->w->ball[i].arm, s->w->ball[k].arm));
 }
 
 /* ------------------------------------------------------------------------------------------------------- step ---- */
@@ -519,6 +502,6 @@ rg_sweep_found rg_sweep_step(const rg_plates *p, const rg_plates_state *from, co
     }
     s.rigid = keeps_shape(p, from, to);
     find_balls(p, from, to, w);
-    visit(&s, 0);
+    rg_plates_walk_pairs(&(rg_plates_walk){p, may_meet, meet_leaves, &s});
     return s.found;
 }

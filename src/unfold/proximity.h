@@ -1,14 +1,13 @@
 /* proximity.h -- which corners are near which triangles, which edges near which, and whether they meet while they move.
- * Uses  mesh.h vec.h        Used by  open.c sides.c stride.c
+ * Uses  contact/near.h        Used by  open.c sides.c stride.c
  *
  * Two triangles are as near as a corner of one to the other, or an edge of one to an edge of the other. Left out is what the
  * hinges keep apart: what shares a vertex, and the two facets of a crease.
- * Closest points: Ericson, Real-Time Collision Detection, 5.1.5 and 5.1.9. Conservative advancement: Mirtich, 1996. */
+ * Conservative advancement: Mirtich, 1996. */
 #ifndef RG_PROXIMITY_H
 #define RG_PROXIMITY_H
 
-#include "base/vec.h"
-#include "mesh/mesh.h"
+#include "contact/near.h"
 
 /* A corner (kind 0: v[0], weight 1) against a triangle (v[1..3], weights -w), or an edge (kind 1: v[0], v[1]) against an edge
  * (v[2], v[3]): the closest points are apart by the sum of weight[i] p[v[i]]. */
@@ -23,7 +22,8 @@ typedef struct rg_proximity {
     rg_memory mem;
     const rg_mesh *mesh; /* borrowed: triangles */
     unsigned char *corner, *edge; /* [nv][nf], [ne][ne], i > j: flags of a pair, of which RG_PROXIMITY_APART is set here */
-    rg_vec3 *low, *high; /* [nf + ne] boxes */
+    rg_plates plates;
+    rg_near_work work;
     rg_close_pair *pair;
     size_t room;
     int32_t count;
