@@ -240,6 +240,48 @@ static void many_rows(void **state)
     rg_interior_free(&q);
 }
 
+/* A program of M rows that comes again: whatever has been as large asks for no memory, and the same numbers give the same bits. */
+static void again(void **state)
+{
+    (void)state;
+    enum { N = 60, M = 300 };
+    counted c = {.left = 1L << 30};
+    const rg_memory mem = {counted_resize, &c};
+    rg_interior q;
+    double first[N];
+    long asked = 0;
+    assert_int_equal(rg_interior_init(&q, &mem, N), RG_OK);
+    for (int round = 0; round < 4; round++) {
+        unsigned seed = 31;
+        if (round == 1) asked = c.asked;
+        rg_interior_clear(&q);
+        for (int32_t j = 0; j < N; j++) {
+            const int32_t fold[] = {j, (j + 1) % N, (j + 7) % N};
+            const double a[] = {noise(&seed), noise(&seed), noise(&seed)};
+            q.g[j] = 0.5;
+            assert_int_equal(rg_rows_add(&q.J, 3, fold, a), RG_OK);
+            if (j % 4 == 0) assert_int_equal(rg_rows_add(&q.E, 2, fold, a), RG_OK);
+        }
+        assert_int_equal(rg_interior_reserve(&q, M), RG_OK);
+        for (int32_t i = 0; i < M; i++) {
+            const int32_t col[] = {i % N, (i * 7 + 3) % N == i % N ? (i + 1) % N : (i * 7 + 3) % N};
+            const double a[] = {noise(&seed), noise(&seed)};
+            assert_int_equal(rg_rows_add(&q.R, 2, col, a), RG_OK);
+            q.of[i] = i, q.c[i] = 1e-6, q.d[i] = 0.1 * noise(&seed);
+        }
+        assert_int_equal(rg_interior_solve(&q, round % 2 ? 10 : M), RG_OK); /* by ways, by rows, by ways ... */
+        if (round == 0) memcpy(first, q.v, sizeof first);
+        if (round == 1) asked = c.asked;
+        if (round == 2) q.largest = 0;
+    }
+    assert_int_equal(c.asked, asked);
+    q.largest = 0;
+    assert_int_equal(rg_interior_solve(&q, M), RG_OK);
+    assert_memory_equal(first, q.v, sizeof first);
+    rg_interior_free(&q);
+    assert_int_equal(c.out, 0);
+}
+
 /* The places of a closed sheet and its fold angles move alike: what creases turn by, and that edges keep their length. */
 static void places(void **state)
 {
@@ -340,6 +382,56 @@ static void distances(void **state)
 }
 
 /* A corner that goes through a triangle is met; one that stays on its side is not. */
+/* What the tree finds is what all pairs of features give, each once, on straight ways too. */
+static void all_near(void **state)
+{
+    (void)state;
+    const rg_memory mem = rg_mem_default(NULL);
+    rg_mesh none, m;
+    rg_proximity n;
+    unsigned seed = 37;
+    mesh_of("patterns/frog.opx", &none);
+    assert_int_equal(rg_triangulate_all(&none, &m), RG_OK);
+    assert_int_equal(rg_proximity_init(&n, &mem, &m), RG_OK);
+    rg_vec3 *p = calloc((size_t)m.nv, sizeof *p), *q = calloc((size_t)m.nv, sizeof *q), *x = calloc((size_t)m.nv, sizeof *x);
+    assert_true(p && q && x);
+    for (int trial = 0; trial < 5; trial++) {
+        const double reach = 0.4 * m.size;
+        int32_t found = 0;
+        for (int32_t v = 0; v < m.nv; v++) {
+            p[v] = (rg_vec3){m.X[v].x, m.X[v].y, 0.1 * m.size * noise(&seed)};
+            q[v] = (rg_vec3){m.X[v].x, m.X[v].y, 0.1 * m.size * noise(&seed)};
+        }
+        assert_int_equal(rg_proximity_find(&n, p, reach), RG_OK);
+        double most = 1;
+        for (int kind = 0; kind < 2; kind++)
+            for (int32_t i = 0; i < (kind ? m.ne : m.nv); i++)
+                for (int32_t j = 0; j < (kind ? i : m.nf); j++) {
+                    rg_close_pair at;
+                    const size_t flag = (size_t)i * (size_t)(kind ? m.ne : m.nf) + (size_t)j;
+                    if ((kind ? n.edge : n.corner)[flag] & RG_PROXIMITY_APART) continue;
+                    const double d = rg_proximity_distance(&n, kind, i, j, p, &at);
+                    for (int step = 1; step <= 20; step++) { /* on the way */
+                        for (int k = 0; k < 4; k++) x[at.v[k]] = rg_vec3_axpy(step / 20.0, rg_vec3_sub(q[at.v[k]], p[at.v[k]]), p[at.v[k]]);
+                        if (rg_proximity_distance(&n, kind, i, j, x, NULL) < 0.1 * d) most = fmin(most, step / 20.0);
+                    }
+                    if (!(d < reach) || (kind && !(at.weight[0] > 0 && at.weight[1] > 0 && at.weight[2] < 0 && at.weight[3] < 0))) continue;
+                    int times = 0;
+                    for (int32_t k = 0; k < n.count; k++)
+                        times += n.pair[k].kind == kind && n.pair[k].i == i && n.pair[k].j == j && n.pair[k].d == d;
+                    assert_int_equal(times, 1);
+                    found++;
+                }
+        assert_int_equal(found, n.count);
+        assert_true(found > 20);
+        assert_true(rg_proximity_meet(&n, p, q, 0.1, NULL) <= most);
+    }
+    free(p), free(q), free(x);
+    rg_proximity_free(&n);
+    rg_mesh_free(&m);
+    rg_mesh_free(&none);
+}
+
 static void meetings(void **state)
 {
     (void)state;
@@ -576,7 +668,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(derivatives),  cmocka_unit_test(multipliers),
-        cmocka_unit_test(many_rows),
+        cmocka_unit_test(many_rows), cmocka_unit_test(again), cmocka_unit_test(all_near),
         cmocka_unit_test(places), cmocka_unit_test(distances),      cmocka_unit_test(meetings),
         cmocka_unit_test(free_motions), cmocka_unit_test(the_check_sees), cmocka_unit_test(no_end),      cmocka_unit_test(same_bits),
         cmocka_unit_test(without_memory), cmocka_unit_test(stopped),
