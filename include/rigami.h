@@ -488,13 +488,13 @@ typedef struct rg_report {
     const rg_frame *frames; /* borrowed */
     int32_t states, states_reached; /* of a sequence of states; 0: the motion is of one pattern */
     const int32_t *state_frame;     /* [states_reached] the frame that is that state; borrowed */
-    int32_t stages;                 /* it is folded in so many, one after the other, as nothing is free all at once; 0: at once */
-    const rg_folding_stage *stage;  /* these; borrowed */
     int32_t by_flat_count;          /* ways from one state to the next that went through flat paper, */
     const int32_t *by_flat;         /* and the states, from 1, that they begin at; borrowed */
     int32_t tried_count;            /* what was tried, in its order, */
     const rg_try *tried;            /* borrowed; of a sequence of states: none */
     const rg_unfoldable *theorem;   /* a vertex that cannot be as it should, where that holds the motion; NULL: there is none */
+    int32_t stages;                 /* it is folded in so many, one after the other, as nothing is free all at once; 0: at once */
+    const rg_folding_stage *stage;  /* these; borrowed */
 } rg_report;
 
 /* Folds the pattern through all frames. RG_OK also when it stopped short: read rg_motion_report. */
