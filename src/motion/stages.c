@@ -18,6 +18,8 @@ static const uint64_t MOST_OF_A_PART = 24;
  * as plainly as it goes. The first two may cost these parts of the work of the whole. */
 typedef enum way_to_fold { BY_NUMBER, ANY_ORDER, PLAIN } way_to_fold;
 static const double PART_OF_WORK[] = {0.3, 0.3};
+/* ... and the last is for what has at most this part of the creases: of the whole it was tried, and crosses or stops. */
+static const double PART_FOR_PLAIN = 0.5;
 /* States in which the first stage is read off at least, evenly in the largest angle that turns: frames are some of them. */
 static const int32_t LEAST_READ = 121;
 /* A simple fold has half the frames that as much turning has otherwise: what turns about one line is known between them, too. */
@@ -351,6 +353,7 @@ static rg_status fold_by(work *w, way_to_fold how, rg_watch *watch, int *good, r
     int64_t number = -1;
     rg_status s = how == BY_NUMBER ? find_number(w, &number) : RG_OK;
     if (how == BY_NUMBER && number < 0) return s;
+    if (how == PLAIN && !(w->simple.base <= PART_FOR_PLAIN * w->none->N)) return s;
     with.layer_order = (int32_t)number;
     with.frames = with.frames > LEAST_READ ? with.frames : LEAST_READ;
     with.pace = RG_PACE_STEADY;
