@@ -17,6 +17,9 @@
 /* A crease below the first has not left flat; within the second of half a turn it is at its limit. */
 static const double LOCKED = 1e-6, AT_LIMIT = 0.5 * RG_DEG;
 
+/* Of the work that a motion without contact, all at once, may cost: where there is one in stages. */
+static const double PART_WITH_STAGES = 0.4;
+
 /* Of the creases that are held short: how many are locked flat, how many vertices' creases are at half a turn. */
 static void count_held(const rg_motion *m, int32_t *locked, int32_t *at_limit)
 {
@@ -96,6 +99,16 @@ static rg_status adopt(rg_motion *m, rg_search *c)
     return RG_OK;
 }
 
+/* In stages costs little, and is had first; all at once is better, and is looked for all the same, but not for as long. */
+static rg_status without_contact(rg_search *c, rg_stages *stages, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why)
+{
+    rg_status status = rg_stages_try(stages, c, none, s, watch, why);
+    const int had = stages->count > 0;
+    if (status == RG_OK && !watch->cancelled) status = rg_unfolding_run(c, none, s, had ? PART_WITH_STAGES : 1, watch, why);
+    if (had && c->rung == RG_UNFOLDED) rg_motion_free_stages(stages);
+    return status;
+}
+
 /* The stages, as the report lends them; and what is whose in the file, where their mesh is finer than the pattern's. */
 static rg_status adopt_stages(rg_motion *m, rg_stages *q)
 {
@@ -136,8 +149,8 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *given, rg_pro
     if (s == RG_OK) s = rg_mesh_from_pattern(p, &mem, &none, why);
     const rg_problem problem = {&none, NULL, NULL, 1};
     if (s == RG_OK) s = rg_search_run(&search, &problem, settings, &watch, why);
-    if (s == RG_OK) s = rg_unfolding_try(&search, &none, settings, &watch, &wanted, why);
-    if (s == RG_OK && wanted) s = rg_stages_try(&stages, &search, &none, settings, &watch, why);
+    if (s == RG_OK) s = rg_unfolding_wanted(&search, &none, settings, &watch, &wanted, why);
+    if (s == RG_OK && wanted) s = without_contact(&search, &stages, &none, settings, &watch, why);
     if (s == RG_OK) s = rg_attempt_read(&search.best, settings);
     if (s == RG_OK) s = adopt(m, &search);
     if (s == RG_OK) s = adopt_stages(m, &stages);

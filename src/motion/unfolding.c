@@ -107,6 +107,7 @@ static void adopt(rg_search *c, rg_attempt *t, const rg_unfold *u)
 
 rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings *s, double part, rg_watch *watch, rg_diag *why)
 {
+    if (s->adjust == 0 || s->triangulate == RG_TRIANGULATE_NONE) return RG_OK; /* it bends facets and moves the pattern */
     const rg_memory mem = rg_mem_default(s->memory);
     const double begun = rg_seconds();
     const int32_t triangles = none->facet_start[none->nf] - 2 * none->nf;
@@ -126,21 +127,17 @@ rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings 
     c->cost.seconds += rg_seconds() - begun;
     rg_attempt_free(&t);
     rg_unfold_free(&u);
-    return status;
+    return status == RG_ENOMEM ? rg_fail(status, why, 0, "%s", rg_status_text(status)) : status;
 }
 
-rg_status rg_unfolding_try(rg_search *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, int *wanted, rg_diag *why)
+rg_status rg_unfolding_wanted(rg_search *c, const rg_mesh *none, const rg_settings *s, const rg_watch *watch, int *wanted, rg_diag *why)
 {
     int32_t crossing = -1;
     *wanted = 0;
     if (s->contact != RG_CONTACT_AVOID || s->effort == RG_EFFORT_FAST || s->to == 0 || watch->cancelled) return RG_OK;
     if (none->still) return RG_OK; /* its end is no flat one */
-    const int may_bend = s->adjust != 0 && s->triangulate != RG_TRIANGULATE_NONE; /* facets, and move the pattern */
     const int stopped = c->best.outcome == RG_STOPPED;
-    rg_status status = stopped ? RG_OK : rg_unfolding_crosses(&c->best, s, &crossing);
-    if (status == RG_OK && (stopped || crossing >= 0)) {
-        if (may_bend) status = rg_unfolding_run(c, none, s, 1, watch, why);
-        *wanted = status == RG_OK && c->rung != RG_UNFOLDED;
-    }
+    const rg_status status = stopped ? RG_OK : rg_unfolding_crosses(&c->best, s, &crossing);
+    *wanted = status == RG_OK && (stopped || crossing >= 0);
     return status == RG_ENOMEM ? rg_fail(status, why, 0, "%s", rg_status_text(status)) : status;
 }

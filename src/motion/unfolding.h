@@ -7,10 +7,9 @@
 
 extern const char *const RG_UNFOLDED; /* the rung of what was found so */
 
-/* Looks for one where what was chosen does not fold, or crosses; *c becomes it if there is. *wanted: out, non-zero: there is none, and
- * one was looked for. RG_OK also then. */
-rg_status rg_unfolding_try(rg_search *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, int *wanted, rg_diag *why);
-/* The same whatever was chosen; *c may be empty. part: of the work that may be spent. */
+/* *wanted: out, non-zero where what was chosen does not fold, or crosses, and something else is to be looked for. */
+rg_status rg_unfolding_wanted(rg_search *c, const rg_mesh *none, const rg_settings *s, const rg_watch *watch, int *wanted, rg_diag *why);
+/* Looks for one, which *c, that may be empty, becomes. part: of the work that may be spent. RG_OK also when there is none. */
 rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings *s, double part, rg_watch *watch, rg_diag *why);
 /* The first of evenly spaced states of a path in which facets cross; -1: none. Frames that can be read off again are let go. */
 rg_status rg_unfolding_crosses(rg_attempt *t, const rg_settings *s, int32_t *frame);
