@@ -63,7 +63,7 @@ static void from_its_end(void **state)
     static const double part[] = {1, 0.5, -0.25, 0.9};
     for (int k = 0; k < 4; k++) {
         rg_settings s = rg_settings_default();
-        const rg_relaxation stiff = {0, 0, 0};
+        const rg_relaxation stiff = {0};
         s.to = part[k];
         s.frames = FRAMES;
         rg_attempt t = attempt(k % 2 ? "fish" : "bird", &s, &stiff, 1);
@@ -81,7 +81,7 @@ static void from_its_end(void **state)
 static void frames_are_read_off(void **state)
 {
     (void)state;
-    static const struct { const char *kind; rg_relaxation how; } made[] = {{"frog", {1, 0.1, 0}}, {"bird", {0, 0, 0}}, {"four-crane", {0.5, 0.1, 0}}};
+    static const struct { const char *kind; rg_relaxation how; } made[] = {{"frog", {1, 0.1, 0, 0}}, {"bird", {0, 0, 0, 0}}, {"four-crane", {0.5, 0.1, 0, 0}}};
     for (int k = 0; k < 3; k++) {
         rg_settings few = rg_settings_default(), many = few;
         few.frames = 5, many.frames = 33;
@@ -100,7 +100,7 @@ static void steadily(void **state)
 {
     (void)state;
     static const struct { const char *kind; rg_relaxation how; int backwards; } made[] = {
-        {"frog", {1, 0.1, 0}, 0}, {"four-crane", {0.5, 0.1, 0}, 1}, {"boxpleat", {1, 0.1, 0}, 0}};
+        {"frog", {1, 0.1, 0, 0}, 0}, {"four-crane", {0.5, 0.1, 0, 0}, 1}, {"boxpleat", {1, 0.1, 0, 0}, 0}};
     for (int k = 0; k < 3; k++)
         for (int frames = 61; frames <= 601; frames += 540) {
             rg_settings s = rg_settings_default();

@@ -20,7 +20,7 @@
 
 enum { MOST = 40 };
 
-static const rg_relaxation GIVING = {.compliance = 1, .gain = 0.1}, STIFF = {0, 0, 0}, ADJUSTING = {.gain = 0.1, .kawasaki = 1};
+static const rg_relaxation GIVING = {.compliance = 1, .gain = 0.1}, STIFF = {0}, ADJUSTING = {.gain = 0.1, .kawasaki = 1};
 
 static rg_pattern *generated(const char *kind, int32_t n)
 {

@@ -610,7 +610,9 @@ void rg_relax_step(rg_relax *F)
         stop(F, "the facets leave no way on");
     } else {
         accept(F);
-        if (F->share * F->idle > MOST_IDLE) stop(F, "no motion that the facets allow folds any further");
+        if (F->how.farthest > 0 && F->nodes > 1 && rg_freedom_farthest(&F->freedom, F->z + F->N) > F->how.farthest)
+            stop(F, "it moves the pattern farther than one that folds");
+        else if (F->share * F->idle > MOST_IDLE) stop(F, "no motion that the facets allow folds any further");
     }
 }
 

@@ -24,6 +24,7 @@ typedef struct rg_relaxation {
     double compliance; /* w; 0: the pattern moves only as gain asks, eq. (19) to the letter */
     double gain;       /* of adjust.h; 0: closed vertices wish nothing */
     int kawasaki;      /* non-zero: eq. (16) is kept at every flat-foldable vertex on the way */
+    double farthest;   /* it ends where a vertex of the pattern goes farther, a length; 0: however far */
 } rg_relaxation;
 
 typedef struct rg_relax {

@@ -98,6 +98,16 @@ void rg_freedom_move(const rg_freedom *f, const double *u, rg_vec2 *X)
     }
 }
 
+double rg_freedom_farthest(const rg_freedom *f, const double *u)
+{
+    double most = 0;
+    for (int32_t v = 0; f->U > 0 && v < f->mesh->nv; v++) {
+        const int32_t *w = f->way[v];
+        most = fmax(most, hypot(w[0] < 0 ? 0 : u[w[0]], w[1] < 0 ? 0 : u[w[1]])); /* two ways are at right angles */
+    }
+    return most;
+}
+
 void rg_freedom_mean(const rg_freedom *f, const rg_symmetry *G, double *u, rg_vec2 *d)
 {
     memset(d, 0, (size_t)f->mesh->nv * sizeof *d);

@@ -23,6 +23,8 @@ rg_status rg_freedom_init(rg_freedom *f, const rg_memory *mem, const rg_mesh *m,
 void rg_freedom_free(rg_freedom *f);
 /* X[nv]: out, the pattern moved by u[U], lengths. */
 void rg_freedom_move(const rg_freedom *f, const double *u, rg_vec2 *X);
+/* The farthest that a vertex goes by u[U], a length. */
+double rg_freedom_farthest(const rg_freedom *f, const double *u);
 /* u[U]: becomes what moves the pattern alike everywhere, the mean of its displacements over G. d[nv]: scratch. */
 void rg_freedom_mean(const rg_freedom *f, const rg_symmetry *G, double *u, rg_vec2 *d);
 /* Zero: a facet has turned over, or shrunk to less than `least` of its area. room[U]: out, of each way 1 less the part used up of what

@@ -64,14 +64,7 @@ static double beyond(const rg_attempt *t, const double *rho)
 
 static double displacement(const rg_attempt *t, const double *z)
 {
-    const rg_relax *F = t->relax;
-    double most = 0;
-    for (int32_t v = 0; F && F->U > 0 && v < t->mesh.nv; v++) {
-        const int32_t *w = F->freedom.way[v];
-        const double x = w[0] < 0 ? 0 : z[F->N + w[0]], y = w[1] < 0 ? 0 : z[F->N + w[1]];
-        most = fmax(most, hypot(x, y));
-    }
-    return most;
+    return t->relax ? rg_freedom_farthest(&t->relax->freedom, z + t->relax->N) : 0;
 }
 
 /* Mean of what was done of each crease's way, none counted for more than all of it or less than nothing. */

@@ -26,23 +26,23 @@ typedef struct rung {
 /* Measured on 97 real patterns, each rung alone: no rung folds all of them, and no other rung folded any more. Rungs that move
  * the pattern least come first; backwards is as good as forwards and quicker. */
 static const rung LADDER[] = {
-    {"straight", 1, AS_DRAWN, {0, 0, 0}, 0, 1, RG_EFFORT_FAST},
-    {"straight, triangulated", 1, SPLIT, {0, 0, 0}, 0, 1, RG_EFFORT_FAST},
-    {"relaxed, pattern fixed", 0, AS_DRAWN, {0, 0, 0}, 0, 0.3, RG_EFFORT_FAST},
-    {"relaxed, pattern fixed, triangulated", 0, SPLIT, {0, 0, 0}, 0, 0.3, RG_EFFORT_FAST},
-    {"relaxed 0.25", 0, SPLIT, {0.25, 0.1, 0}, 0, 1, RG_EFFORT_FAST},
-    {"relaxed 0.5", 0, SPLIT, {0.5, 0.1, 0}, 1, 1, RG_EFFORT_FAST},
-    {"relaxed 1", 0, SPLIT, {1, 0.1, 0}, 0, 1, RG_EFFORT_NORMAL},
-    {"relaxed 1, short diagonals", 0, SHORT, {1, 0.1, 0}, 1, 1, RG_EFFORT_NORMAL},
-    {"relaxed 0.5, short diagonals", 0, SHORT, {0.5, 0.1, 0}, 0, 1, RG_EFFORT_NORMAL},
-    {"relaxed 1", 0, SPLIT, {1, 0.1, 0}, 1, 1, RG_EFFORT_NORMAL},
-    {"relaxed 2", 0, SPLIT, {2, 0.1, 0}, 0, 1, RG_EFFORT_NORMAL},
-    {"adjusted, kept flat-foldable", 0, SPLIT, {0, 0.1, 1}, 0, 1, RG_EFFORT_THOROUGH},
-    {"relaxed 0.5", 0, SPLIT, {0.5, 0.1, 0}, 0, 1, RG_EFFORT_THOROUGH},
-    {"relaxed 0.5, short diagonals", 0, SHORT, {0.5, 0.1, 0}, 1, 1, RG_EFFORT_THOROUGH},
-    {"relaxed 1, short diagonals", 0, SHORT, {1, 0.1, 0}, 0, 1, RG_EFFORT_THOROUGH},
-    {"relaxed 2", 0, SPLIT, {2, 0.1, 0}, 1, 1, RG_EFFORT_THOROUGH},
-    {"relaxed 4", 0, SPLIT, {4, 0.1, 0}, 0, 1, RG_EFFORT_THOROUGH},
+    {"straight", 1, AS_DRAWN, {0, 0, 0, 0}, 0, 1, RG_EFFORT_FAST},
+    {"straight, triangulated", 1, SPLIT, {0, 0, 0, 0}, 0, 1, RG_EFFORT_FAST},
+    {"relaxed, pattern fixed", 0, AS_DRAWN, {0, 0, 0, 0}, 0, 0.3, RG_EFFORT_FAST},
+    {"relaxed, pattern fixed, triangulated", 0, SPLIT, {0, 0, 0, 0}, 0, 0.3, RG_EFFORT_FAST},
+    {"relaxed 0.25", 0, SPLIT, {0.25, 0.1, 0, 0}, 0, 1, RG_EFFORT_FAST},
+    {"relaxed 0.5", 0, SPLIT, {0.5, 0.1, 0, 0}, 1, 1, RG_EFFORT_FAST},
+    {"relaxed 1", 0, SPLIT, {1, 0.1, 0, 0}, 0, 1, RG_EFFORT_NORMAL},
+    {"relaxed 1, short diagonals", 0, SHORT, {1, 0.1, 0, 0}, 1, 1, RG_EFFORT_NORMAL},
+    {"relaxed 0.5, short diagonals", 0, SHORT, {0.5, 0.1, 0, 0}, 0, 1, RG_EFFORT_NORMAL},
+    {"relaxed 1", 0, SPLIT, {1, 0.1, 0, 0}, 1, 1, RG_EFFORT_NORMAL},
+    {"relaxed 2", 0, SPLIT, {2, 0.1, 0, 0}, 0, 1, RG_EFFORT_NORMAL},
+    {"adjusted, kept flat-foldable", 0, SPLIT, {0, 0.1, 1, 0}, 0, 1, RG_EFFORT_THOROUGH},
+    {"relaxed 0.5", 0, SPLIT, {0.5, 0.1, 0, 0}, 0, 1, RG_EFFORT_THOROUGH},
+    {"relaxed 0.5, short diagonals", 0, SHORT, {0.5, 0.1, 0, 0}, 1, 1, RG_EFFORT_THOROUGH},
+    {"relaxed 1, short diagonals", 0, SHORT, {1, 0.1, 0, 0}, 0, 1, RG_EFFORT_THOROUGH},
+    {"relaxed 2", 0, SPLIT, {2, 0.1, 0, 0}, 1, 1, RG_EFFORT_THOROUGH},
+    {"relaxed 4", 0, SPLIT, {4, 0.1, 0, 0}, 0, 1, RG_EFFORT_THOROUGH},
 };
 enum { RUNGS = sizeof LADDER / sizeof *LADDER, MOST_GROUPS = 8, MOST_JOBS = MOST_GROUPS * RUNGS };
 void rg_cost_add(rg_cost *sum, const rg_cost *c)
@@ -280,41 +280,110 @@ static rg_status climb(rg_search *q, ladder *l, rg_diag *why)
 
 /* ------------------------------------------------------------------------------------------------ retraction ---- */
 
-/* One more try like the one that is kept; takes its place where it folds and is better. *folds: whether it did. */
-static rg_status retry(rg_search *q, ladder *l, const rung *r, const rg_relaxation *how, const unsigned char *which,
-                       int is_fewer, int *folds, rg_diag *why)
+/* Up to two more tries like the one that is kept, at once. The second one counts only where the first one is taken, in a chain, or
+ * only where it is not, as another choice: what is taken is the same as if one had been made after the other. */
+typedef struct retries {
+    rg_search *q;
+    ladder *l;
+    const rung *r;
+    int32_t count;
+    int is_chain, is_fewer;         /* is_fewer: cuts are saved, and not compliance */
+    rg_relaxation how[2];
+    const unsigned char *which[2];  /* facets to cut; NULL: all */
+    rg_attempt t[2];
+    rg_status status[2];
+    rg_diag why[2];
+} retries;
+
+static int is_retraction(const retries *R, const rg_attempt *t)
 {
-    rg_attempt t;
-    rg_watch watch = {.progress = tell, .ctx = l};
-    const rg_status s = try_rung(l, r, &l->group[q->group], how, which, &watch, &t, why);
-    if (s != RG_OK) return s;
-    rg_cost_add(&q->cost, &t.cost);
-    q->work += t.work;
-    q->tries++;
-    *folds = rank(&t) == 2 && (is_fewer ? t.mesh.added < q->best.mesh.added && t.moved <= LITTLE_MORE * q->best.moved
-                                        : t.moved < q->best.moved);
-    if (*folds) {
-        rg_attempt_free(&q->best);
-        q->best = t;
-    } else {
-        rg_attempt_free(&t);
+    const rg_attempt *best = &R->q->best;
+    if (rank(t) != 2) return 0;
+    return R->is_fewer ? t->mesh.added < best->mesh.added && t->moved <= LITTLE_MORE * best->moved : t->moved < best->moved;
+}
+
+static int run_retry(void *ctx, rg_race *race, int32_t k, int in_calling_thread)
+{
+    retries *R = ctx;
+    job_watch mine = {race, k};
+    rg_watch watch = {in_calling_thread ? tell : NULL, R->l, asks_race, &mine, 0};
+    R->status[k] = try_rung(R->l, R->r, &R->l->group[R->q->group], &R->how[k], R->which[k], &watch, &R->t[k], &R->why[k]);
+    if (R->status[k] != RG_OK || (in_calling_thread && R->l->watch->cancelled)) return -1;
+    const int is = !watch.cancelled && is_retraction(R, &R->t[k]);
+    return R->is_chain ? (k == 0 && !is ? -1 : 0) : is;
+}
+
+static int look_up_for_retries(void *ctx)
+{
+    retries *R = ctx;
+    return look_up(R->l);
+}
+
+/* *taken: out, which of them is kept now, the second one of a chain if both are; -1: none. */
+static rg_status retry(retries *R, int32_t *taken, rg_diag *why)
+{
+    rg_search *q = R->q;
+    rg_race_rules rules = {R->count, workers(R->l), run_retry, look_up_for_retries, R};
+    int32_t done;
+    rg_status s = RG_OK;
+    rg_race_run(&rules, &done);
+    *taken = -1;
+    for (int32_t k = 0; k < R->count; k++) {
+        const int counts = R->t[k].mem.resize && (k == 0 || R->is_chain == (*taken == 0));
+        if (R->status[k] != RG_OK && s == RG_OK && (k == 0 || R->is_chain == (*taken == 0))) {
+            s = R->status[k];
+            *why = R->why[k];
+        }
+        if (counts && s == RG_OK) {
+            rg_cost_add(&q->cost, &R->t[k].cost);
+            q->work += R->t[k].work;
+            q->tries++;
+            if (is_retraction(R, &R->t[k])) {
+                rg_attempt_free(&q->best);
+                q->best = R->t[k];
+                memset(&R->t[k], 0, sizeof R->t[k]);
+                *taken = k;
+            }
+        }
+        rg_attempt_free(&R->t[k]);
     }
-    return RG_OK;
+    return s;
 }
 
 /* The pattern should give way no more than it has to: half as readily, while that still folds and moves it less. */
 static rg_status stiffen(rg_search *q, ladder *l, const rung *r, rg_relaxation *how, rg_diag *why)
 {
     rg_status s = RG_OK;
-    int folds = how->compliance > 0;
-    for (int32_t n = 0; s == RG_OK && folds && n < LESS_COMPLIANCE[l->settings->effort] && !l->watch->cancelled; n++) {
-        rg_relaxation less = *how;
-        less.compliance /= 2;
-        s = retry(q, l, r, &less, NULL, 0, &folds, why);
-        if (s == RG_OK && folds) *how = less;
+    const int32_t most = how->compliance > 0 ? LESS_COMPLIANCE[l->settings->effort] : 0;
+    int all = 1;
+    for (int32_t n = 0; s == RG_OK && all && n < most && !l->watch->cancelled; n += 2) {
+        int32_t taken;
+        retries R = {.q = q, .l = l, .r = r, .count = most - n < 2 ? 1 : 2, .is_chain = 1, .how = {*how, *how}};
+        R.how[0].farthest = R.how[1].farthest = q->best.moved;
+        R.how[0].compliance /= 2;
+        R.how[1].compliance /= 4;
+        s = retry(&R, &taken, why);
+        if (taken >= 0) *how = R.how[taken];
+        all = taken == 1;
     }
     q->compliance = how->compliance;
     return s;
+}
+
+/* What is to be cut in the k-th try of the pruning, if there is anything to be tried; else in a later one. */
+typedef struct pruning { int32_t k, fewer; } pruning;
+
+static pruning after_failure(pruning p, int32_t bends) { return (pruning){p.k + 1, p.k == 0 ? bends / 2 : p.fewer / 2}; }
+
+static int next_cuts(rg_cuts *cuts, pruning *p, int32_t tries, unsigned char *which)
+{
+    for (; p->k < tries && p->fewer > 0; *p = after_failure(*p, cuts->bends)) {
+        if (p->k) rg_cuts_all_but(cuts, p->fewer);
+        if (cuts->cut <= 0 || cuts->cut >= cuts->bends) continue;
+        memcpy(which, cuts->which, (size_t)cuts->none->nf);
+        return 1;
+    }
+    return 0;
 }
 
 /* No more creases should be added than have to be. First those of the facets that bend, or for a straight motion those at the
@@ -325,24 +394,31 @@ static rg_status prune(rg_search *q, ladder *l, const rung *r, const rg_relaxati
 {
     const rg_memory mem = rg_mem_default(l->settings->memory);
     const int32_t tries = (r->straight ? FEWER_STRAIGHT : FEWER_CUTS)[l->settings->effort];
+    const size_t facets = (size_t)l->problem->drawn->nf;
+    unsigned char *which = rg_mem_array(&mem, 2 * facets, sizeof *which);
     rg_cuts cuts;
     rg_status s = rg_cuts_init(&cuts, &mem, l->problem->drawn, &l->group[q->group], &q->best);
-    int32_t fewer = cuts.bends;
+    if (s == RG_OK && !which) s = RG_ENOMEM;
+    pruning p = {0, cuts.bends};
     if (s == RG_OK && r->straight) rg_cuts_around(&cuts, vertex, vertices);
     else if (s == RG_OK) rg_cuts_bending(&cuts, HARDLY_BENT);
-    for (int32_t k = 0; s == RG_OK && k < tries && fewer > 0 && !l->watch->cancelled; k++) {
-        int folds = 0;
-        if (k) rg_cuts_all_but(&cuts, fewer);
-        if (cuts.cut > 0 && cuts.cut < cuts.bends) s = retry(q, l, r, how, cuts.which, 1, &folds, why);
-        if (s == RG_OK && folds) {
-            q->triangulation = "some";
-            q->why_triangulated = "stops short without added creases; facets that hardly bend stay whole";
-            rg_cuts_measure(&cuts, &q->best);
-        }
+    while (s == RG_OK && !l->watch->cancelled && next_cuts(&cuts, &p, tries, which)) {
+        retries R = {.q = q, .l = l, .r = r, .count = 1, .is_fewer = 1, .how = {*how, *how}, .which = {which, which + facets}};
+        pruning of[2] = {p, after_failure(p, cuts.bends)};
+        int32_t taken;
+        R.how[0].farthest = R.how[1].farthest = LITTLE_MORE * q->best.moved;
+        if (next_cuts(&cuts, &of[1], tries, which + facets)) R.count = 2;
+        s = retry(&R, &taken, why);
+        p = after_failure(of[R.count - 1], cuts.bends);
+        if (s != RG_OK || taken < 0) continue;
+        q->triangulation = "some";
+        q->why_triangulated = "stops short without added creases; facets that hardly bend stay whole";
+        rg_cuts_measure(&cuts, &q->best);
         const int32_t half = cuts.bends / 2;
-        fewer = k == 0 || (folds && fewer > half) ? half : folds ? fewer : fewer / 2;
+        p = (pruning){of[taken].k + 1, of[taken].k == 0 || of[taken].fewer > half ? half : of[taken].fewer};
     }
     rg_cuts_free(&cuts);
+    rg_mem_free(&mem, which);
     return s;
 }
 
@@ -420,7 +496,7 @@ static void list_jobs(ladder *l)
 static rg_status first_of_all(rg_search *q, ladder *l, int32_t **vertex, int32_t *vertices, rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(l->settings->memory);
-    const rg_relaxation none = {0, 0, 0};
+    const rg_relaxation none = {0};
     rg_status s;
     if (!applies(l, LADDER)) return RG_OK;
     rg_watch watch = {.progress = tell, .ctx = l};

@@ -53,7 +53,7 @@ static void walk(rg_states *q, rg_attempt *t, double compliance, int backwards, 
  * another state does; rho is then left as it is. */
 static rg_status close_up(const rg_states *q, const rg_mesh *m, double *rho, int *closes)
 {
-    const rg_relaxation still = {0, 0, 0};
+    const rg_relaxation still = {0};
     rg_relax F;
     double *closed = rg_mem_array(&q->mem, (size_t)m->N, sizeof *closed);
     if (!closed) return RG_ENOMEM;
