@@ -72,7 +72,7 @@ static rg_lines read_lines(const char *path)
 static void there_and_back(const rg_lines *l, rg_lines *back)
 {
     rg_diag why = {0, ""};
-    if (rg_opx_write(l, scratch(), &why) != RG_OK) fail_msg("%s", why.text);
+    if (rg_opx_write(l, &(rg_dest){scratch(), NULL}, &why) != RG_OK) fail_msg("%s", why.text);
     *back = read_lines(scratch());
     unlink(scratch());
 }
@@ -587,7 +587,7 @@ static void the_file_is_as_java_writes_it(void **state)
         size_t n;
         draw(&l, RG_FLAT, 0, -0.0, 7, 0.5);
         draw(&l, unassigned ? RG_UNASSIGNED : RG_MOUNTAIN, 1, 2, 3, 4);
-        assert_int_equal(rg_opx_write(&l, scratch(), &why), RG_OK);
+        assert_int_equal(rg_opx_write(&l, &(rg_dest){scratch(), NULL}, &why), RG_OK);
         char *text = slurp(scratch(), &n);
         unlink(scratch());
         assert_non_null(strstr(text, "<array class=\"oripa.OriLineProxy\" length=\"2\">"));
@@ -610,13 +610,13 @@ static void what_cannot_be_written_leaves_nothing(void **state)
     rg_lines l = drawing();
     rg_diag why = {7, ""};
     draw(&l, RG_VALLEY, 1, 2, NAN, 4);
-    assert_int_equal(rg_opx_write(&l, scratch(), &why), RG_EARG);
+    assert_int_equal(rg_opx_write(&l, &(rg_dest){scratch(), NULL}, &why), RG_EARG);
     assert_int_not_equal(access(scratch(), F_OK), 0);
     assert_non_null(strstr(why.text, "line 0"));
     l.line[0].b.x = 3;
-    assert_int_equal(rg_opx_write(&l, "/nowhere/at/all.opx", &why), RG_EWRITE);
+    assert_int_equal(rg_opx_write(&l, &(rg_dest){"/nowhere/at/all.opx", NULL}, &why), RG_EWRITE);
     assert_int_not_equal(strlen(why.text), 0);
-    if (access("/dev/full", W_OK) == 0) assert_int_equal(rg_opx_write(&l, "/dev/full", &why), RG_EWRITE);
+    if (access("/dev/full", W_OK) == 0) assert_int_equal(rg_opx_write(&l, &(rg_dest){"/dev/full", NULL}, &why), RG_EWRITE);
     else printf("SKIPPED: no /dev/full here\n");
     rg_lines_free(&l);
 }
@@ -673,9 +673,9 @@ static void memory_may_run_short(void **state)
             s = rg_generate_lines(kinds[i], 4, 4, 0, &mem, &l, &why);
             if (s == RG_OK) {
                 c.left = 0; /* neither the file's name nor a string has room now */
-                assert_int_equal(rg_opx_write(&l, scratch(), &why), RG_ENOMEM);
+                assert_int_equal(rg_opx_write(&l, &(rg_dest){scratch(), NULL}, &why), RG_ENOMEM);
                 c.left = 2;
-                assert_int_equal(rg_opx_write(&l, scratch(), &why), RG_ENOMEM);
+                assert_int_equal(rg_opx_write(&l, &(rg_dest){scratch(), NULL}, &why), RG_ENOMEM);
                 assert_int_not_equal(access(scratch(), F_OK), 0);
                 rg_lines_free(&l);
             } else {

@@ -1,3 +1,5 @@
+/* fopencookie() is GNU's, funopen() that of BSD and macOS: streams that end in a function. */
+#define _GNU_SOURCE
 #include "base/file.h"
 #include "base/status.h"
 
@@ -66,6 +68,60 @@ rg_status rg_file_begin(rg_file *f, const rg_memory *mem, const char *path, rg_d
     return s;
 }
 
+/* ------------------------------------------------------------------------------------------------ to a sink ---- */
+
+static int collect(rg_pile_of_bytes *p, const char *bytes, size_t n)
+{
+    if (!p->failed && rg_mem_grow(&p->mem, (void **)&p->byte, &p->room, p->count + n, 1) != RG_OK) p->failed = 1;
+    if (p->failed) return 0;
+    memcpy(p->byte + p->count, bytes, n);
+    p->count += n;
+    return 1;
+}
+
+#if defined(__GLIBC__)
+static ssize_t take(void *pile, const char *bytes, size_t n) { return collect(pile, bytes, n) ? (ssize_t)n : 0; }
+
+static FILE *open_pile(rg_pile_of_bytes *p) { return fopencookie(p, "wb", (cookie_io_functions_t){.write = take}); }
+#else
+static int take(void *pile, const char *bytes, int n) { return collect(pile, bytes, (size_t)n) ? n : -1; }
+
+static FILE *open_pile(rg_pile_of_bytes *p) { return funopen(p, NULL, take, NULL, NULL); }
+#endif
+
+static rg_status begin_sink(rg_file *f, const rg_memory *mem, const rg_sink *sink, rg_diag *why)
+{
+    memset(f, 0, sizeof *f);
+    f->mem = *mem;
+    if (!sink || !sink->write) return rg_fail(RG_EARG, why, 0, "a sink without a function to write");
+    f->sink = *sink;
+    f->pile = rg_mem_array(mem, 1, sizeof *f->pile);
+    if (f->pile) {
+        f->pile->mem = *mem;
+        f->stream = open_pile(f->pile);
+    }
+    if (f->stream) return RG_OK;
+    rg_file_abandon(f);
+    return rg_fail(RG_ENOMEM, why, 0, "out of memory");
+}
+
+/* All bytes are there, or some are missing. */
+static rg_status commit_sink(rg_file *f, rg_diag *why)
+{
+    const int bad = fclose(f->stream) != 0 || f->pile->failed;
+    rg_status s = RG_OK;
+    f->stream = NULL;
+    if (bad) s = rg_fail(RG_ENOMEM, why, 0, "out of memory");
+    else if (f->sink.write(f->sink.ctx, f->pile->byte, f->pile->count) != 0) s = rg_fail(RG_EWRITE, why, 0, "the output is not taken");
+    rg_file_abandon(f);
+    return s;
+}
+
+rg_status rg_file_begin_to(rg_file *f, const rg_memory *mem, const rg_dest *to, rg_diag *why)
+{
+    return to->path ? rg_file_begin(f, mem, to->path, why) : begin_sink(f, mem, to->sink, why);
+}
+
 /* Where an earlier write failed, its reason is lost by now; one byte more fails for the same. The file is spoilt anyway. */
 static rg_status fail_again(rg_file *f, rg_diag *why, const char *path)
 {
@@ -76,6 +132,7 @@ static rg_status fail_again(rg_file *f, rg_diag *why, const char *path)
 
 rg_status rg_file_commit(rg_file *f, rg_diag *why)
 {
+    if (f->pile) return commit_sink(f, why);
     const char *path = f->path ? f->path : "standard output";
     rg_status s = RG_OK;
     errno = 0;
@@ -101,6 +158,8 @@ void rg_file_abandon(rg_file *f)
     if (f->mem.resize) {
         rg_mem_free(&f->mem, f->temporary);
         rg_mem_free(&f->mem, f->path);
+        if (f->pile) rg_mem_free(&f->mem, f->pile->byte);
+        rg_mem_free(&f->mem, f->pile);
     }
     memset(f, 0, sizeof *f);
 }

@@ -1,4 +1,4 @@
-/* file.h -- output files that appear whole or not at all.
+/* file.h -- output that appears whole or not at all: in a file, or in a caller's hands.
  * Used by  save, generate, write */
 #ifndef RG_FILE_H
 #define RG_FILE_H
@@ -6,15 +6,33 @@
 #include "base/memory.h"
 #include <stdio.h>
 
+/* Where output goes: to a file, "-" for standard output, or to a sink. */
+typedef struct rg_dest {
+    const char *path;    /* NULL: to the sink */
+    const rg_sink *sink;
+} rg_dest;
+
+/* Bytes on their way to a sink, which gets them when all are there. */
+typedef struct rg_pile_of_bytes {
+    rg_memory mem;
+    unsigned char *byte;
+    size_t count, room;
+    int failed;       /* non-zero: memory is short */
+} rg_pile_of_bytes;
+
 typedef struct rg_file {
     rg_memory mem;
     FILE *stream;     /* write here; buffered, binary */
+    rg_sink sink;     /* write NULL: a file */
+    rg_pile_of_bytes *pile; /* owned; for the sink */
     char *path, *temporary; /* temporary NULL: written in place (standard output, a device, a pipe) */
 } rg_file;
 
 /* Opens a file beside `path` to write into; "-" is standard output. What is no regular file is written in place, a
  * symbolic link is followed. RG_EWRITE: why->text says what and why, why->line is 0; RG_ENOMEM. */
 rg_status rg_file_begin(rg_file *f, const rg_memory *mem, const char *path, rg_diag *why);
+/* The same for any destination. What a sink gets is collected in the caller's memory. */
+rg_status rg_file_begin_to(rg_file *f, const rg_memory *mem, const rg_dest *to, rg_diag *why);
 /* Puts it in the place of `path`. RG_EWRITE: something could not be written, now or before; `path` is as it was. */
 rg_status rg_file_commit(rg_file *f, rg_diag *why);
 /* Throws it away; harmless after commit and on a zeroed struct. */

@@ -217,15 +217,26 @@ void rg_chart_destroy(rg_chart *c)
     rg_mem_free(&mem, c);
 }
 
-rg_status rg_chart_write(const rg_chart *c, const char *title, const char *path, rg_diag *why)
+/* form: a name that ends as the form does; "-": words. */
+static rg_status write(const rg_chart *c, const char *title, const char *form, const rg_dest *to, rg_diag *why)
 {
-    const char *dot = strrchr(path, '.');
+    const char *dot = strrchr(form, '.');
     rg_file f = {0};
     const int csv = dot && strcmp(dot, ".csv") == 0, svg = dot && strcmp(dot, ".svg") == 0;
-    if (!csv && !svg && strcmp(path, "-") != 0 && !(dot && strcmp(dot, ".md") == 0))
-        return rg_fail(RG_EARG, why, 0, "%s: a chart is written as .csv, .svg or .md", path);
-    rg_status s = rg_file_begin(&f, &c->mem, path, why);
+    if (!csv && !svg && strcmp(form, "-") != 0 && !(dot && strcmp(dot, ".md") == 0))
+        return rg_fail(RG_EARG, why, 0, "%s: a chart is written as .csv, .svg or .md", form);
+    rg_status s = rg_file_begin_to(&f, &c->mem, to, why);
     if (s != RG_OK) return s;
     (csv ? rg_chart_csv : svg ? rg_chart_svg : rg_chart_words)(c, title, f.stream);
     return rg_file_commit(&f, why);
+}
+
+rg_status rg_chart_write(const rg_chart *c, const char *title, const char *path, rg_diag *why)
+{
+    return write(c, title, path, &(rg_dest){path, NULL}, why);
+}
+
+rg_status rg_chart_write_to(const rg_chart *c, const char *title, const char *form, const rg_sink *sink, rg_diag *why)
+{
+    return write(c, title, form, &(rg_dest){NULL, sink}, why);
 }

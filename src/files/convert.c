@@ -20,6 +20,8 @@
 static const double MERGE = 5e-10;
 /* Faces that an other program listed are those found here if their areas add up to the same, but for rounding. */
 static const double SAME_AREA = 1e-9;
+/* Lines are there: half of the work. */
+static const double LINES_READ = 0.5;
 
 /* --------------------------------------------------------------------------------------- what a format can't hold ---- */
 
@@ -265,7 +267,7 @@ static rg_status draw(rg_lines *l, const rg_reading *s, rg_graph *g, int *gaps, 
     return status;
 }
 
-static rg_status write_fold(rg_lines *l, const rg_reading *settings, const char *path, rg_diag *why)
+static rg_status write_fold(rg_lines *l, const rg_reading *settings, const rg_dest *to, rg_diag *why)
 {
     plane p;
     int gaps;
@@ -285,7 +287,7 @@ static rg_status write_fold(rg_lines *l, const rg_reading *settings, const char 
     rg_fold_sheet *f = &p.sheet;
     *f = (rg_fold_sheet){p.g.nv, p.g.ne, gaps ? 0 : f->nf, p.X, p.E, p.letter, p.angle, p.face_start, p.face_vertex, p.face_edge,
                          f->same_vertices, f->same_edges, f->same_faces && !gaps};
-    if (s == RG_OK) s = rg_fold_write(l, f, path, &lost, why);
+    if (s == RG_OK) s = rg_fold_write(l, f, to, &lost, why);
     if (s == RG_OK && lost) s = rg_lines_warn(l, 0, "%d keys of the file no longer hold and are left out", (int)lost);
     free_plane(&p, &l->mem);
     return s;
@@ -293,36 +295,58 @@ static rg_status write_fold(rg_lines *l, const rg_reading *settings, const char 
 
 /* ----------------------------------------------------------------------------------------------------- convert ---- */
 
-static rg_status write(rg_lines *l, rg_format to, const rg_reading *s, const char *path, rg_diag *why)
+static rg_status write(rg_lines *l, rg_format format, const rg_reading *s, const rg_dest *to, rg_diag *why)
 {
     static const char *const names[] = {"", ".opx", ".cp", ".fold", ".svg", ".dxf"};
-    const rg_status status = warn_of_losses(l, to, names[to]);
+    const rg_status status = warn_of_losses(l, format, names[format]);
     if (status != RG_OK) return status;
-    switch (to) {
-    case RG_FORMAT_OPX: return rg_opx_write(l, path, why);
-    case RG_FORMAT_CP: return rg_cp_write(l, path, why);
-    case RG_FORMAT_SVG: return rg_svg_write(l, path, why);
-    case RG_FORMAT_DXF: return rg_dxf_write(l, path, why);
-    default: return write_fold(l, s, path, why);
+    switch (format) {
+    case RG_FORMAT_OPX: return rg_opx_write(l, to, why);
+    case RG_FORMAT_CP: return rg_cp_write(l, to, why);
+    case RG_FORMAT_SVG: return rg_svg_write(l, to, why);
+    case RG_FORMAT_DXF: return rg_dxf_write(l, to, why);
+    default: return write_fold(l, s, to, why);
     }
+}
+
+static int is_written(rg_format f)
+{
+    return f == RG_FORMAT_OPX || f == RG_FORMAT_CP || f == RG_FORMAT_FOLD || f == RG_FORMAT_SVG || f == RG_FORMAT_DXF;
+}
+
+/* Of lines that were read, which are freed. */
+static rg_status pass_on(rg_lines *l, rg_format format, const rg_reading *r, const rg_dest *to, rg_warning warn, void *ctx, rg_diag *why)
+{
+    rg_status s = r->progress && r->progress(r->progress_ctx, LINES_READ) ? rg_fail(RG_ECANCELLED, why, 0, "%s", rg_status_text(RG_ECANCELLED))
+                                                                          : write(l, format, r, to, why);
+    if (s == RG_ENOMEM) rg_fail(s, why, 0, "out of memory");
+    for (int32_t i = 0; warn && s != RG_ECANCELLED && i < l->warnings; i++) warn(ctx, &l->warning[i]);
+    rg_lines_free(l);
+    return s;
 }
 
 rg_status rg_convert(const char *in, const char *out, rg_format to, const rg_reading *given, rg_warning warn, void *ctx,
                      rg_diag *why)
 {
-    rg_reading mine, *const s = &mine;
-    rg_status status = rg_reading_take(given, s, why);
-    if (status != RG_OK) return status;
+    rg_reading r;
+    rg_lines l;
+    rg_status s = rg_reading_take(given, &r, why);
+    if (s != RG_OK) return s;
     if (to == RG_FORMAT_AUTO) to = rg_read_extension(out);
-    if (to != RG_FORMAT_OPX && to != RG_FORMAT_CP && to != RG_FORMAT_FOLD && to != RG_FORMAT_SVG && to != RG_FORMAT_DXF)
+    if (!is_written(to))
         return rg_fail(RG_EARG, why, 0, strcmp(out, "-") == 0 ? "%s: standard output has no name to tell the format by"
                                                               : "%s: crease patterns are written as .opx, .cp, .fold, .svg or .dxf", out);
+    s = rg_read_file(in, &r, to == RG_FORMAT_FOLD, &l, why);
+    return s == RG_OK ? pass_on(&l, to, &r, &(rg_dest){out, NULL}, warn, ctx, why) : s;
+}
+
+rg_status rg_convert_to(const void *bytes, size_t size, rg_format to, const rg_sink *sink, const rg_reading *given, rg_warning warn, void *ctx,
+                        rg_diag *why)
+{
+    rg_reading r;
     rg_lines l;
-    status = rg_read_file(in, s, to == RG_FORMAT_FOLD, &l, why);
-    if (status != RG_OK) return status;
-    status = write(&l, to, s, out, why);
-    if (status == RG_ENOMEM) rg_fail(status, why, 0, "out of memory");
-    for (int32_t i = 0; warn && i < l.warnings; i++) warn(ctx, &l.warning[i]);
-    rg_lines_free(&l);
-    return status;
+    rg_status s = rg_reading_take(given, &r, why);
+    if (s == RG_OK && !is_written(to)) s = rg_fail(RG_EARG, why, 0, "crease patterns are written as .opx, .cp, .fold, .svg or .dxf");
+    if (s == RG_OK) s = rg_read_bytes(bytes, size, NULL, &r, to == RG_FORMAT_FOLD, &l, why);
+    return s == RG_OK ? pass_on(&l, to, &r, &(rg_dest){NULL, sink}, warn, ctx, why) : s;
 }

@@ -1,6 +1,7 @@
 /* A crease pattern out of a file, or out of its bytes: rigami.h, rg_pattern_read. */
 #include "base/settings.h"
 #include "base/status.h"
+#include "generate/generate.h"
 #include "pattern/build.h"
 #include "read/read.h"
 
@@ -33,5 +34,16 @@ rg_status rg_pattern_read(const char *path, const rg_reading *given, rg_pattern 
     rg_lines lines;
     rg_status s = rg_reading_take(given, &r, why);
     if (s == RG_OK) s = rg_read_file(path, &r, 1, &lines, why);
+    return s == RG_OK ? build(&lines, &r, pattern, why) : s;
+}
+
+rg_status rg_generate_pattern(const char *kind, int32_t n, int32_t m, double angle, const rg_reading *given, rg_pattern **pattern, rg_diag *why)
+{
+    rg_reading r;
+    rg_lines lines;
+    rg_status s = rg_reading_take(given, &r, why);
+    if (s != RG_OK) return s;
+    const rg_memory mem = rg_mem_default(r.memory);
+    s = rg_generate_lines(kind, n, m, angle, &mem, &lines, why);
     return s == RG_OK ? build(&lines, &r, pattern, why) : s;
 }

@@ -109,12 +109,22 @@ rg_status rg_generate_lines(const char *name, int32_t n, int32_t m, double angle
     return rg_fail(s, why, 0, "out of memory");
 }
 
-rg_status rg_generate(const char *name, int32_t n, int32_t m, double angle, const char *path, rg_diag *why)
+static rg_status generate(const char *name, int32_t n, int32_t m, double angle, const rg_dest *to, rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(NULL);
     rg_lines lines;
     rg_status s = rg_generate_lines(name, n, m, angle, &mem, &lines, why);
-    if (s == RG_OK) s = rg_opx_write(&lines, path, why);
+    if (s == RG_OK) s = rg_opx_write(&lines, to, why);
     rg_lines_free(&lines);
     return s;
+}
+
+rg_status rg_generate(const char *kind_name, int32_t n, int32_t m, double angle, const char *path, rg_diag *why)
+{
+    return generate(kind_name, n, m, angle, &(rg_dest){path, NULL}, why);
+}
+
+rg_status rg_generate_to(const char *kind_name, int32_t n, int32_t m, double angle, const rg_sink *sink, rg_diag *why)
+{
+    return generate(kind_name, n, m, angle, &(rg_dest){NULL, sink}, why);
 }

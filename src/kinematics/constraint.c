@@ -177,7 +177,7 @@ RG_WIDE static int32_t walk_all(rg_constraint *K, int wanted)
     return K->fours ? K->four[where[lane]].vertex[lane] : -1;
 }
 
-static double angle_at(const rg_constraint *K, int32_t k)
+double rg_constraint_angle(const rg_constraint *K, int32_t k)
 {
     if (k < 0) return 0;
     rg_mat3 A = rg_mat3_identity();
@@ -203,14 +203,14 @@ double rg_constraint_assemble(rg_constraint *K, const double *rho)
     turn_creases(K, rho);
     const int32_t worst = walk_all(K, 1);
     rg_constraint_forget_still(K);
-    return angle_at(K, worst);
+    return rg_constraint_angle(K, worst);
 }
 
 double rg_constraint_closure(rg_constraint *K, const double *rho, int32_t *worst)
 {
     turn_creases(K, rho);
     int32_t k = walk_all(K, 0);
-    double angle = angle_at(K, k);
+    double angle = rg_constraint_angle(K, k);
     if (worst) *worst = angle != 0 ? k : -1; /* also where it is NaN */
     return angle;
 }

@@ -41,6 +41,8 @@ void rg_constraint_set_theta(rg_constraint *K, const double *theta);
 /* Refills C and r for rho[N], radians. Returns the largest rotation angle of F over the vertices, radians (NaN if one
  * is NaN). Allocates nothing. */
 double rg_constraint_assemble(rg_constraint *K, const double *rho);
+/* The rotation angle of F at vertex k, for the fold angles given last. */
+double rg_constraint_angle(const rg_constraint *K, int32_t k);
 /* The same angle alone; C and r stay as they are. worst: out, the vertex k it is at, -1: none; may be NULL. */
 double rg_constraint_closure(rg_constraint *K, const double *rho, int32_t *worst);
 

@@ -39,6 +39,7 @@ typedef struct studio {
 
 typedef struct painter {
     studio *studio;
+    int is_first; /* in the caller's thread */
     rg_render *render;
     rg_vec3 *x, *lift;
     unsigned char (*tint)[3]; /* [nf] */
@@ -76,6 +77,22 @@ static int next_frame(painter *p, int32_t *frame)
     if (s->status != RG_OK) pthread_cond_broadcast(&s->moved);
     pthread_mutex_unlock(&s->lock);
     return found;
+}
+
+/* In the caller's thread: tells how far it is. Zero: it is to end. */
+static int goes_on(studio *s)
+{
+    const rg_frames *w = s->wish;
+    const rg_picture *p = &w->picture;
+    pthread_mutex_lock(&s->lock);
+    const double done = (double)(s->taken - w->first) / (s->motion->report.frame_count - w->first);
+    pthread_mutex_unlock(&s->lock);
+    if (!p->progress || p->progress(p->progress_ctx, fmin(1, done)) == 0) return 1;
+    pthread_mutex_lock(&s->lock);
+    if (s->status == RG_OK) s->status = rg_fail(RG_ECANCELLED, s->why, 0, "%s", rg_status_text(RG_ECANCELLED));
+    pthread_cond_broadcast(&s->moved);
+    pthread_mutex_unlock(&s->lock);
+    return 0;
 }
 
 /* Waits for the frame's turn; 0: there is none, something failed. */
@@ -117,6 +134,7 @@ static void *paint(void *ctx)
     const rg_frames *w = s->wish;
     for (int32_t frame; next_frame(p, &frame);) {
         rg_diag why = {0, ""};
+        if (p->is_first && !goes_on(s)) break;
         rg_stage_put(&s->stage, frame, p->x, s->motion->mesh.nv);
         rg_stage_turn(&s->stage, frame, p->lift, s->motion->mesh.nf);
         if (p->tint) rg_tint_facets(&s->tint, s->motion, frame, p->lift, p->tint);
@@ -191,6 +209,7 @@ static rg_status draw(studio *s)
     while (status == RG_OK && count < wished && painter_init(&p[count], s) == RG_OK) count++;
     if (count < wished) painter_free(&p[count]);
     s->why = why;
+    p[0].is_first = 1;
     if (status == RG_OK) paint_all(p, count);
     for (int32_t i = 0; i < count; i++) painter_free(&p[i]);
     rg_mem_free(&s->mem, p);

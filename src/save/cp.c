@@ -12,10 +12,10 @@ static int code(char assignment)
     }
 }
 
-rg_status rg_cp_write(const rg_lines *l, const char *path, rg_diag *why)
+rg_status rg_cp_write(const rg_lines *l, const rg_dest *to, rg_diag *why)
 {
     rg_file f;
-    rg_status s = rg_file_begin(&f, &l->mem, path, why);
+    rg_status s = rg_file_begin_to(&f, &l->mem, to, why);
     if (s != RG_OK) return s;
     for (int32_t i = 0; i < l->count; i++) {
         const rg_line *q = &l->line[i];

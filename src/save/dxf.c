@@ -84,10 +84,10 @@ void rg_dxf_put(FILE *out, const rg_line *line, int32_t n, double metres)
     fputs("  0\nENDSEC\n  0\nEOF\n", out);
 }
 
-rg_status rg_dxf_write(const rg_lines *l, const char *path, rg_diag *why)
+rg_status rg_dxf_write(const rg_lines *l, const rg_dest *to, rg_diag *why)
 {
     rg_file f;
-    const rg_status s = rg_file_begin(&f, &l->mem, path, why);
+    const rg_status s = rg_file_begin_to(&f, &l->mem, to, why);
     if (s != RG_OK) return s;
     rg_dxf_put(f.stream, l->line, l->count, l->metres);
     return rg_file_commit(&f, why);

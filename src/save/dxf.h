@@ -7,13 +7,14 @@
 #ifndef RG_SAVE_DXF_H
 #define RG_SAVE_DXF_H
 
+#include "base/file.h"
 #include "lines/lines.h"
 #include <stdio.h>
 
 /* Writes n lines to an open file; metres: in a unit of theirs, 0: not known. */
 void rg_dxf_put(FILE *out, const rg_line *line, int32_t n, double metres);
-/* Writes the file whole or not at all; "-" is standard output. Every coordinate reads back as the same double. Lost: targets, titles,
+/* Writes all or nothing. Every coordinate reads back as the same double. Lost: targets, titles,
  * and that a line cuts the folded model: it becomes auxiliary. RG_EWRITE, RG_ENOMEM: why->text. */
-rg_status rg_dxf_write(const rg_lines *l, const char *path, rg_diag *why);
+rg_status rg_dxf_write(const rg_lines *l, const rg_dest *to, rg_diag *why);
 
 #endif

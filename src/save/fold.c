@@ -165,11 +165,11 @@ static rg_status put_faces(rg_json *j, const rg_lines *l, const rg_fold_sheet *s
     return put_edges_faces(j, l, s);
 }
 
-rg_status rg_fold_write(const rg_lines *l, const rg_fold_sheet *sheet, const char *path, int32_t *lost, rg_diag *why)
+rg_status rg_fold_write(const rg_lines *l, const rg_fold_sheet *sheet, const rg_dest *to, int32_t *lost, rg_diag *why)
 {
     rg_file f;
     rg_json j;
-    rg_status s = rg_file_begin(&f, &l->mem, path, why);
+    rg_status s = rg_file_begin_to(&f, &l->mem, to, why);
     if (s != RG_OK) return s;
     rg_json_begin(&j, f.stream);
     rg_json_open(&j, NULL, '{');

@@ -4,6 +4,7 @@
 #define RG_SAVE_FOLD_H
 
 #include "base/json.h"
+#include "base/file.h"
 #include "lines/lines.h"
 
 /* The lines as a plane graph, with faces; all lent. */
@@ -22,9 +23,9 @@ typedef struct rg_fold_sheet {
  * by NULL) that still hold on a sheet so numbered. Returns how many do not. */
 int32_t rg_fold_put_rest(rg_json *j, const rg_value *frame, const rg_fold_sheet *sheet, const char *const *ours);
 
-/* Writes the file whole or not at all; "-" is standard output. Every number reads back as the same double. What
+/* Writes all or nothing. Every number reads back as the same double. What
  * l->frame says besides is written too where it still holds; *lost: out, how many of its keys are not. RG_EWRITE,
  * RG_ENOMEM: why->text. */
-rg_status rg_fold_write(const rg_lines *l, const rg_fold_sheet *sheet, const char *path, int32_t *lost, rg_diag *why);
+rg_status rg_fold_write(const rg_lines *l, const rg_fold_sheet *sheet, const rg_dest *to, int32_t *lost, rg_diag *why);
 
 #endif

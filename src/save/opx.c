@@ -223,7 +223,7 @@ static rg_status write_document(const rg_lines *l, FILE *stream)
     return w.failed ? RG_ENOMEM : RG_OK; /* the stream takes everything: memory is all that can be short */
 }
 
-rg_status rg_opx_write(const rg_lines *l, const char *path, rg_diag *why)
+rg_status rg_opx_write(const rg_lines *l, const rg_dest *to, rg_diag *why)
 {
     for (int32_t i = 0; i < l->count; i++) {
         const rg_line *e = &l->line[i];
@@ -231,7 +231,7 @@ rg_status rg_opx_write(const rg_lines *l, const char *path, rg_diag *why)
             return rg_fail(RG_EARG, why, 0, "line %d has a coordinate that is not a finite number", (int)i);
     }
     rg_file f;
-    rg_status s = rg_file_begin(&f, &l->mem, path, why);
+    rg_status s = rg_file_begin_to(&f, &l->mem, to, why);
     if (s != RG_OK) return s;
     s = write_document(l, f.stream);
     if (s != RG_OK) {

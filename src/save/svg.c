@@ -92,10 +92,10 @@ static double open_drawing(FILE *out, const rg_lines *l)
     return size;
 }
 
-rg_status rg_svg_write(const rg_lines *l, const char *path, rg_diag *why)
+rg_status rg_svg_write(const rg_lines *l, const rg_dest *to, rg_diag *why)
 {
     rg_file f;
-    rg_status s = rg_file_begin(&f, &l->mem, path, why);
+    rg_status s = rg_file_begin_to(&f, &l->mem, to, why);
     if (s != RG_OK) return s;
     const double size = open_drawing(f.stream, l);
     for (int32_t i = 0; i < l->count; i++) draw(f.stream, &l->line[i], size);

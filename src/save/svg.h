@@ -6,10 +6,11 @@
 #ifndef RG_SAVE_SVG_H
 #define RG_SAVE_SVG_H
 
+#include "base/file.h"
 #include "lines/lines.h"
 
-/* Writes the file whole or not at all; "-" is standard output. Every coordinate reads back as the same double. Lost:
+/* Writes all or nothing. Every coordinate reads back as the same double. Lost:
  * targets of unassigned lines, editor and reference. RG_EWRITE, RG_ENOMEM: why->text. */
-rg_status rg_svg_write(const rg_lines *l, const char *path, rg_diag *why);
+rg_status rg_svg_write(const rg_lines *l, const rg_dest *to, rg_diag *why);
 
 #endif

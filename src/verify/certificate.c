@@ -58,19 +58,15 @@ static rg_status look(rg_certificate *c, rg_record *r, const rg_pattern *given)
     return s;
 }
 
-rg_status rg_certificate_create(const char *path, const rg_pattern *given, const rg_memory *memory, rg_certificate **certificate,
-                                rg_diag *why)
+rg_status rg_certificate_parse(const void *bytes, size_t size, const rg_pattern *given, const rg_memory *memory, rg_certificate **certificate,
+                               rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(memory);
     rg_record r = {0};
-    char *bytes = NULL;
-    size_t size = 0;
     rg_certificate *c = rg_mem_array(&mem, 1, sizeof *c);
     if (!c) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
     c->mem = mem;
-    rg_status s = read_whole(path, &mem, &bytes, &size, why);
-    if (s == RG_OK) s = rg_record_parse(bytes, size, &mem, &r, why);
-    rg_mem_free(&mem, bytes);
+    rg_status s = rg_record_parse(bytes, size, &mem, &r, why);
     if (s == RG_OK) {
         s = look(c, &r, given);
         if (s == RG_ENOMEM) rg_fail(s, why, 0, "out of memory");
@@ -88,6 +84,18 @@ rg_status rg_certificate_create(const char *path, const rg_pattern *given, const
     }
     *certificate = c;
     return RG_OK;
+}
+
+rg_status rg_certificate_create(const char *path, const rg_pattern *given, const rg_memory *memory, rg_certificate **certificate,
+                                rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(memory);
+    char *bytes = NULL;
+    size_t size = 0;
+    rg_status s = read_whole(path, &mem, &bytes, &size, why);
+    if (s == RG_OK) s = rg_certificate_parse(bytes, size, given, &mem, certificate, why);
+    rg_mem_free(&mem, bytes);
+    return s;
 }
 
 /* ----------------------------------------------------------------------------------------------------------- said ---- */
@@ -160,12 +168,22 @@ static void write_json(const rg_certificate *c, FILE *out)
     rg_json_close(&j);
 }
 
-rg_status rg_certificate_write(const rg_certificate *c, int json, const char *file, rg_diag *why)
+static rg_status write(const rg_certificate *c, int json, const rg_dest *to, rg_diag *why)
 {
     rg_file out;
-    const rg_status s = rg_file_begin(&out, &c->mem, file, why);
+    const rg_status s = rg_file_begin_to(&out, &c->mem, to, why);
     if (s != RG_OK) return s;
     if (json) write_json(c, out.stream);
     else write_text(c, out.stream);
     return rg_file_commit(&out, why);
+}
+
+rg_status rg_certificate_write(const rg_certificate *c, int json, const char *file, rg_diag *why)
+{
+    return write(c, json, &(rg_dest){file, NULL}, why);
+}
+
+rg_status rg_certificate_write_to(const rg_certificate *c, int json, const rg_sink *sink, rg_diag *why)
+{
+    return write(c, json, &(rg_dest){NULL, sink}, why);
 }

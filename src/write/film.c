@@ -11,6 +11,8 @@
 #include "write/video.h"
 
 #include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -53,7 +55,7 @@ rg_status rg_film_check(const char *path, rg_diag *why)
 /* Puts a file's name before what is wrong with it. */
 static rg_status name_it(rg_status s, const char *path, rg_diag *why)
 {
-    if (s == RG_OK || !why) return s;
+    if (s == RG_OK || !why || !path) return s;
     char text[sizeof why->text];
     memcpy(text, why->text, sizeof text);
     return rg_fail(s, why, 0, "%.150s: %s", path, text);
@@ -61,33 +63,33 @@ static rg_status name_it(rg_status s, const char *path, rg_diag *why)
 
 /* ---- pictures, each in its file */
 
-static rg_status write_png(const rg_memory *mem, const char *path, const rg_picture *p, const unsigned char *rgb,
+static rg_status write_png(const rg_memory *mem, const rg_dest *to, const rg_picture *p, const unsigned char *rgb,
                            rg_diag *why)
 {
     rg_file file;
-    rg_status s = rg_file_begin(&file, mem, path, why);
+    rg_status s = rg_file_begin_to(&file, mem, to, why);
     if (s != RG_OK) return s;
     s = rg_png_write(file.stream, p->width, p->height, rgb, why);
     if (s == RG_OK) return rg_file_commit(&file, why);
     rg_file_abandon(&file);
-    return name_it(s, path, why);
+    return name_it(s, to->path, why);
 }
 
 typedef struct album {
     const rg_picture *picture;
     rg_numbered name;
-    const char *path; /* NULL: one file a frame, by its number */
+    const rg_dest *to; /* NULL: one file a frame, by its number */
 } album;
 
 static rg_status paste(void *ctx, const rg_memory *mem, int32_t frame, const unsigned char *rgb, rg_diag *why)
 {
     const album *a = ctx;
-    if (a->path) return write_png(mem, a->path, a->picture, rgb, why);
+    if (a->to) return write_png(mem, a->to, a->picture, rgb, why);
     const size_t room = rg_numbered_room(&a->name);
     char *name = rg_mem_array(mem, room, 1);
     if (!name) return rg_fail(RG_ENOMEM, why, 0, "out of memory for a file name");
     rg_numbered_name(&a->name, frame, name, room);
-    const rg_status s = write_png(mem, name, a->picture, rgb, why);
+    const rg_status s = write_png(mem, &(rg_dest){name, NULL}, a->picture, rgb, why);
     rg_mem_free(mem, name);
     return s;
 }
@@ -133,10 +135,11 @@ static rg_status write_numbered(const rg_motion *m, const char *path, rg_frames 
     return s == RG_OK ? remove_stale(m, &a.name, why) : s;
 }
 
-static rg_status write_last(const rg_motion *m, const char *path, rg_frames *f, rg_diag *why)
+static rg_status write_one(const rg_motion *m, int32_t frame, const rg_dest *to, rg_frames *f, rg_diag *why)
 {
-    album a = {.picture = &f->picture, .path = path};
-    f->first = m->report.frame_count - 1;
+    album a = {.picture = &f->picture, .to = to};
+    f->first = frame;
+    f->step = m->report.frame_count; /* and no other one */
     f->take = paste;
     f->ctx = &a;
     return rg_frames_draw(m, f, why);
@@ -189,6 +192,7 @@ static rg_status choose_colours(const rg_motion *m, const rg_frames *f, rg_palet
     look.first = (m->report.frame_count - 1) % look.step;
     look.in_order = 1;
     look.take = see;
+    look.picture.progress = NULL;
     sight at = {p, (size_t)look.picture.width * (size_t)look.picture.height};
     look.ctx = &at;
     rg_status s = rg_palette_init(p, &m->mem);
@@ -288,10 +292,10 @@ static rg_status add_video(void *to, const unsigned char *rgb, double times, rg_
     return s;
 }
 
-static rg_status write_video(const rg_motion *m, rg_file *file, const char *container, rg_frames *f, rg_diag *why)
+/* The program writes into a file: on its way to a sink, into one that is gone afterwards. */
+static rg_status run_video(const rg_motion *m, const char *path, const char *container, rg_frames *f, rg_diag *why)
 {
     const rg_picture *p = &f->picture;
-    const char *path = file->temporary ? file->temporary : file->path;
     strip film = strip_of(m, p);
     rg_video *video = NULL;
     rg_status s = rg_video_create(&m->mem, path, container, p->width, p->height, p->fps, p->background, &video, why);
@@ -303,20 +307,45 @@ static rg_status write_video(const rg_motion *m, rg_file *file, const char *cont
     return s;
 }
 
-static rg_status write_animation(const rg_motion *m, shape is, const char *path, rg_frames *f, rg_diag *why)
+static rg_status pass_on(int fd, FILE *out, rg_diag *why)
+{
+    char bytes[65536];
+    ssize_t n;
+    while ((n = read(fd, bytes, sizeof bytes)) > 0)
+        if (fwrite(bytes, 1, (size_t)n, out) != (size_t)n) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
+    return n == 0 ? RG_OK : rg_fail(RG_EWRITE, why, 0, "%s", strerror(errno));
+}
+
+static rg_status write_video(const rg_motion *m, rg_file *file, const char *container, rg_frames *f, rg_diag *why)
+{
+    if (!file->pile) return run_video(m, file->temporary ? file->temporary : file->path, container, f, why);
+    const char *folder = getenv("TMPDIR");
+    char path[1024];
+    snprintf(path, sizeof path, "%.1000s/rigami-XXXXXX", folder && *folder ? folder : "/tmp");
+    const int fd = mkstemp(path);
+    if (fd < 0) return rg_fail(RG_EWRITE, why, 0, "%.150s: %s", path, strerror(errno));
+    rg_status s = run_video(m, path, container, f, why);
+    if (s == RG_OK) s = pass_on(fd, file->stream, why);
+    close(fd);
+    unlink(path);
+    return s;
+}
+
+static rg_status write_animation(const rg_motion *m, shape is, const rg_dest *to, rg_frames *f, rg_diag *why)
 {
     rg_file file;
-    rg_status s = rg_file_begin(&file, &m->mem, path, why);
+    rg_status s = rg_file_begin_to(&file, &m->mem, to, why);
     if (s != RG_OK) return s;
     f->in_order = 1;
     s = is == GIF ? write_gif(m, &file, f, why) : is == APNG ? write_apng(m, &file, f, why)
       : write_video(m, &file, is == MP4 ? "mp4" : "webm", f, why);
     if (s == RG_OK) return rg_file_commit(&file, why);
     rg_file_abandon(&file);
-    return name_it(s, path, why);
+    return name_it(s, to->path, why);
 }
 
-rg_status rg_film_write_by(const rg_motion *m, const char *path, const rg_picture *p, int32_t threads, rg_diag *why)
+static rg_status write_any(const rg_motion *m, const char *path, int32_t frame, const rg_dest *to, const rg_picture *p, int32_t threads,
+                           rg_diag *why)
 {
     rg_status s = rg_film_check(path, why);
     if (s == RG_OK) s = rg_picture_check(p, why);
@@ -331,11 +360,24 @@ rg_status rg_film_write_by(const rg_motion *m, const char *path, const rg_pictur
     switch (is) {
     case FOLDER: s = write_folder(m, path, &f, why); break;
     case NUMBERED: s = write_numbered(m, path, &f, why); break;
-    case LAST: s = write_last(m, path, &f, why); break;
-    default: s = write_animation(m, is, path, &f, why); break;
+    case LAST: s = write_one(m, frame, to, &f, why); break;
+    default: s = write_animation(m, is, to, &f, why); break;
     }
     rg_mem_free(&m->mem, rgba);
     return s;
+}
+
+rg_status rg_film_write_to(const rg_motion *m, const char *form, int32_t frame, const rg_dest *to, const rg_picture *p, int32_t threads,
+                           rg_diag *why)
+{
+    const shape is = shape_of(form);
+    if (is == FOLDER || is == NUMBERED) return rg_fail(RG_EARG, why, 0, "%.150s: many files, and there is one place for them", form);
+    return write_any(m, form, frame, to, p, threads, why);
+}
+
+rg_status rg_film_write_by(const rg_motion *m, const char *path, const rg_picture *p, int32_t threads, rg_diag *why)
+{
+    return write_any(m, path, m->report.frame_count - 1, &(rg_dest){path, NULL}, p, threads, why);
 }
 
 rg_status rg_film_write(const rg_motion *m, const char *path, const rg_picture *p, rg_diag *why)

@@ -13,6 +13,7 @@
 #ifndef RG_FILM_H
 #define RG_FILM_H
 
+#include "base/file.h"
 #include "motion/motion.h"
 
 /* Whether a path asks for one of these. */
@@ -24,5 +25,9 @@ rg_status rg_film_check(const char *path, rg_diag *why);
 rg_status rg_film_write(const rg_motion *m, const char *path, const rg_picture *p, rg_diag *why);
 /* The same by so many threads; 0: as many as there are processors. The bytes do not depend on it. */
 rg_status rg_film_write_by(const rg_motion *m, const char *path, const rg_picture *p, int32_t threads, rg_diag *why);
+
+/* One that is a single file, to any destination: `form` is a name that ends as it does. frame: of a single picture. */
+rg_status rg_film_write_to(const rg_motion *m, const char *form, int32_t frame, const rg_dest *to, const rg_picture *p, int32_t threads,
+                           rg_diag *why);
 
 #endif

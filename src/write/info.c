@@ -155,7 +155,7 @@ static void drawn_in(rg_json *j, const rg_pattern *p)
     rg_json_close(j);
 }
 
-rg_status rg_info_write(const rg_pattern *p, const char *file, rg_diag *why)
+static rg_status write_json(const rg_pattern *p, const rg_dest *to, rg_diag *why)
 {
     rg_json j;
     rg_file out;
@@ -163,7 +163,7 @@ rg_status rg_info_write(const rg_pattern *p, const char *file, rg_diag *why)
     rg_layers *l = NULL;
     rg_status s = rg_alike_find(p, &alike);
     if (s == RG_OK) s = find_layers(p, &l, why);
-    if (s == RG_OK) s = rg_file_begin(&out, &p->mem, file, why);
+    if (s == RG_OK) s = rg_file_begin_to(&out, &p->mem, to, why);
     if (s != RG_OK) {
         rg_layers_destroy(l);
         return s;
@@ -487,7 +487,7 @@ static void tell(const rg_pattern *p, const rg_alike *alike, const rg_layers *l,
     crease_list(p, out);
 }
 
-rg_status rg_info_text(const rg_pattern *p, int lists, const char *file, rg_diag *why)
+static rg_status write_text(const rg_pattern *p, int lists, const rg_dest *to, rg_diag *why)
 {
     rg_file f;
     rg_alike alike;
@@ -496,11 +496,25 @@ rg_status rg_info_text(const rg_pattern *p, int lists, const char *file, rg_diag
     rg_status s = rg_alike_find(p, &alike);
     if (s == RG_OK) s = find_layers(p, &l, why);
     if (s == RG_OK) s = mobility(p, &ways);
-    if (s == RG_OK) s = rg_file_begin(&f, &p->mem, file, why);
+    if (s == RG_OK) s = rg_file_begin_to(&f, &p->mem, to, why);
     if (s == RG_OK) {
         tell(p, &alike, l, ways, lists, f.stream);
         s = rg_file_commit(&f, why);
     }
     rg_layers_destroy(l);
     return s;
+}
+
+rg_status rg_info_write(const rg_pattern *p, const char *file, rg_diag *why) { return write_json(p, &(rg_dest){file, NULL}, why); }
+
+rg_status rg_info_write_to(const rg_pattern *p, const rg_sink *sink, rg_diag *why) { return write_json(p, &(rg_dest){NULL, sink}, why); }
+
+rg_status rg_info_text(const rg_pattern *p, int lists, const char *file, rg_diag *why)
+{
+    return write_text(p, lists, &(rg_dest){file, NULL}, why);
+}
+
+rg_status rg_info_text_to(const rg_pattern *p, int lists, const rg_sink *sink, rg_diag *why)
+{
+    return write_text(p, lists, &(rg_dest){NULL, sink}, why);
 }

@@ -57,16 +57,21 @@ rg_status rg_output_check(const char *path, rg_diag *why)
     return rg_film_is_form(path) ? rg_film_check(path, why) : find_form(path, &f, why);
 }
 
-static rg_status write_one(const rg_motion *m, const form *f, int32_t frame, const rg_picture *p, const char *path,
+static rg_status cancelled(rg_diag *why) { return rg_fail(RG_ECANCELLED, why, 0, "%s", rg_status_text(RG_ECANCELLED)); }
+
+/* Does who watches end it? */
+static int ends(const rg_picture *p, double done) { return p->progress && p->progress(p->progress_ctx, done) != 0; }
+
+static rg_status write_one(const rg_motion *m, const form *f, int32_t frame, const rg_picture *p, const rg_dest *to,
                            rg_diag *why)
 {
     rg_file file;
-    rg_status s = rg_file_begin(&file, &m->mem, path, why);
+    rg_status s = rg_file_begin_to(&file, &m->mem, to, why);
     if (s != RG_OK) return s;
     s = f->write(m, frame, p, file.stream);
     if (s == RG_OK) return rg_file_commit(&file, why);
     rg_file_abandon(&file);
-    return rg_fail(s, why, 0, "%.100s: %s", path, rg_status_text(s));
+    return rg_fail(s, why, 0, "%.100s: %s", to->path ? to->path : f->extension, rg_status_text(s));
 }
 
 static rg_status write_each(const rg_motion *m, const form *f, const rg_numbered *n, const rg_picture *p, rg_diag *why)
@@ -76,7 +81,7 @@ static rg_status write_each(const rg_motion *m, const form *f, const rg_numbered
     rg_status s = name ? RG_OK : rg_fail(RG_ENOMEM, why, 0, "%.100s: out of memory", n->path);
     for (int32_t k = 0; s == RG_OK && k < m->report.frame_count; k++) {
         rg_numbered_name(n, k, name, room);
-        s = write_one(m, f, k, p, name, why);
+        s = ends(p, (double)k / m->report.frame_count) ? cancelled(why) : write_one(m, f, k, p, &(rg_dest){name, NULL}, why);
     }
     rg_mem_free(&m->mem, name);
     return s;
@@ -103,6 +108,29 @@ rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_picture
     if (s == RG_OK) s = find_form(path, &f, why);
     if (s == RG_OK && p->image) s = check_image(m, p->image, why);
     if (s != RG_OK) return s;
-    return rg_numbered_find(path, &n) ? write_each(m, f, &n, p, why)
-                                      : write_one(m, f, m->report.frame_count - 1, p, path, why);
+    if (rg_numbered_find(path, &n)) return write_each(m, f, &n, p, why);
+    if (ends(p, 0)) return cancelled(why);
+    return write_one(m, f, m->report.frame_count - 1, p, &(rg_dest){path, NULL}, why);
+}
+
+rg_status rg_motion_write_to(const rg_motion *m, const char *extension, int32_t frame, const rg_sink *sink, const rg_picture *picture,
+                             rg_diag *why)
+{
+    enum { ROOM = 16 };
+    rg_picture mine, *const p = &mine;
+    const rg_dest to = {NULL, sink};
+    const form *f;
+    char name[ROOM + 2] = "x";
+    rg_status s = rg_picture_take(picture, p, why);
+    if (s == RG_OK && (extension[0] != '.' || strlen(extension) > ROOM || strchr(extension, '%') || strchr(extension, '/')))
+        s = rg_fail(RG_EARG, why, 0, "%.80s: no extension such as .glb", extension);
+    if (s == RG_OK && (frame < -1 || frame >= m->report.frame_count)) s = rg_fail(RG_EARG, why, 0, "there is no frame %d", (int)frame);
+    if (s != RG_OK) return s;
+    if (frame < 0) frame = m->report.frame_count - 1;
+    strcat(name, extension);
+    if (rg_film_is_form(name)) return rg_film_write_to(m, name, frame, &to, p, 0, why);
+    s = find_form(name, &f, why);
+    if (s == RG_OK && p->image) s = check_image(m, p->image, why);
+    if (s == RG_OK && ends(p, 0)) s = cancelled(why);
+    return s == RG_OK ? write_one(m, f, frame, p, &to, why) : s;
 }

@@ -214,7 +214,7 @@ static void creases(rg_json *j, const rg_motion *m)
     rg_json_close(j);
 }
 
-rg_status rg_report_write(const rg_motion *m, double seconds_writing, double peak_bytes, const char *file, rg_diag *why)
+static rg_status write(const rg_motion *m, double seconds_writing, double peak_bytes, const rg_dest *to, rg_diag *why)
 {
     const rg_report *r = &m->report;
     int32_t half_way = -1, at_end = -1;
@@ -223,7 +223,7 @@ rg_status rg_report_write(const rg_motion *m, double seconds_writing, double pea
     rg_status s = rg_motion_mobility(m, r->frame_count / 2, &half_way);
     if (s == RG_OK) s = rg_motion_mobility(m, r->frame_count - 1, &at_end);
     if (s == RG_ENOMEM) return rg_fail(s, why, 0, "out of memory for the report");
-    s = rg_file_begin(&out, &m->mem, file, why);
+    s = rg_file_begin_to(&out, &m->mem, to, why);
     if (s != RG_OK) return s;
     rg_json_begin(&j, out.stream);
     rg_json_open(&j, NULL, '{');
@@ -248,4 +248,14 @@ rg_status rg_report_write(const rg_motion *m, double seconds_writing, double pea
     rg_json_close(&j);
     rg_json_close(&j);
     return rg_file_commit(&out, why);
+}
+
+rg_status rg_report_write(const rg_motion *m, double seconds_writing, double peak_bytes, const char *file, rg_diag *why)
+{
+    return write(m, seconds_writing, peak_bytes, &(rg_dest){file, NULL}, why);
+}
+
+rg_status rg_report_write_to(const rg_motion *m, double seconds_writing, double peak_bytes, const rg_sink *sink, rg_diag *why)
+{
+    return write(m, seconds_writing, peak_bytes, &(rg_dest){NULL, sink}, why);
 }
