@@ -72,6 +72,39 @@ static void one_of_several(void **state)
     assert_non_null(strstr(why.text, "there is no sheet 3: the drawing has 2"));
 }
 
+/* The size that tolerances are parts of is the longer side of the sheet taken, not of the drawing. */
+static void size_is_that_of_the_sheet_taken(void **state)
+{
+    (void)state;
+    rg_reading s = rg_reading_default();
+    static const double size[] = {9, 4};
+    for (int32_t k = 1; k <= 2; k++) {
+        rg_lines l = drawing();
+        draw_box(&l, 100, 2, 109, 5);
+        draw_box(&l, 40, -3, 42, 1);
+        s.sheet = k;
+        rg_pattern *p = pattern_with(&l, &s);
+        near(info_of(p).size, size[k - 1], 0);
+        rg_pattern_destroy(p);
+    }
+}
+
+/* A mountain and a valley on one line: told where they begin to lie on each other, whichever is longer, by the line of the other. */
+static void doubles_are_told_where_they_begin(void **state)
+{
+    (void)state;
+    for (int turn = 0; turn < 2; turn++) {
+        rg_lines l = drawing();
+        draw_box(&l, 0, 0, 10, 8);
+        draw(&l, 'M', turn ? 10 : 0, 3, turn ? 0 : 10, 3);
+        draw(&l, 'V', 4, 3, 7, 3);
+        rg_pattern *p = pattern_of(&l);
+        assert_true(warned(p, turn ? "mountain and valley drawn on one line from (7, 3)" : "mountain and valley drawn on one line from (4, 3)"));
+        assert_int_equal(info_of(p).valleys, 0);
+        rg_pattern_destroy(p);
+    }
+}
+
 /* A crease that ends short of the border: how far, and the tolerance that it tells does join it. */
 static void loose_ends(void **state)
 {
@@ -158,6 +191,7 @@ static void numbers_stay(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(one_of_several), cmocka_unit_test(loose_ends), cmocka_unit_test(slits_are_counted),
-                                       cmocka_unit_test(numbers_stay)};
+                                       cmocka_unit_test(numbers_stay),
+                                       cmocka_unit_test(size_is_that_of_the_sheet_taken), cmocka_unit_test(doubles_are_told_where_they_begin)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
