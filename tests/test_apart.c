@@ -12,6 +12,7 @@
 #include "counted.h"
 #include "draw.h"
 #include "folding.h"
+#include "fold/system.h"
 #include "mesh/components.h"
 
 /* A vertex at (x, 1) on a strip two high: creases at 90 +- a and 270 +- (90 - a) degrees, so that it folds flat. */
@@ -203,6 +204,47 @@ static void want_of_memory_is_told(void **state)
     rg_pattern_destroy(p);
 }
 
+/* What a crease may turn does not depend on what else is on the sheet: added creases have the same neighbours in their part. */
+static void limits_are_those_of_the_sheet(void **state)
+{
+    (void)state;
+    /* Two creases that meet on the border: in the triangle between them no crease is added that would join what is beside it. */
+    rg_lines l = drawing();
+    draw_box(&l, 0, 0, 16, 2);
+    draw_vertex(&l, 3, 30, FOLDS);
+    draw_vertex(&l, 11, 35, FOLDS);
+    draw(&l, 'V', 7, 0, 6.5, 2);
+    draw(&l, 'M', 7, 0, 7.5, 2);
+    rg_settings s = rg_settings_default();
+    s.triangulate = RG_TRIANGULATE_ALL;
+    rg_pattern *p = pattern_of(&l);
+    rg_straight *f = fold_of(p, &s);
+    rg_limit whole;
+    assert_true(f->apart.parts > 1 && f->mesh.added > 4);
+    assert_int_equal(rg_limit_init(&whole, &f->mem, &f->mesh), RG_OK);
+    double rho[64], pull[64], mine[64], own[64];
+    unsigned seed = 3;
+    int pulled = 0;
+    assert_true(f->mesh.N <= 64);
+    for (int turn = 0; turn < 100; turn++) {
+        for (int32_t i = 0; i < f->mesh.N; i++) rho[i] = 2.5 * noise(&seed);
+        rg_limit_pull(&whole, rho, pull);
+        for (int32_t k = 0; k < f->apart.parts; k++) {
+            const int32_t *crease = f->apart.crease + f->apart.start[k], n = f->apart.start[k + 1] - f->apart.start[k];
+            for (int32_t i = 0; i < n; i++) own[i] = rho[crease[i]];
+            rg_limit_pull(&f->apart.part[k]->limit, own, mine);
+            for (int32_t i = 0; i < n; i++) {
+                near(mine[i], pull[crease[i]], 1e-15);
+                pulled += mine[i] != 0;
+            }
+        }
+    }
+    assert_true(pulled > 100);
+    rg_limit_free(&whole);
+    rg_straight_destroy(f);
+    rg_pattern_destroy(p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -211,7 +253,7 @@ int main(void)
         cmocka_unit_test(what_does_not_move_is_not_solved),
         cmocka_unit_test(components_are_the_classes_of_reach),
         cmocka_unit_test(added_creases_stay_with_their_limits),
-        cmocka_unit_test(want_of_memory_is_told),
+        cmocka_unit_test(want_of_memory_is_told), cmocka_unit_test(limits_are_those_of_the_sheet),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

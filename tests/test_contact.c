@@ -501,6 +501,38 @@ static void keeps_its_distance(void **state)
     assert_int_equal(found.verdict, RG_SWEEP_GAVE_UP);
 }
 
+/* A hinge past half a turn is as deep in itself as its smaller facet reaches, whichever that is, and not as the larger one. */
+static void a_narrow_flap_is_not_deep(void **state)
+{
+    (void)state;
+    for (int side = 0; side < 2; side++)
+        for (int allowed = 0; allowed < 2; allowed++) {
+            rg_lines l = drawing();
+            draw_box(&l, 0, 0, 1, 1);
+            draw(&l, RG_VALLEY, side ? 0.9 : 0.1, 0, side ? 0.9 : 0.1, 1);
+            rg_pattern *d = pattern_of(&l);
+            rg_mesh m = mesh_of(d);
+            rg_tree t;
+            rg_plates p;
+            rg_sweep_work w;
+            posed s[2];
+            assert_int_equal(rg_tree_init(&m, 0, &t), RG_OK);
+            assert_int_equal(rg_plates_init(&m, &p), RG_OK);
+            assert_int_equal(rg_sweep_work_init(&p, &w), RG_OK);
+            /* 0.1 wide and at least 0.14 beyond: 0.014 deep, where the other facet would be 0.127. */
+            const rg_sweep_rule rule = {allowed ? 0.05 : 0.01, 0, NULL, NULL};
+            const rg_plates_state from = {m.X, s[0].place, s[0].x}, to = {m.X, s[1].place, s[1].x};
+            pose(&m, &t, (const double[]){3.0}, &s[0]);
+            pose(&m, &t, (const double[]){3.3}, &s[1]);
+            assert_int_equal(rg_sweep_step(&p, &from, &to, &rule, &w).verdict, allowed ? RG_SWEEP_FREE : RG_SWEEP_CONTACT);
+            rg_sweep_work_free(&w);
+            rg_plates_free(&p);
+            rg_tree_free(&t);
+            rg_mesh_free(&m);
+            rg_pattern_destroy(d);
+        }
+}
+
 /* A hinge that goes past half a turn goes through itself, though no state shows it. */
 static void hinges_stop_at_half_a_turn(void **state)
 {
@@ -722,6 +754,7 @@ int main(void)
         cmocka_unit_test(moving_pairs),
         cmocka_unit_test(keeps_its_distance),
         cmocka_unit_test(hinges_stop_at_half_a_turn),
+        cmocka_unit_test(a_narrow_flap_is_not_deep),
         cmocka_unit_test(nearest_points),
         cmocka_unit_test(near_pairs_are_all_there),
         cmocka_unit_test(starves_cleanly_and_looks_for_nothing),
