@@ -12,6 +12,7 @@
 #include "counted.h"
 #include "folded.h"
 #include "contact/contact.h"
+#include "contact/course.h"
 #include "contact/near.h"
 #include "contact/sweep.h"
 
@@ -501,6 +502,51 @@ static void keeps_its_distance(void **state)
     assert_int_equal(found.verdict, RG_SWEEP_GAVE_UP);
 }
 
+/* States of a motion, one after the other: the first that crosses, and how far on the way to it. A hinge goes past half a turn at a moment
+ * that is known, and shows it in no state. */
+static void the_first_crossing_of_a_motion(void **state)
+{
+    (void)state;
+    unsigned seed = 21;
+    for (int k = 0; k < 12; k++) {
+        const int goes_past = k % 2;
+        rg_mesh m = strip(goes_past ? 2 : 2 + k % 3, &seed); /* a third facet could be met before */
+        rg_tree t;
+        rg_course c;
+        posed s;
+        const double begin = 0.11 * k, turn = 0.1, most = goes_past ? 3.4 : 2.95;
+        int states = 0, past = -1;
+        assert_int_equal(rg_tree_init(&m, 0, &t), RG_OK);
+        assert_int_equal(rg_course_init(&m, &c), RG_OK);
+        for (double a = begin; a <= most; a += turn, states++) {
+            double rho[MOST] = {a};
+            for (int32_t i = 1; i < m.N; i++) rho[i] = (i % 2 ? -0.02 : 0.02) * a; /* the others hardly move */
+            pose(&m, &t, rho, &s);
+            const rg_plates_state now = {m.X, s.place, s.x};
+            rg_course_add(&c, &now);
+            if (past < 0 && a > RG_PI) past = states;
+        }
+        rg_course_end(&c);
+        assert_int_equal(c.found.states, states);
+        if (goes_past) {
+            assert_true(past > 0 && c.found.between);
+            assert_int_equal(c.found.first, past);
+            assert_int_equal(c.found.facet[0] + c.found.facet[1], 1); /* those at the first crease */
+            near(c.found.time, (RG_PI - (begin + (past - 1) * turn)) / turn, 1e-9);
+            assert_int_equal(c.found.ways, past);
+        } else {
+            assert_int_equal(c.found.first, -1);
+            assert_int_equal(c.found.ways, states - 1);
+            assert_int_equal(c.found.crossing, 0);
+        }
+        assert_int_equal(c.found.unproved, 0);
+        rg_course_free(&c);
+        rg_course_free(&c);
+        rg_tree_free(&t);
+        rg_mesh_free(&m);
+    }
+}
+
 /* A hinge past half a turn is as deep in itself as its smaller facet reaches, whichever that is, and not as the larger one. */
 static void a_narrow_flap_is_not_deep(void **state)
 {
@@ -755,6 +801,7 @@ int main(void)
         cmocka_unit_test(keeps_its_distance),
         cmocka_unit_test(hinges_stop_at_half_a_turn),
         cmocka_unit_test(a_narrow_flap_is_not_deep),
+        cmocka_unit_test(the_first_crossing_of_a_motion),
         cmocka_unit_test(nearest_points),
         cmocka_unit_test(near_pairs_are_all_there),
         cmocka_unit_test(starves_cleanly_and_looks_for_nothing),
