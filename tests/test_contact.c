@@ -547,6 +547,39 @@ static void the_first_crossing_of_a_motion(void **state)
     }
 }
 
+/* What a way between two states crosses by less than it may bend is no crossing for sure: it is told as not proved. */
+static void what_a_way_may_bend_is_not_held_against_it(void **state)
+{
+    (void)state;
+    for (int narrow = 0; narrow < 2; narrow++) {
+        rg_lines l = drawing();
+        draw_box(&l, 0, 0, 1, 1);
+        draw(&l, RG_VALLEY, narrow ? 0.01 : 0.2, 0, narrow ? 0.01 : 0.2, 1);
+        rg_pattern *d = pattern_of(&l);
+        rg_mesh m = mesh_of(d);
+        rg_tree t;
+        rg_course c;
+        posed s;
+        assert_int_equal(rg_tree_init(&m, 0, &t), RG_OK);
+        assert_int_equal(rg_course_init(&m, &c), RG_OK);
+        /* The last state is 0.04 beyond: 4e-4 deep, and 8e-3. The wider facet's corner bends by up to 0.01 from state to state. */
+        for (double rho = 2.28; rho < 3.25; rho += 0.1) {
+            pose(&m, &t, &rho, &s);
+            const rg_plates_state now = {m.X, s.place, s.x};
+            rg_course_add(&c, &now);
+        }
+        rg_course_end(&c);
+        assert_int_equal(c.found.states, 10);
+        assert_int_equal(c.found.first, narrow ? -1 : 9);
+        assert_int_equal(c.found.unproved, narrow);
+        assert_int_equal(c.found.first_unproved, narrow ? 9 : -1);
+        rg_course_free(&c);
+        rg_tree_free(&t);
+        rg_mesh_free(&m);
+        rg_pattern_destroy(d);
+    }
+}
+
 /* A hinge past half a turn is as deep in itself as its smaller facet reaches, whichever that is, and not as the larger one. */
 static void a_narrow_flap_is_not_deep(void **state)
 {
@@ -802,6 +835,7 @@ int main(void)
         cmocka_unit_test(hinges_stop_at_half_a_turn),
         cmocka_unit_test(a_narrow_flap_is_not_deep),
         cmocka_unit_test(the_first_crossing_of_a_motion),
+        cmocka_unit_test(what_a_way_may_bend_is_not_held_against_it),
         cmocka_unit_test(nearest_points),
         cmocka_unit_test(near_pairs_are_all_there),
         cmocka_unit_test(starves_cleanly_and_looks_for_nothing),

@@ -105,6 +105,27 @@ static void doubles_are_told_where_they_begin(void **state)
     }
 }
 
+/* Of many such lines the first few are told, and how many more there are. */
+static void more_doubles_are_counted(void **state)
+{
+    (void)state;
+    enum { DOUBLES = 60 };
+    rg_lines l = drawing();
+    draw_box(&l, 0, 0, 10, DOUBLES + 1);
+    for (int i = 1; i <= DOUBLES; i++) draw(&l, 'M', 0, i, 10, i), draw(&l, 'V', 0, i, 10, i);
+    rg_pattern *p = pattern_of(&l);
+    const rg_diag *w;
+    const int32_t n = rg_pattern_warnings(p, &w);
+    int told = 0, more = 0;
+    for (int32_t i = 0; i < n; i++) {
+        told += strstr(w[i].text, "mountain and valley drawn on one line") != NULL;
+        if (strstr(w[i].text, "more lines are drawn as mountain and as valley")) more = atoi(w[i].text);
+    }
+    assert_true(told > 0 && more > 0);
+    assert_int_equal(told + more, DOUBLES);
+    rg_pattern_destroy(p);
+}
+
 /* A crease that ends short of the border: how far, and the tolerance that it tells does join it. */
 static void loose_ends(void **state)
 {
@@ -192,6 +213,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(one_of_several), cmocka_unit_test(loose_ends), cmocka_unit_test(slits_are_counted),
                                        cmocka_unit_test(numbers_stay),
-                                       cmocka_unit_test(size_is_that_of_the_sheet_taken), cmocka_unit_test(doubles_are_told_where_they_begin)};
+                                       cmocka_unit_test(size_is_that_of_the_sheet_taken), cmocka_unit_test(doubles_are_told_where_they_begin),
+                                       cmocka_unit_test(more_doubles_are_counted)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
