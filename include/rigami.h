@@ -294,8 +294,8 @@ RG_API rg_status rg_pattern_pin(rg_pattern *p, int32_t edge);
  * opposite assignments; creases are given by their far ends. */
 typedef struct rg_closed {
     int32_t vertex;            /* of the pattern */
-    double x, y;               /* where it is, file coordinates */
-    double a[2], c[2], b[2];   /* far ends of the creases, file coordinates */
+    double x, y;               /* where it is, y up; rg_pattern_own says where its file has it */
+    double a[2], c[2], b[2];   /* far ends of the creases, the same */
     double inside_angle;       /* radians: between c and whichever of a, b has the assignment opposite to c's */
 } rg_closed;
 
@@ -311,7 +311,7 @@ typedef enum rg_theorem {
 /* An interior vertex that cannot fold flat; it may be listed once for each theorem. */
 typedef struct rg_unfoldable {
     int32_t vertex;     /* of the pattern */
-    double x, y;        /* where it is, file coordinates */
+    double x, y;        /* where it is, y up; rg_pattern_own says where its file has it */
     rg_theorem theorem; /* RG_DEGREE: an odd number of creases */
     double by;          /* degrees for Kawasaki, |M - V| for Maekawa, the number of creases for the degree; big-little-big:
                          * degrees by which a sector between two creases folded the same way is smaller than both others;
@@ -490,7 +490,7 @@ typedef struct rg_report {
     const int32_t *state_frame;     /* [states_reached] the frame that is that state; borrowed */
     int32_t by_flat_count;          /* ways from one state to the next that went through flat paper, */
     const int32_t *by_flat;         /* and the states, from 1, that they begin at; borrowed */
-    int32_t tried_count;            /* what was tried, in its order, */
+    int32_t tried_count;            /* what was tried on the ladder, in its order, 64 of it at most, */
     const rg_try *tried;            /* borrowed; of a sequence of states: none */
     const rg_unfoldable *theorem;   /* a vertex that cannot be as it should, where that holds the motion; NULL: there is none */
     int32_t stages;                 /* it is folded in so many, one after the other, as nothing is free all at once; 0: at once */

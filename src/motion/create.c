@@ -20,6 +20,9 @@ static const double LOCKED = 1e-6, AT_LIMIT = 0.5 * RG_DEG;
 /* Of the work that a motion without contact, all at once, may cost: where there is one in stages. */
 static const double PART_WITH_STAGES = 0.4;
 
+/* A place is the same though it was computed in another way: a part of the sheet's size. */
+static const double SAME_VERTEX = 1e-9;
+
 /* Of the creases that are held short: how many are locked flat, how many vertices' creases are at half a turn. */
 static void count_held(const rg_motion *m, int32_t *locked, int32_t *at_limit)
 {
@@ -27,6 +30,27 @@ static void count_held(const rg_motion *m, int32_t *locked, int32_t *at_limit)
     *locked = *at_limit = 0;
     for (int32_t i = 0; i < m->report.blocking_crease_count; i++) *locked += fabs(rho[m->report.blocking_creases[i]]) <= LOCKED;
     for (int32_t i = 0; i < m->mesh.N - m->mesh.added; i++) *at_limit += fabs(rho[i]) >= RG_PI - AT_LIMIT;
+}
+
+/* A vertex that cannot be as it should: one that holds the fold, else any that misses its own targets, else any. Theorems of folding flat do
+ * not count where only a part of the way is asked for. */
+static void find_theorem(rg_motion *m, const rg_pattern *p)
+{
+    rg_report *r = &m->report;
+    const rg_unfoldable *found = NULL;
+    int best = 0;
+    for (int32_t i = 0; i < p->unfoldables; i++) {
+        const rg_unfoldable *u = &p->unfoldable[i];
+        int rank = u->theorem == RG_TARGETS ? 2 : fabs(m->settings.to) == 1 ? 1 : 0;
+        for (int32_t k = 0; rank > 0 && rank < 3 && k < r->blocking_vertex_count; k++) {
+            const rg_vec2 at = m->mesh.X[r->blocking_vertices[k]];
+            if (hypot(u->x - at.x, u->y - at.y) <= SAME_VERTEX * m->mesh.size) rank = 3;
+        }
+        if (rank > best) best = rank, found = u;
+    }
+    if (r->outcome != RG_STOPPED || !found) return;
+    m->theorem = *found;
+    r->theorem = &m->theorem;
 }
 
 /* Where and why the kept try is held, in words: the strongest vertex and what it is, the creases, what may help. */
@@ -44,7 +68,7 @@ static rg_status explain(rg_motion *m, const rg_pattern *p)
         creases += end[0] == r->blocking_vertices[0] || end[1] == r->blocking_vertices[0];
     }
     for (int32_t i = 0; i < p->closed_triples; i++)
-        closed |= hypot(p->closed[i].x - at.x, p->closed[i].y - at.y) <= 1e-9 * m->mesh.size;
+        closed |= hypot(p->closed[i].x - at.x, p->closed[i].y - at.y) <= SAME_VERTEX * m->mesh.size;
     count_held(m, &locked, &at_limit);
     const char *help = m->settings.triangulate == RG_TRIANGULATE_NONE ? "added creases may help"
                        : m->settings.adjust == 0                      ? "adjusting creases may help"
@@ -84,6 +108,11 @@ static rg_status adopt(rg_motion *m, rg_search *c)
     snprintf(r->strategy, sizeof r->strategy, "%s", c->strategy);
     rg_search_tell(m, c->tries, &c->cost);
 
+    m->tried = rg_mem_array(&m->mem, (size_t)c->tried_count, sizeof *m->tried);
+    if (!m->tried) return RG_ENOMEM;
+    memcpy(m->tried, c->tried, (size_t)c->tried_count * sizeof *m->tried);
+    r->tried = m->tried;
+    r->tried_count = c->tried_count;
     m->frame = rg_mem_array(&m->mem, (size_t)r->frame_count, sizeof *m->frame);
     m->blocking_at = rg_mem_array(&m->mem, (size_t)r->blocking_vertex_count, sizeof *m->blocking_at);
     if (!m->frame || !m->blocking_at) return RG_ENOMEM;
@@ -162,6 +191,7 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *given, rg_pro
         rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)settings->fixed_facet, (int)m->mesh.nf - 1);
     if (s == RG_OK) s = rg_measure_frames(m);
     if (s == RG_OK) s = rg_ending_find(m, why);
+    if (s == RG_OK && !watch.cancelled) find_theorem(m, p);
     if (s == RG_OK && !watch.cancelled) s = explain(m, p);
     if (s == RG_OK && r->pattern->creases == 0 && r->pattern->lost_creases > 0) {
         r->outcome = RG_STOPPED;

@@ -30,6 +30,8 @@ struct rg_motion {
     rg_vec2 *flat;         /* [report.frame_count][mesh.nv] the pattern of each frame; NULL: mesh.X in all of them */
     rg_vec3 *space;        /* [report.frame_count][mesh.nv] positions that were given and that plates do not reach; NULL: they do */
     rg_frame *frame;       /* [report.frame_count] */
+    rg_try *tried;         /* [report.tried_count] */
+    rg_unfoldable theorem; /* what the report's points to */
     rg_sheet sheet;        /* what is lent of the mesh */
     rg_pattern_info info;  /* of the pattern */
     int32_t *blocking_vertex, *blocking_crease;

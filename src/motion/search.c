@@ -67,6 +67,19 @@ void rg_search_tell(rg_motion *m, int32_t tries, const rg_cost *cost)
     r->constraints = 3 * m->mesh.M;
 }
 
+/* One try that counts. */
+static void note(rg_search *q, const char *name, int backwards, double compliance, int32_t symmetry, const rg_attempt *t)
+{
+    q->tries++;
+    rg_cost_add(&q->cost, &t->cost);
+    q->work += t->work;
+    if (q->tried_count == RG_MOST_TRIED) return;
+    rg_try *one = &q->tried[q->tried_count++];
+    *one = (rg_try){.rung = name, .direction = backwards ? "backward" : "forward", .compliance = compliance, .symmetry = symmetry,
+                    .added = t->mesh.added, .outcome = t->outcome, .percent = 100 * fmax(0, t->score), .seconds = t->cost.seconds};
+    snprintf(one->reason, sizeof one->reason, "%s", t->reason);
+}
+
 /* ------------------------------------------------------------------------------------------- which is better ---- */
 
 static int rank(const rg_attempt *t) { return t->outcome == RG_STOPPED ? 0 : t->overfold > OVERFOLD || t->strays > 0 ? 1 : 2; }
@@ -259,9 +272,8 @@ static rg_status climb(rg_search *q, ladder *l, rg_diag *why)
         const int32_t counted = done ? done : l->jobs; /* ended: what there is */
         for (int32_t j = 0; j < counted; j++) {
             if (!l->attempt[j].mem.resize) continue;
-            rg_cost_add(&q->cost, &l->attempt[j].cost);
-            q->work += l->attempt[j].work;
-            q->tries++;
+            const rung *r = &LADDER[l->job[j].rung];
+            note(q, r->name, r->backwards, r->relaxation.compliance, l->group[l->job[j].group].order, &l->attempt[j]);
             if (winner < 0 && (best < 0 || is_better(&l->attempt[j], &l->attempt[best]))) best = j;
         }
         if (winner >= 0) best = winner;
@@ -335,9 +347,7 @@ static rg_status retry(retries *R, int32_t *taken, rg_diag *why)
             *why = R->why[k];
         }
         if (counts && s == RG_OK) {
-            rg_cost_add(&q->cost, &R->t[k].cost);
-            q->work += R->t[k].work;
-            q->tries++;
+            note(q, R->r->name, R->r->backwards, R->how[k].compliance, R->l->group[q->group].order, &R->t[k]);
             if (is_retraction(R, &R->t[k])) {
                 rg_attempt_free(&q->best);
                 q->best = R->t[k];
@@ -507,8 +517,7 @@ static rg_status first_of_all(rg_search *q, ladder *l, int32_t **vertex, int32_t
     l->job[0] = (job){0, l->groups - 1};
     keep(q, l, 0);
     l->attempt = NULL;
-    q->tries = 1;
-    rg_cost_add(&q->cost, &q->best.cost);
+    note(q, LADDER->name, 0, 0, 1, &q->best);
     *vertices = q->best.vertices;
     *vertex = rg_mem_array(&mem, (size_t)*vertices, sizeof **vertex);
     if (*vertex) memcpy(*vertex, q->best.vertex, (size_t)*vertices * sizeof **vertex);

@@ -18,6 +18,9 @@ typedef struct rg_problem {
     int end_is_known;     /* non-zero: `to` closes, so that it may be looked for from there */
 } rg_problem;
 
+/* So many tries are told of; few searches make more. */
+enum { RG_MOST_TRIED = 64 };
+
 typedef struct rg_search {
     rg_attempt best;
     const char *triangulation, *why_triangulated;
@@ -28,6 +31,8 @@ typedef struct rg_search {
     int32_t tries;        /* rungs up to the one that is kept, and retractions */
     double work;          /* of all tries */
     rg_cost cost;         /* of all tries */
+    rg_try tried[RG_MOST_TRIED]; /* the first of them */
+    int32_t tried_count;
 } rg_search;
 
 /* RG_OK also when no attempt folds. Owner: the caller, rg_attempt_free of `best`, whose frames are not read off yet. */

@@ -147,6 +147,22 @@ static void search(rg_json *j, const rg_report *r)
     rg_json_string(j, "direction", r->direction ? r->direction : "");
     rg_json_integer(j, "tries", r->tries);
     rg_json_number(j, "seconds_of_winning_try", r->seconds_of_winning_try);
+    rg_json_open(j, "tried", '[');
+    for (int32_t k = 0; k < r->tried_count; k++) {
+        const rg_try *t = &r->tried[k];
+        rg_json_open_line(j, NULL, '{');
+        rg_json_string(j, "rung", t->rung);
+        rg_json_string(j, "direction", t->direction);
+        rg_json_number(j, "compliance", t->compliance);
+        rg_json_integer(j, "symmetry", t->symmetry);
+        rg_json_integer(j, "added_creases", t->added);
+        rg_json_string(j, "outcome", t->outcome == RG_FOLDED ? "folded" : t->outcome == RG_RESTS ? "rests" : "stopped");
+        rg_json_number(j, "percent", t->percent);
+        rg_json_number(j, "seconds", t->seconds);
+        rg_json_string(j, "reason", t->reason);
+        rg_json_close(j);
+    }
+    rg_json_close(j);
     rg_json_close(j);
 }
 
