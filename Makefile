@@ -93,6 +93,7 @@ core   := $(filter-out $(above:%=src/%/%),$(src))
 core_o := $(patsubst %.c,$B/%.o,$(filter-out $(gpl),$(core))) $(gpl:%.c=$B/core/%.o)
 cmd_o := $(cmd:%.c=$B/%.o)
 test_bin  := $(tests:%.c=$B/%)
+example_bin := $(patsubst %.c,$B/%,$(sort $(wildcard docs/examples/*/*.c)))
 bench_bin := $(bench:%.c=$B/%)
 
 # As many jobs as there are processors, unless the caller chose.
@@ -174,8 +175,8 @@ $B/tests/bench/%: $B/tests/bench/%.o $B/librigami.a
 	$(call say,link,$@)
 	$Q$(link) -o $@ $^ $(libs) $(LDLIBS)
 
-# What the embedder sees: the example knows nothing but rigami.h.
-$B/docs/example: $B/docs/example.o $B/librigami.a
+# What the embedder sees: the examples know nothing but rigami.h.
+$B/docs/examples/%: $B/docs/examples/%.o $B/librigami.a
 	$(call say,link,$@)
 	$Q$(link) -o $@ $^ $(libs) $(LDLIBS)
 
@@ -215,7 +216,7 @@ check:
 	@$(setup) check
 	@mkdir -p build
 	@$(if $(tested),,$(MAKE) --no-print-directory $(jobs) run-tests)
-	@for part in layers equations header docs werror install-check outputs without-gpl without-gl lint valgrind fuzz-smoke asan; do \
+	@for part in layers equations header docs werror install-check abi-check outputs without-gpl without-gl lint valgrind fuzz-smoke debian asan; do \
 	    echo "== $$part"; $(MAKE) --no-print-directory $(jobs) $$part >build/check.log 2>&1 || \
 	        { cat build/check.log; echo "check: $$part FAILED"; exit 1; }; \
 	    grep '^SKIPPED' build/check.log; tail -n 1 build/check.log; \
@@ -227,7 +228,7 @@ werror:
 	@$(MAKE) --no-print-directory CC=clang WERROR=1 everything
 	@echo "no warnings from gcc and clang"
 
-everything: build $(test_bin) $(bench_bin) $B/docs/example
+everything: build $(test_bin) $(bench_bin) $(example_bin)
 
 # Builds with a part left out, each asked to do what it still can.
 without-gpl: build
