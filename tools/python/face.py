@@ -34,8 +34,15 @@ def declarations(path):
     return text + "".join(f"static const double {name};\n" for name in constants)
 
 
+# What the library calls back, defined in rigami/__init__.py.
+CALLED = """
+extern "Python" int rigami_watch(void *, double);
+extern "Python" int rigami_take(void *, const void *, size_t);
+extern "Python" void rigami_warn(void *, const rg_diag *);
+"""
+
 builder = cffi.FFI()
-builder.cdef(declarations(header()))
+builder.cdef(declarations(header()) + CALLED)
 folders = [word[2:] for word in pkg_config("--libs-only-L")]
 builder.set_source("rigami._face", "#include <rigami.h>", libraries=["rigami"], library_dirs=folders,
                    runtime_library_dirs=folders, include_dirs=[os.path.dirname(header())])

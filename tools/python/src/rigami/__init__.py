@@ -86,8 +86,8 @@ def _made(kind, options):
     return _fill(struct, keep, options), keep
 
 
-@ffi.callback("int(void *, double)")
-def _watch(ctx, progress):
+@ffi.def_extern()
+def rigami_watch(ctx, progress):
     """What the library asks as it goes on: the caller's function, whose true answer or exception ends it."""
     box = ffi.from_handle(ctx)
     try:
@@ -101,15 +101,15 @@ class _Watched:
     def __init__(self, progress):
         self.box = {"progress": progress, "raised": None}
         self.handle = ffi.new_handle(self.box)
-        self.arguments = (_watch, self.handle) if progress else (ffi.NULL, ffi.NULL)
+        self.arguments = (lib.rigami_watch, self.handle) if progress else (ffi.NULL, ffi.NULL)
 
     def end(self):
         if self.box["raised"]:
             raise self.box["raised"]
 
 
-@ffi.callback("int(void *, const void *, size_t)")
-def _take(ctx, data, size):
+@ffi.def_extern(error=1)
+def rigami_take(ctx, data, size):
     ffi.from_handle(ctx).append(bytes(ffi.buffer(data, size)))
     return 0
 
@@ -118,7 +118,7 @@ def _written(call, *before, after=()):
     """The bytes that a writer gives to a sink."""
     parts = []
     handle = ffi.new_handle(parts)
-    sink = ffi.new("rg_sink *", {"write": _take, "ctx": handle})
+    sink = ffi.new("rg_sink *", {"write": lib.rigami_take, "ctx": handle})
     why = ffi.new("rg_diag *")
     _check(call(*before, sink, *after, why), why)
     return b"".join(parts)
@@ -529,14 +529,15 @@ class Tangent:
         return _view(out[0], (n[0], self.shape[1]), np.float64, self)
 
 
+@ffi.def_extern()
+def rigami_warn(ctx, warning):
+    ffi.from_handle(ctx).append(ffi.string(warning.text).decode())
+
+
 def convert(path, out, **options):
     """One crease pattern file to another; what the output cannot hold comes back as a list of texts. Options: of rg_reading."""
     told, reading = [], _made("rg_reading", options)
     why = ffi.new("rg_diag *")
-
-    @ffi.callback("void(void *, const rg_diag *)")
-    def warn(ctx, warning):
-        told.append(ffi.string(warning.text).decode())
-
-    _check(lib.rg_convert(str(path).encode(), str(out).encode(), lib.RG_FORMAT_AUTO, reading[0], warn, ffi.NULL, why), why)
+    handle = ffi.new_handle(told)
+    _check(lib.rg_convert(str(path).encode(), str(out).encode(), lib.RG_FORMAT_AUTO, reading[0], lib.rigami_warn, handle, why), why)
     return told
