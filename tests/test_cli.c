@@ -799,6 +799,47 @@ static void passing_through_itself_is_told(void **state)
     says(ends(2, run("fold", "through.opx", "--contact", "perhaps")), "rigami: --contact: ", "avoid, report or ignore");
 }
 
+/* A strip rolled up, on its creases as they are: panel after panel, which the summary says, -v and the report tell fold by fold. */
+static void stages_are_listed(void **state)
+{
+    (void)state;
+    const drawn strip[] = {{1, 0, 0, 4, 0}, {1, 4, 0, 4, 1}, {1, 4, 1, 0, 1}, {1, 0, 1, 0, 0}, {3, 1, 0, 1, 1}, {3, 2, 0, 2, 1}, {3, 3, 0, 3, 1}};
+    draw("strip.opx", strip, 7);
+    const ran *r = ends(0, run("fold", "strip.opx", "--adjust", "off", "-v", "--report", "strip.json", "-o", "strip.fold"));
+    assert_non_null(strstr(r->out, "strip.opx: folded in "));
+    assert_non_null(strstr(r->out, "  stages    1: "));
+    assert_non_null(strstr(r->out, "  stage 1   frames 0 to "));
+    assert_non_null(strstr(r->out, ": valley fold from ("));
+    json_t *report = json_load_file("strip.json", 0, NULL);
+    const json_t *stages = json_object_get(report, "stages"), *stage, *fold;
+    size_t i, k;
+    int creases[3] = {0, 0, 0}, frame = 0;
+    assert_true(json_array_size(stages) >= 2);
+    json_array_foreach(stages, i, stage) {
+        assert_string_equal(json_string_value(json_object_get(stage, "kind")), "simple folds");
+        assert_int_equal(json_integer_value(json_object_get(stage, "number")), i + 1);
+        assert_int_equal(json_integer_value(json_object_get(stage, "first_frame")), frame);
+        frame = (int)json_integer_value(json_object_get(stage, "last_frame"));
+        json_array_foreach(json_object_get(stage, "folds"), k, fold) {
+            const json_t *made = json_object_get(fold, "creases");
+            const char *way = json_string_value(json_object_get(fold, "fold"));
+            assert_true(strcmp(way, "valley") == 0 || strcmp(way, "mountain") == 0);
+            assert_int_equal(json_array_size(json_object_get(fold, "line")), 2);
+            for (size_t j = 0; j < json_array_size(made); j++) creases[json_integer_value(json_array_get(made, j))]++;
+        }
+    }
+    assert_int_equal(frame, 59);
+    for (int j = 0; j < 3; j++) assert_int_equal(creases[j], 1);
+    json_decref(report);
+    ends(0, run("verify", "strip.fold", "strip.opx"));
+    /* What goes at once has no stages. */
+    ends(0, run("fold", "good.opx", "-q", "--report", "strip.json"));
+    report = json_load_file("strip.json", 0, NULL);
+    assert_null(json_object_get(report, "stages"));
+    json_decref(report);
+    unlink("strip.fold");
+}
+
 /* What was folded freely is found to be a motion by its file alone; of what was not, frame and facets are said, a line each. */
 static void motions_are_verified(void **state)
 {
@@ -1021,7 +1062,7 @@ int main(void)
         cmocka_unit_test(help_names_every_option),
         cmocka_unit_test(examples_are_made),
         cmocka_unit_test(patterns_are_converted),
-        cmocka_unit_test(passing_through_itself_is_told),
+        cmocka_unit_test(passing_through_itself_is_told), cmocka_unit_test(stages_are_listed),
         cmocka_unit_test(motions_are_verified),
         cmocka_unit_test(the_report_has_what_is_promised),
         cmocka_unit_test(info_as_json_has_what_is_promised),

@@ -17,7 +17,7 @@ static const uint64_t MOST_OF_A_PART = 24;
 /* What is left is folded from its end, in the order that the simple folds go on from; or in any, where others may go on from that; or
  * as plainly as it goes. The first two may cost these parts of the work of the whole. */
 typedef enum way_to_fold { BY_NUMBER, ANY_ORDER, PLAIN } way_to_fold;
-static const double PART_OF_WORK[] = {0.3, 0.3};
+static const double PART_OF_WORK[] = {1, 0.3};
 /* ... and the last is for what has at most this part of the creases: of the whole it was tried, and crosses or stops. */
 static const double PART_FOR_PLAIN = 0.5;
 /* States in which the first stage is read off at least, evenly in the largest angle that turns: frames are some of them. */
