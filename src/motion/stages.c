@@ -24,6 +24,8 @@ static const double PART_FOR_PLAIN = 0.5;
 static const int32_t LEAST_READ = 121;
 /* A simple fold has half the frames that as much turning has otherwise: what turns about one line is known between them, too. */
 static const double A_SIMPLE_FOLD = RG_PI / 2;
+/* Facets put a vertex apart by this part of the sheet's size at most, in frames of the first stage. */
+static const double CLOSED = 1e-11;
 /* The first stage ends in its flat state, radians and parts of the sheet's size. */
 static const double AT_END = 1e-6;
 /* Of the drawing's size: points that are the same, in one drawing and in two. */
@@ -298,6 +300,29 @@ static rg_status comes_to(work *w, const rg_attempt *t, int *does)
     return s;
 }
 
+/* Frames that are read off a path between its states do not close as well everywhere; of many, those are left out. */
+static rg_status drop_open_frames(rg_attempt *t)
+{
+    const rg_mesh *m = &t->mesh;
+    const size_t N = (size_t)m->N, nv = (size_t)m->nv;
+    rg_tree tree = {0};
+    rg_place *place = rg_mem_array(&t->mem, (size_t)m->nf, sizeof *place);
+    const rg_status s = place ? rg_tree_init(m, -1, &tree) : RG_ENOMEM;
+    int32_t kept = 0;
+    for (int32_t k = 0; s == RG_OK && k < t->count; k++) {
+        const rg_vec2 *X = t->flat ? t->flat + (size_t)k * nv : m->X;
+        rg_pose_facets(m, X, &tree, t->rho + (size_t)k * N, place);
+        if (!(rg_pose_gap(X, &tree, place) <= CLOSED * m->size)) continue;
+        memmove(t->rho + (size_t)kept * N, t->rho + (size_t)k * N, N * sizeof *t->rho);
+        if (t->flat) memmove(t->flat + (size_t)kept * nv, t->flat + (size_t)k * nv, nv * sizeof *t->flat);
+        kept++;
+    }
+    if (s == RG_OK) t->count = kept;
+    if (tree.mem.resize) rg_tree_free(&tree);
+    rg_mem_free(&t->mem, place);
+    return s;
+}
+
 /* Is what was found folded, free, exactly on the pattern at its end, and, unless that is known, in the order that is needed? */
 static rg_status is_good(work *w, rg_search *c, int order_is_known, int *good)
 {
@@ -310,7 +335,8 @@ static rg_status is_good(work *w, rg_search *c, int order_is_known, int *good)
     read.pace = RG_PACE_STEADY;
     rg_status s = rg_unfolding_crosses(t, w->settings, &crossing);
     if (s == RG_OK && crossing < 0) s = rg_attempt_read(t, &read);
-    if (s != RG_OK || crossing >= 0) return s;
+    if (s == RG_OK && crossing < 0) s = drop_open_frames(t);
+    if (s != RG_OK || crossing >= 0 || t->count < LEAST_READ / 2) return s;
     const rg_mesh *m = &t->mesh;
     const double *rho = t->rho + (size_t)(t->count - 1) * (size_t)m->N;
     const rg_vec2 *X = t->flat ? t->flat + (size_t)(t->count - 1) * (size_t)m->nv : m->X;
