@@ -101,31 +101,6 @@ static rg_vec2 turning(const rg_linkage *P, int32_t f)
     return (rg_vec2){-d.y / squared, d.x / squared};
 }
 
-void rg_linkage_row(const rg_linkage *P, int32_t v, rg_vec3 c, double *row)
-{
-    const rg_freedom *F = &P->freedom;
-    const rg_vec3 p = P->p[v];
-    double *u = row + P->N;
-    for (int i = 0; i < 2; i++) {
-        const int32_t way = F->way[v][i];
-        if (way >= 0) u[way] += rg_vec3_dot(c, across(&P->place[P->own[v]].R, F->direction[way]));
-    }
-    for (int32_t f = P->own[v]; P->parent[f] >= 0; f = P->parent[f]) {
-        const rg_mat3 *R = &P->place[f].R, *under = &P->place[P->parent[f]].R;
-        const rg_vec3 moment = rg_vec3_cross(rg_vec3_sub(p, P->hinge[f]), c);
-        row[P->crease[f]] += rg_vec3_dot(P->axis[f], moment);
-        const double twist = rg_vec3_dot(rg_vec3_sub(under->c[2], R->c[2]), moment);
-        const rg_vec2 g = turning(P, f);
-        for (int i = 0; i < 2; i++) {
-            const int32_t a = F->way[P->ends[f][0]][i], b = F->way[P->ends[f][1]][i];
-            if (b >= 0) u[b] += twist * rg_vec2_dot(g, F->direction[b]);
-            if (a < 0) continue;
-            const rg_vec2 d = F->direction[a];
-            u[a] += rg_vec3_dot(c, rg_vec3_sub(across(under, d), across(R, d))) - twist * rg_vec2_dot(g, d);
-        }
-    }
-}
-
 static rg_vec2 pattern_step(const rg_linkage *P, const double *du, int32_t v)
 {
     rg_vec2 d = {0, 0};

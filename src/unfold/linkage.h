@@ -43,8 +43,6 @@ void rg_linkage_free(rg_linkage *P);
 void rg_linkage_put(rg_linkage *P, const double *z);
 /* Only positions: x[nv]. Leaves what rg_linkage_put made as it is. */
 void rg_linkage_positions(rg_linkage *P, const double *z, rg_vec3 *x);
-/* row[n] += derivative of c . p_v by z, at what was put last. */
-void rg_linkage_row(const rg_linkage *P, int32_t v, rg_vec3 c, double *row);
 /* dp[nv]: out, the derivative of p along dz[n]. */
 void rg_linkage_velocity(rg_linkage *P, const double *dz, rg_vec3 *dp);
 /* The least area of a facet at u, over its area in the pattern given; negative: one has turned over. */
