@@ -8,9 +8,10 @@
 #include <string.h>
 
 /* Work, multiplications, by effort: some 10 s of one core, and 10 minutes. A step costs as much as there is of a sheet, so one of
- * more triangles than these gets more, in proportion. */
+ * more triangles than these gets more, in proportion, but not more than what some thousand need, a minute. */
 static const double MOST_WORK[] = {0, 5e10, 3e12};
 static const int32_t TRIANGLES = 250;
+static const double MOST_TIMES = 4;
 
 /* What moving a vertex of the pattern by the shortest line at it counts, in radians of a crease, as in relax.h. */
 static const double GIVE = 1;
@@ -111,7 +112,7 @@ rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings 
     const rg_memory mem = rg_mem_default(s->memory);
     const double begun = rg_seconds();
     const int32_t triangles = none->facet_start[none->nf] - 2 * none->nf;
-    const double work = part * MOST_WORK[s->effort] * fmax(1, (double)triangles / TRIANGLES);
+    const double work = part * MOST_WORK[s->effort] * fmin(MOST_TIMES, fmax(1, (double)triangles / TRIANGLES));
     const rg_unfold_wish wish = {s->to < 0 ? -1 : 1, s->layer_order, 0, work, stop, watch};
     rg_unfold u;
     rg_attempt t = {0};
