@@ -49,7 +49,8 @@ core_libs := -lcamd -lsuitesparseconfig -lpthread -lm
 libs     := $(shell pkg-config --libs $(pkgs) 2>/dev/null) -lgif -ldl $(core_libs)
 ifeq ($(GPL),1)
 cppflags += -DRG_GPL=1
-libs     := -lspqr -lcholmod -lgsl -lgslcblas $(libs)
+# GSL's own BLAS, and not one that CHOLMOD may bring: the sums of that depend on the machine. So it is kept though nothing of ours calls it.
+libs     := -lspqr -lcholmod -lgsl -Wl,--push-state,--no-as-needed -lgslcblas -Wl,--pop-state $(libs)
 endif
 ifeq ($(WERROR),1)
 cflags   += -Werror

@@ -771,6 +771,7 @@ typedef struct rg_picture {
     rg_loop loop;                    /* of animations: there and back for ever, forwards for ever, or once; back */
     rg_progress progress;            /* asked while it is written or drawn, RG_ECANCELLED where it ends it; NULL: nobody */
     void *progress_ctx;              /* handed on to it */
+    int resume;                      /* non-zero: numbered pictures that are there, of the same motion drawn the same way, are kept; 0 */
 } rg_picture;
 
 /* size: sizeof(rg_picture) of the caller. */
@@ -792,6 +793,9 @@ RG_API rg_status rg_fold_draw(const rg_fold *f, const rg_picture *p, unsigned ch
  * not: RG_EARG for an unknown form, RG_EABSENT for films where the program ffmpeg is missing. The forms are those of
  * docs/outputs.md; "-" is none of them, as nothing says what to write there. */
 RG_API rg_status rg_output_check(const char *path, rg_diag *why);
+/* Removes the temporary files that programs which were killed have left of outputs to this path, as every writer does before it begins:
+ * of this user's only, and only what no living process is at. `mine` non-zero: those of this process instead, for one that ends itself. */
+RG_API void rg_output_sweep(const char *path, int mine);
 /* Writes the motion in the form that the path's shape and extension ask for; each file is written to a temporary name
  * and renamed. `picture` NULL: the default. RG_EWRITE: why->text says what and why. */
 RG_API rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_picture *picture, rg_diag *why);

@@ -179,7 +179,7 @@ static void the_order_is_that_of_the_motion(void **state)
         rg_diag why = {0, ""};
         rg_lines lines = strip(3, even, "VV", 2.385);
         rg_motion *m = motion_by(&lines, 31, from_one_end, &right);
-        assert_int_equal(rg_ending_find(m, &why), RG_OK);
+        assert_int_equal(rg_ending_find(m, NULL, &why), RG_OK);
         assert_string_equal(m->report.layer_orders, "2");
         const rg_layers *l = rg_ending_layers(m, 30);
         assert_non_null(l);

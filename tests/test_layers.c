@@ -347,7 +347,7 @@ static void reasons(void **state)
             for (int32_t j = 0; j < m.N; j++) angle[j] = m.target[m.crease_edge[j]] *= j == wrong ? -1 : 1;
             rg_layers *l = NULL;
             rg_layers_info info;
-            assert_int_equal(rg_layers_of_mesh(&m, angle, 0, &mem, &l, &why), RG_OK);
+            assert_int_equal(rg_layers_of_mesh(&m, angle, 0, &mem, NULL, &l, &why), RG_OK);
             info = *rg_layers_get_info(l);
             assert_int_equal(info.state, RG_LAYERS_NONE); /* Maekawa does not hold where the crease ends */
             assert_in_range(info.where_count, 2, 8);
@@ -577,7 +577,7 @@ static void moved_and_triangulated(void **state)
     double *angle = calloc((size_t)cut.N, sizeof *angle);
     for (int32_t i = 0; i < cut.N; i++) angle[i] = cut.target[cut.crease_edge[i]];
     rg_layers *t = NULL;
-    assert_int_equal(rg_layers_of_mesh(&cut, angle, 0, &mem, &t, &why), RG_OK);
+    assert_int_equal(rg_layers_of_mesh(&cut, angle, 0, &mem, NULL, &t, &why), RG_OK);
     same = *rg_layers_get_info(t);
     assert_int_equal(same.facets, info.facets);
     assert_int_equal(same.pairs, info.pairs);

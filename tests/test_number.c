@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <float.h>
 #include <locale.h>
 #include <math.h>
 #include <stdio.h>
@@ -47,10 +48,40 @@ static void the_longest_number_is_read(void **state)
     double v;
     assert_int_equal(rg_number_scan("12345", 3, &v), 3); /* no further than it may */
     near(v, 123, 0);
-    char digits[600];
-    memset(digits, '1', sizeof digits);
-    assert_int_equal(rg_number_scan(digits, 400, &v), 400);
-    assert_int_equal(rg_number_scan(digits, 401, &v), 0);
+}
+
+/* However many digits, it is the nearest double: the C library is the judge, in its own locale. */
+static void numbers_of_any_length(void **state)
+{
+    (void)state;
+    enum { LONGEST = 3000 };
+    char text[LONGEST + 40];
+    double v;
+    unsigned seed = 3;
+    for (int k = 0; k < 2000; k++) {
+        const int n = 1 + (int)(LONGEST * fabs(noise(&seed))), point = k % 3 ? (int)(n * fabs(noise(&seed))) : -1, zeros = k % 5 ? 0 : n / 2;
+        int at = k % 2;
+        if (at) text[0] = '-';
+        for (int i = 0; i < n; i++) {
+            if (i == point) text[at++] = '.';
+            text[at++] = i < zeros ? '0' : (char)('0' + (int)(9.99 * fabs(noise(&seed))));
+        }
+        if (k % 4 == 0) at += sprintf(text + at, "e%d", (int)(n * noise(&seed)));
+        text[at] = 0;
+        const double value = strtod(text, NULL);
+        assert_int_equal(rg_number_scan(text, (size_t)at, &v), at);
+        if (isinf(value)) assert_true(v == value);
+        else near(v, value, 0);
+    }
+    /* Half-way between 1 and the next double, and a trifle more, after 800 digits. */
+    int at = sprintf(text, "1.00000000000000011102230246251565404236316680908203125");
+    memset(text + at, '0', 800);
+    strcpy(text + at + 800, "1");
+    assert_int_equal(rg_number_scan(text, strlen(text), &v), strlen(text));
+    assert_true(v == 1 + DBL_EPSILON);
+    text[at + 800] = '0';
+    assert_int_equal(rg_number_scan(text, strlen(text), &v), strlen(text));
+    assert_true(v == 1);
 }
 
 static void whole_texts(void **state)
@@ -164,7 +195,7 @@ static void a_decimal_comma_changes_nothing(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_longest_number_is_read), cmocka_unit_test(whole_texts),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_longest_number_is_read), cmocka_unit_test(numbers_of_any_length), cmocka_unit_test(whole_texts),
                                        cmocka_unit_test(numbers_come_back),
                                        cmocka_unit_test(numbers_are_short), cmocka_unit_test(a_decimal_comma_changes_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);

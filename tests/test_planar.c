@@ -615,6 +615,47 @@ static void too_many_in_one_place(void **state)
     rg_lines_free(&l);
 }
 
+/* An allocator that knows how much is out, and how much was at the most. */
+typedef struct weighed { size_t out, most; } weighed;
+
+static void *weigh(void *ctx, void *block, size_t bytes)
+{
+    enum { HEAD = 16 };
+    weighed *w = ctx;
+    char *from = block ? (char *)block - HEAD : NULL;
+    size_t was = 0;
+    if (from) memcpy(&was, from, sizeof was);
+    w->out += bytes - was;
+    if (w->out > w->most) w->most = w->out;
+    if (bytes == 0) return free(from), NULL;
+    char *to = realloc(from, bytes + HEAD);
+    assert_non_null(to);
+    memcpy(to, &bytes, sizeof bytes);
+    return to + HEAD;
+}
+
+/* Billions of crossings are seen to come: nothing is kept of them. */
+static void crossings_are_guessed_before_they_are_kept(void **state)
+{
+    (void)state;
+    enum { LONG = 100000 };
+    weighed w = {0, 0};
+    const rg_memory mem = {weigh, &w};
+    rg_lines l;
+    rg_graph g;
+    rg_diag why = {0, ""};
+    unsigned seed = 11;
+    rg_lines_init(&l, &mem);
+    for (int i = 0; i < LONG; i++) draw(&l, RG_UNASSIGNED, noise(&seed), -1, noise(&seed), 1);
+    const size_t drawn = w.out;
+    assert_int_equal(rg_planar_from_all_lines(&l, 1e-9, &g, &why), RG_EFORMAT);
+    assert_non_null(strstr(why.text, "too many crossings"));
+    assert_true(w.most < drawn + 1000 * LONG);
+    rg_graph_free(&g);
+    rg_lines_free(&l);
+    assert_int_equal(w.out, 0);
+}
+
 static void what_is_left_out_is_said(void **state)
 {
     (void)state;
@@ -716,6 +757,7 @@ int main(void)
         cmocka_unit_test(doubles_by_rank),
         cmocka_unit_test(lines_nested_in_one),
         cmocka_unit_test(too_many_in_one_place),
+        cmocka_unit_test(crossings_are_guessed_before_they_are_kept),
         cmocka_unit_test(what_is_left_out_is_said),
         cmocka_unit_test(faults_do_not_flood),
         cmocka_unit_test(no_lines_and_hopeless_ones),

@@ -11,12 +11,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#if defined(__linux__)
+#include <sys/prctl.h>
+#endif
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
 enum { ROOM = 4096, ROW = 2048 };
+/* Seconds that are left for the table when the files that are being folded have been interrupted. */
+#define TO_BURY 0.2
 
 /* The columns; where the program reads them again, their places. */
 enum { EXIT = 3, OUTCOME = 4, PERCENT = 5, MOVED = 18, SECONDS = 21, CONTACT = 23, CROSSES_FROM = 24, VERIFY = 29, REASON = 30 };
@@ -158,6 +163,11 @@ static int child(const options *o, const char *folder, const task *t, int thread
         snprintf(form[i], sizeof form[i], "%s/%s.%s", folder, t->name, o->form[i]);
         output[i] = form[i];
     }
+    interrupt_init();
+#if defined(__linux__)
+    prctl(PR_SET_PDEATHSIG, SIGTERM); /* whatever ends the batch ends its parts */
+#endif
+    interrupt_outputs(&one);
     if (!freopen(log, "w", stderr) || !freopen(log, "a", stdout)) return ENDS_UNWRITTEN;
     setvbuf(stderr, NULL, _IOLBF, 0);
     one.operand = (const char *[]){t->file};
@@ -219,7 +229,7 @@ static int bury(const options *o, const char *folder, const task *t, int status)
 }
 
 typedef struct turn { int32_t creases; int task; } turn;
-typedef struct pool { pid_t *pid; int *task; turn *order; int jobs, running, threads; } pool;
+typedef struct pool { pid_t *pid; int *task; turn *order; int jobs, running, threads, told; } pool;
 
 /* Those with most creases first: a long one that begins last is waited for by idle processors. */
 static int by_creases(const void *a, const void *b)
@@ -268,12 +278,16 @@ static int start(const options *o, const char *folder, const tasks *q, int i, po
     return ENDS_WELL;
 }
 
-/* Waits for one to end; its task, -1: none. */
+/* Waits for one to end; its task, -1: none. An interrupt is passed on once. */
 static int await(pool *p, int *status)
 {
+    static const struct timespec between = {0, 10000000};
     for (pid_t pid; p->running > 0;) {
-        pid = wait(status);
-        if (pid < 0 && errno == EINTR) continue;
+        if (interrupt_came() && !p->told)
+            for (int k = p->told = 1; k <= p->running; k++) kill(p->pid[k - 1], SIGTERM);
+        pid = waitpid(-1, status, WNOHANG);
+        if (pid == 0) nanosleep(&between, NULL);
+        if (pid == 0 || (pid < 0 && errno == EINTR)) continue;
         if (pid < 0) return -1;
         for (int k = 0; k < p->running; k++) {
             if (p->pid[k] != pid) continue;
@@ -292,7 +306,7 @@ static int run_all(const options *o, const char *folder, const tasks *q)
     pool p;
     int done = 0, next = 0, worst = pool_init(&p, o, q);
     char text[ROW];
-    interrupt_hold();
+    interrupt_hold(INTERRUPT_GRACE + TO_BURY);
     while (worst != ENDS_UNWRITTEN && (next < q->count || p.running > 0)) {
         for (; next < q->count && p.running < p.jobs && !interrupt_came() && worst != ENDS_UNWRITTEN; next++) {
             const int i = p.order[next].task;

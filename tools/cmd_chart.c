@@ -55,8 +55,9 @@ int cmd_chart(const options *o)
     int status = input_read(o, 0, &p);
     if (status != ENDS_WELL) return status;
     name_of(o->operand[0], name, sizeof name);
-    interrupt_hold();
+    interrupt_hold(INTERRUPT_GRACE);
     const rg_status s = rg_chart_create(p, &o->settings, progress_show, &bar, &c, &why);
+    interrupt_release();
     progress_erase(&bar);
     if (s != RG_OK) status = say_status(s, o->operand[0], &why);
     if (status == ENDS_WELL && o->outputs) status = write_all(c, name, o->output[0]);

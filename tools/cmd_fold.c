@@ -140,9 +140,10 @@ static int fold_states(const options *o, const states *q, progress *bar, rg_moti
         free(driven);
         return aimed;
     }
-    interrupt_hold();
+    interrupt_hold(INTERRUPT_GRACE);
     rg_status s = count > 0 ? rg_motion_create_driven(q->pattern[0], count, driven, &o->settings, progress_show, bar, m, &why)
                             : rg_motion_create_states((const rg_pattern *const *)q->pattern, q->count, &o->settings, progress_show, bar, m, &why);
+    interrupt_release();
     progress_erase(bar);
     free(driven);
     if (s == RG_OK) return ENDS_WELL;
@@ -177,7 +178,7 @@ int fold_one(const options *o, fold_seen seen, void *ctx)
             say("%s: it ends on a pattern moved by %.2g %% of the sheet, as it does not close as it was drawn; rigami info says where", name,
                 100 * r->moved_at_end);
         if (!stopped && r->contact == RG_CONTACT_CROSSES) say_contact(name, r);
-        if (status == ENDS_WELL && (stopped || elsewhere || r->contact == RG_CONTACT_CROSSES)) status = ENDS_SHORT;
+        if (status == ENDS_WELL && (stopped || elsewhere || interrupt_came() || r->contact == RG_CONTACT_CROSSES)) status = ENDS_SHORT;
         if (seen) seen(ctx, m, status);
     }
     rg_motion_destroy(m);

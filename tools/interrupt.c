@@ -1,23 +1,147 @@
+#define _GNU_SOURCE /* pipe2 */
 #include "interrupt.h"
+#include "progress.h"
 #include "say.h"
 
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <math.h>
+#include <poll.h>
+#include <pthread.h>
 #include <signal.h>
+#include <stdatomic.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-static volatile sig_atomic_t held, came;
+enum { WATCHER_STACK = 256 * 1024 };
+enum { NOTHING, AT_ONCE, WITH_GRACE, SET_TIME }; /* what wakes the watcher: a signal, with the phase that it came in, or a time */
+/* Seconds, and part of the time allowed, that folding may take to find out that it is over: more is a solve that cannot be asked. */
+static const double TO_FIND_OUT = 2, PART_TO_FIND_OUT = 0.1;
+
+static atomic_int signals;              /* that came */
+static int wake[2] = {-1, -1};          /* a byte a signal */
+static int has_watcher;
+enum { READING, HELD, WRITING };         /* ends at once; has its grace; ends at once, but not because it is time */
+static atomic_int phase, time_is_up;
+static _Atomic double grace, time_allowed, end_at; /* end_at: progress_seconds(), 0: never */
+static _Atomic(const options *) outputs;
+static _Atomic(const char *) doing;
+
+/* ---------------------------------------------------------------------------------------------- the end ---- */
+
+/* Standard error may be a pipe that nobody reads. */
+static void say_last(const char *why)
+{
+    char line[PATH_MAX + 200];
+    struct pollfd err = {.fd = STDERR_FILENO, .events = POLLOUT};
+    const char *what = doing;
+    const int n = snprintf(line, sizeof line, "rigami: %s%s%s%s\n", why, what ? ": " : "", what ? what : "", what ? " is not written" : "");
+    for (char *c = line; *c && c[1]; c++)
+        if ((unsigned char)*c < 32 || *c == 127) *c = '?';
+    if (poll(&err, 1, 0) > 0 && write(STDERR_FILENO, line, (size_t)n) < 0) return;
+}
+
+static void end(const char *why)
+{
+    const options *o = outputs;
+    for (int i = 0; o && i < o->outputs; i++) rg_output_sweep(o->output[i], 1);
+    if (o && o->report) rg_output_sweep(o->report, 1);
+    say_last(why);
+    _exit(ENDS_SHORT);
+}
+
+/* Milliseconds until that time; -1: for ever. */
+static int until(double time)
+{
+    return !(time > 0) ? -1 : (int)fmin(INT_MAX, fmax(0, ceil(1000 * (time - progress_seconds()))));
+}
+
+/* Waits for a signal. AT_ONCE, WITH_GRACE; NOTHING: none came before that time. */
+static int wait_for_signal(double time)
+{
+    struct pollfd awake = {.fd = wake[0], .events = POLLIN};
+    char byte;
+    for (;;) {
+        const int ready = poll(&awake, 1, until(time));
+        if (ready > 0 && read(wake[0], &byte, 1) == 1) {
+            if (byte != SET_TIME) return byte;
+            time = end_at;
+        }
+        if (ready == 0 && time > 0 && progress_seconds() >= time) return NOTHING;
+    }
+}
+
+static void end_in_time(void)
+{
+    char why[80];
+    snprintf(why, sizeof why, "not done within %g seconds", time_allowed);
+    end_at = 0;
+    if (phase == READING) end(why);
+    if (phase == WRITING) return;
+    time_is_up = 1;
+    if (wait_for_signal(progress_seconds() + fmax(TO_FIND_OUT, PART_TO_FIND_OUT * time_allowed))) end("interrupted");
+    if (phase == HELD) end(why); /* else what there is is being written */
+}
+
+static void *watch(void *unused)
+{
+    (void)unused;
+    int what;
+    while ((what = wait_for_signal(end_at)) == NOTHING) end_in_time();
+    if (what == WITH_GRACE) wait_for_signal(progress_seconds() + grace);
+    end("interrupted");
+    return NULL;
+}
+
+/* ---------------------------------------------------------------------------------------------- signals ---- */
 
 static void on_signal(int number)
 {
+    const int error = errno;
     (void)number;
-    if (!held || came) _exit(ENDS_SHORT);
-    came = 1;
+    signals++;
+    /* With no thread to be had, it is the second one that ends what is held. */
+    if (!has_watcher && (phase != HELD || signals > 1)) _exit(ENDS_SHORT);
+    if (has_watcher && write(wake[1], &(char){phase == HELD ? WITH_GRACE : AT_ONCE}, 1) < 0) _exit(ENDS_SHORT);
+    errno = error;
+}
+
+/* Signals are left to the thread of the program. */
+static int make_watcher(void)
+{
+    sigset_t all, before;
+    pthread_attr_t attributes;
+    pthread_t thread;
+    if (pthread_attr_init(&attributes) != 0) return 0;
+    pthread_attr_setstacksize(&attributes, WATCHER_STACK);
+    pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    const int made = pthread_create(&thread, &attributes, watch, NULL) == 0;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    pthread_attr_destroy(&attributes);
+    return made;
 }
 
 void interrupt_init(void)
 {
     static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
     struct sigaction act, was;
+    sigset_t ours, before;
+    sigemptyset(&ours);
+    for (int i = 0; i < 3; i++) sigaddset(&ours, numbers[i]);
+    pthread_sigmask(SIG_BLOCK, &ours, &before);
+    for (int k = 0; k < 2; k++)
+        if (wake[k] >= 0) close(wake[k]);
+    signals = 0;
+    time_is_up = 0;
+    phase = READING;
+    end_at = 0;
+    outputs = NULL;
+    doing = NULL;
+    has_watcher = pipe2(wake, O_CLOEXEC) == 0 && make_watcher();
     memset(&act, 0, sizeof act);
     act.sa_handler = SIG_IGN;
     sigaction(SIGPIPE, &act, NULL);
@@ -26,8 +150,27 @@ void interrupt_init(void)
     act.sa_flags = SA_RESTART; /* so that what is being written is written */
     for (int i = 0; i < 3; i++)
         if (sigaction(numbers[i], NULL, &was) == 0 && was.sa_handler != SIG_IGN) sigaction(numbers[i], &act, NULL);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
 
-void interrupt_hold(void) { held = 1; }
+void interrupt_outputs(const options *o) { outputs = o; }
 
-int interrupt_came(void) { return came; }
+void interrupt_hold(double seconds)
+{
+    grace = seconds;
+    phase = HELD;
+}
+
+void interrupt_release(void) { phase = WRITING; }
+void interrupt_doing(const char *what) { doing = what; }
+
+/* Called before anything else is going on: the thread is waked so that it looks at the clock. */
+void interrupt_after(double seconds)
+{
+    time_allowed = seconds;
+    end_at = progress_seconds() + seconds;
+    if (has_watcher && write(wake[1], &(char){SET_TIME}, 1) < 0) has_watcher = 0;
+}
+
+int interrupt_came(void) { return signals > 0 || time_is_up; }
+int interrupt_time_is_up(void) { return time_is_up; }

@@ -3,6 +3,7 @@
 #include "say.h"
 
 #include <getopt.h>
+#include <locale.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -125,6 +126,8 @@ static const rule rules[] = {
     {PICTURES, "caption", 0, NULL, SWITCH, AT(picture.caption), 1, 0, 1, NULL, "pictures: title and percent at their lower edge"},
     {PICTURES, "image", 0, "FILE", TEXT, AT(picture.image), NOTHING, "pictures, .html, .glb, .gltf: a PNG printed on the paper's front"},
     {PICTURES, "colour", 0, "BY", CHOICE, AT(colour), 0, 0, 1, colourings, "pictures: what the colours of facets tell (paper):"},
+    {PICTURES, "resume", 0, NULL, SWITCH, AT(picture.resume), 1, 0, 1, NULL,
+     "DIR/, NAME-%04d.png: go on where the same command was interrupted; frames that are there are not drawn again"},
     {PICTURES, "thickness", 0, "T", REAL, AT(picture.thickness), 0, 1e9, 1, NULL,
      ".stl: plates so thick, in units of the file, joined at the creases: one closed solid to print (0: a surface)"},
     {READS | FOR_DRAW, "unit", 0, "UNIT", CHOICE, AT(unit), 0, 0, 1, units,
@@ -143,6 +146,9 @@ static const rule rules[] = {
     {FOR_BATCH, "fresh", 0, NULL, SWITCH, AT(fresh), 1, 0, 1, NULL, "do not go on from what DIR has"},
     {FOR_INFO | FOR_VERIFY, "json", 0, NULL, SWITCH, AT(json), 1, 0, 1, NULL, "print one JSON object instead of text"},
     {FOR_GEN, "angle", 0, "DEG", ABOVE, AT(angle), 0, 180, DEG, NULL, "the kind's angle, degrees (its own)"},
+    {EVERY, "max-seconds", 0, "SEC", REAL, AT(seconds), 0.001, 1e9, 1, NULL,
+     "end after so long, as if interrupted: what there is then is written (any)"},
+    {EVERY, "max-memory", 0, "MB", REAL, AT(megabytes), 1, 1e9, 1, NULL, "do with so much address space (any)"},
     {FOR_FOLD | FOR_INFO, "verbose", 'v', NULL, SWITCH, AT(verbose), 1, 0, 1, NULL, "everything that is known, with lists"},
     {EVERY, "quiet", 'q', NULL, SWITCH, AT(quiet), 1, 0, 1, NULL, "no warnings, no summary, no progress"},
     {FOR_FOLD | FOR_CHART | FOR_DRAW, "progress", 0, NULL, SWITCH, AT(progress), 1, 0, 1, NULL,
@@ -155,14 +161,21 @@ enum { RULES = sizeof rules / sizeof *rules };
 
 /* ------------------------------------------------------------------------------------------------ values ---- */
 
+enum { LONGEST_NUMBER = 100 };
+
 /* A decimal number and nothing else: no blanks, no hexadecimal, no infinity. Stops at the byte after it. */
 static int number(const char *text, double *value, const char **end)
 {
     const size_t n = strspn(text, "0123456789+-.eE");
-    char *stop;
-    *value = strtod(text, &stop);
-    *end = stop;
-    return n > 0 && stop == text + n && isfinite(*value);
+    const char *point = memchr(text, '.', n), *sign = localeconv()->decimal_point; /* whoever may have set one */
+    char copy[LONGEST_NUMBER + 20], *stop;
+    *end = text;
+    if (n == 0 || n > LONGEST_NUMBER || strlen(sign) > 16) return 0;
+    const int before = (int)(point ? point - text : (ptrdiff_t)n);
+    snprintf(copy, sizeof copy, "%.*s%s%.*s", before, text, point ? sign : "", point ? (int)n - before - 1 : 0, point ? point + 1 : "");
+    *value = strtod(copy, &stop);
+    *end = text + n;
+    return *stop == 0 && isfinite(*value);
 }
 
 static int whole_text(const char *text, double *value)

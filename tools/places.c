@@ -1,4 +1,5 @@
 #include "places.h"
+#include "interrupt.h"
 #include "say.h"
 
 #include <errno.h>
@@ -10,10 +11,33 @@
 
 /* ------------------------------------------------------------------------------------ before it starts ---- */
 
+/* What comes after the last slash but one at its end; its length without that. */
+static const char *last_part(const char *path, size_t *length)
+{
+    size_t n = strlen(path), from;
+    while (n > 1 && path[n - 1] == '/') n--;
+    for (from = n; from > 0 && path[from - 1] != '/';) from--;
+    *length = n - from;
+    return path + from;
+}
+
+/* Of files that are not there yet: one name in one folder, however that is called. */
+static int same_place(const char *a, const char *b)
+{
+    struct stat is, other;
+    size_t n, m;
+    const char *name = last_part(a, &n), *its = last_part(b, &m);
+    char folder[2][4096];
+    if (n != m || memcmp(name, its, n) != 0 || strcmp(a, "-") == 0 || strcmp(b, "-") == 0) return 0;
+    snprintf(folder[0], sizeof folder[0], "%.*s%s", (int)(name - a), a, name == a ? "." : "");
+    snprintf(folder[1], sizeof folder[1], "%.*s%s", (int)(its - b), b, its == b ? "." : "");
+    return stat(folder[0], &is) == 0 && stat(folder[1], &other) == 0 && is.st_dev == other.st_dev && is.st_ino == other.st_ino;
+}
+
 static int same_file(const char *a, const char *b)
 {
     struct stat is, other;
-    if (strcmp(a, b) == 0) return 1;
+    if (strcmp(a, b) == 0 || same_place(a, b)) return 1;
     return stat(a, &is) == 0 && stat(b, &other) == 0 && is.st_dev == other.st_dev && is.st_ino == other.st_ino &&
            S_ISREG(is.st_mode);
 }
@@ -33,6 +57,8 @@ static int check_alone(const options *o, const char *name, int outputs)
     }
     return ENDS_WELL;
 }
+
+int places_check_alone(const options *o, const char *output) { return check_alone(o, output, 0); }
 
 /* What can be known now of a file that is to be written; folders, dir/, are their writer's. */
 static int check_place(const char *name)
@@ -99,14 +125,17 @@ int places_write(const options *o, const rg_motion *m, progress *bar)
     for (int i = 0; i < o->outputs; i++) {
         why = (rg_diag){0, ""};
         progress_say(bar, "writing", o->output[i]);
+        interrupt_doing(o->output[i]);
         s = rg_motion_write(m, o->output[i], &picture, &why);
         progress_erase(bar);
         if (s != RG_OK) say_status(s, o->output[i], &why), status = ENDS_UNWRITTEN;
     }
+    interrupt_doing(o->report);
     if (!o->report) return status;
     why = (rg_diag){0, ""};
     s = rg_report_write(m, progress_seconds() - from, peak_bytes(), o->report, &why);
     if (s != RG_OK) say_status(s, NULL, &why), status = ENDS_UNWRITTEN;
+    interrupt_doing(NULL);
     return status;
 }
 

@@ -6,6 +6,8 @@
 #include "options.h"
 #include "progress.h"
 
+/* Of an output: that it is no input. Returns an exit status; what is wrong has been said. */
+int places_check_alone(const options *o, const char *output);
 /* Both return an exit status; what is wrong has been said. */
 int places_check(const options *o);
 /* All outputs are tried, whatever becomes of one; the report comes last, as it tells how long they took. */

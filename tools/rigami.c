@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #define STATUSES                                                                              \
@@ -106,6 +107,20 @@ static void tell_command(const command *c)
     if (c->bit == FOR_GEN) list_kinds();
 }
 
+/* What the command may take of time and of address space. */
+static int limit(const options *o)
+{
+    struct rlimit r;
+    if (o->seconds > 0) interrupt_after(o->seconds);
+    if (!(o->megabytes > 0) || getrlimit(RLIMIT_AS, &r) != 0) return ENDS_WELL;
+    const double bytes = o->megabytes * 1e6;
+    if (r.rlim_max != RLIM_INFINITY && bytes > (double)r.rlim_max) return ENDS_WELL; /* it is no more as it is */
+    r.rlim_cur = (rlim_t)bytes;
+    if (setrlimit(RLIMIT_AS, &r) == 0) return ENDS_WELL;
+    say("--max-memory: %s", strerror(errno));
+    return ENDS_USAGE;
+}
+
 static int run(const command *c, int argc, char **argv)
 {
     options o;
@@ -115,7 +130,10 @@ static int run(const command *c, int argc, char **argv)
     } else if (status == ENDS_WELL && o.version) {
         printf("rigami %s\n", rg_version());
     } else if (status == ENDS_WELL) {
-        status = c->run(&o);
+        status = limit(&o);
+        interrupt_outputs(&o);
+        if (status == ENDS_WELL) status = c->run(&o);
+        interrupt_outputs(NULL);
     }
     options_free(&o);
     return status;

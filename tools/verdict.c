@@ -64,7 +64,8 @@ static void because(const options *o, const rg_pattern *p, const rg_report *r, c
 {
     const rg_unfoldable *u = culprit(o, p, r);
     if (interrupt_came()) {
-        snprintf(why, TEXT, "interrupted");
+        if (interrupt_time_is_up()) snprintf(why, TEXT, "the %g seconds that it may take are over", o->seconds);
+        else snprintf(why, TEXT, "interrupted");
         next[0] = 0;
     } else if (r->pattern->creases == 0 && r->pattern->lost_creases > 0) {
         snprintf(why, TEXT, "%s", r->reason);

@@ -21,6 +21,48 @@ static size_t digits(const char *s, size_t n)
     return i;
 }
 
+/* As many digits tell every double from every other and from what lies half-way between two: the rest only says whether it is more. */
+enum { TELLING = 770 };
+static const long BEYOND = 1000000; /* exponents that are all the same to a double */
+
+static long exponent_of(const char *s, size_t n)
+{
+    const int back = n > 0 && *s == '-';
+    long e = 0;
+    for (size_t i = n > 0 && (*s == '-' || *s == '+'); i < n && e < BEYOND; i++) e = 10 * e + (s[i] - '0');
+    return back ? -e : e;
+}
+
+/* A number of any length, all of s[0 ... n-1]: its first digits and an exponent say the same. */
+static size_t read_long(const char *s, size_t n, double *value)
+{
+    char copy[TELLING + RG_NUMBER_ROOM], *to = copy;
+    size_t i = *s == '-' || *s == '+';
+    int kept = 0, more = 0, behind = 0;
+    double tens = 0; /* the kept digits are to be multiplied with so many */
+    if (*s == '-') *to++ = '-';
+    for (; i < n && s[i] != 'e' && s[i] != 'E'; i++) {
+        if (s[i] == '.') {
+            behind = 1;
+        } else if (kept == 0 && s[i] == '0') {
+            tens -= behind;
+        } else if (kept < TELLING) {
+            *to++ = s[i];
+            kept++;
+            tens -= behind;
+        } else {
+            more |= s[i] != '0';
+            tens += !behind;
+        }
+    }
+    if (kept == 0) *to++ = '0';
+    if (more) *to++ = '1', tens--;
+    if (i < n) tens += (double)exponent_of(s + i + 1, n - i - 1);
+    snprintf(to, RG_NUMBER_ROOM, "e%ld", tens > (double)BEYOND ? BEYOND : tens < (double)-BEYOND ? -BEYOND : (long)tens);
+    *value = strtod(copy, NULL);
+    return n;
+}
+
 size_t rg_number_scan(const char *s, size_t n, double *value)
 {
     size_t at = n > 0 && (*s == '-' || *s == '+'), point;
@@ -39,7 +81,7 @@ size_t rg_number_scan(const char *s, size_t n, double *value)
         const size_t exponent = digits(s + e, n - e);
         if (exponent > 0) at = e + exponent;
     }
-    if (at > LONGEST) return 0;
+    if (at > LONGEST) return read_long(s, at, value);
     char copy[LONGEST + POINT_ROOM + 1];
     const char *sign = localeconv()->decimal_point;
     const size_t width = has_point ? strlen(sign) : 0;

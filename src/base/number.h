@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 /* Reads the longest number that s[0 ... n-1] begins with: sign, digits, point, exponent. Returns how many characters it
- * takes, 0 where there is none. Too large: +-INFINITY. No number of more than 400 characters is one. */
+ * takes, 0 where there is none. Too large: +-INFINITY. Of any length, rounded to the nearest. */
 size_t rg_number_scan(const char *s, size_t n, double *value);
 /* All of s, but for blanks around, is a number; also Java's NaN, Infinity and -Infinity. */
 int rg_number_parse(const char *s, size_t n, double *value);

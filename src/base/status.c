@@ -1,4 +1,5 @@
 #include "base/status.h"
+#include "base/text.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -35,7 +36,7 @@ rg_status rg_fail(rg_status s, rg_diag *why, int line, const char *format, ...)
     if (why) {
         va_list args;
         va_start(args, format);
-        vsnprintf(why->text, sizeof why->text, format, args);
+        rg_text_with(why->text, sizeof why->text, format, args);
         va_end(args);
         rg_status_one_line(why->text);
         why->line = line;

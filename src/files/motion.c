@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "base/settings.h"
 #include "base/status.h"
+#include "base/text.h"
 #include "motion/ending.h"
 #include "motion/motion.h"
 #include "pattern/source.h"
@@ -205,14 +206,14 @@ static rg_status build(rg_motion *m, const rg_value *root, const rg_pattern *p, 
     if (s == RG_OK) s = read_frames(&g);
     if (s == RG_OK) s = as_plates(m);
     rg_mem_free(&m->mem, g.frame);
-    if (s == RG_OK) s = rg_ending_find(m, why);
+    if (s == RG_OK) s = rg_ending_find(m, NULL, why);
     r->outcome = RG_FOLDED;
     r->method = r->solver = r->triangulation = r->why_triangulated = "";
     r->folded_percent = r->least_folded_percent = s == RG_OK ? m->frame[g.count - 1].percent : 0;
     r->added_creases = m->mesh.added;
     r->unknowns = m->mesh.N;
     r->constraints = 3 * m->mesh.M;
-    snprintf(r->reason, sizeof r->reason, "read from a file%s", m->space ? "; its facets bend or stretch" : "");
+    rg_text(r->reason, sizeof r->reason, "read from a file%s", m->space ? "; its facets bend or stretch" : "");
     return s;
 }
 

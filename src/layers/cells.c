@@ -110,7 +110,7 @@ static int has_edge(const rg_flat *f, const int32_t *edge, size_t n, int32_t g)
     return 0;
 }
 
-static rg_status walk_segments(rg_cells *c, const rg_mesh *m, const rg_flat *f, const box *of_facet, list *along, list *across)
+static rg_status walk_segments(rg_cells *c, const rg_mesh *m, const rg_flat *f, const box *of_facet, const rg_stop *stop, list *along, list *across)
 {
     rg_status s = RG_OK;
     box *of_edge = rg_mem_array(&c->mem, (size_t)m->ne, sizeof *of_edge);
@@ -119,6 +119,7 @@ static rg_status walk_segments(rg_cells *c, const rg_mesh *m, const rg_flat *f, 
     for (int32_t i = 0; s == RG_OK && i < c->graph.ne; i++) {
         const rg_vec2 a = c->graph.X[c->graph.E[i].v[0]], b = c->graph.X[c->graph.E[i].v[1]], x = {(a.x + b.x) / 2, (a.y + b.y) / 2};
         const size_t first = along->count;
+        if (rg_stop_asked(stop)) s = RG_EFORMAT;
         for (int32_t e = 0; s == RG_OK && e < m->ne; e++) {
             if (f->beside[e][0] == f->beside[e][1] || !in_box(&of_edge[e], x, NEAR * c->tol)) continue;
             if (lies_along(f->x[m->edge[e][0]], f->x[m->edge[e][1]], a, b, NEAR * c->tol)) s = append(&c->mem, along, e);
@@ -179,7 +180,7 @@ static double best_point(const rg_vec2 *corner, int32_t n, double *scratch, rg_v
     return best;
 }
 
-static rg_status walk_cells(rg_cells *c, const rg_mesh *m, const rg_flat *f, const box *of_facet, list *over)
+static rg_status walk_cells(rg_cells *c, const rg_mesh *m, const rg_flat *f, const box *of_facet, const rg_stop *stop, list *over)
 {
     rg_vec2 *corner = rg_mem_array(&c->mem, 2 * (size_t)c->graph.ne, sizeof *corner);
     double *scratch = rg_mem_array(&c->mem, 4 * (size_t)c->graph.ne, sizeof *scratch);
@@ -187,6 +188,7 @@ static rg_status walk_cells(rg_cells *c, const rg_mesh *m, const rg_flat *f, con
     for (int32_t i = 0; s == RG_OK && i < c->faces.count; i++) {
         rg_vec2 x = {0, 0};
         int32_t n = 0, h = c->faces.first[i];
+        if (rg_stop_asked(stop)) s = RG_EFORMAT;
         do corner[n++] = c->graph.X[rg_tail(c->graph.E, h)], h = c->faces.next[h];
         while (h != c->faces.first[i]);
         if (c->faces.area[i] > 0 && best_point(corner, n, scratch, &x) > WIDE * c->tol)
@@ -200,7 +202,7 @@ static rg_status walk_cells(rg_cells *c, const rg_mesh *m, const rg_flat *f, con
     return s;
 }
 
-rg_status rg_cells_init(rg_cells *c, const rg_memory *mem, const rg_mesh *m, const rg_flat *f, rg_diag *why)
+rg_status rg_cells_init(rg_cells *c, const rg_memory *mem, const rg_mesh *m, const rg_flat *f, const rg_stop *stop, rg_diag *why)
 {
     list along = {0}, across = {0}, over = {0};
     memset(c, 0, sizeof *c);
@@ -224,8 +226,8 @@ rg_status rg_cells_init(rg_cells *c, const rg_memory *mem, const rg_mesh *m, con
     }
     list *lists[] = {&along, &across, &over}; /* arrays, also where nothing is in them */
     for (int i = 0; s == RG_OK && i < 3; i++) s = rg_mem_grow(mem, (void **)&lists[i]->item, &lists[i]->room, 1, sizeof *along.item);
-    if (s == RG_OK) s = walk_segments(c, m, f, of_facet, &along, &across);
-    if (s == RG_OK) s = walk_cells(c, m, f, of_facet, &over);
+    if (s == RG_OK) s = walk_segments(c, m, f, of_facet, stop, &along, &across);
+    if (s == RG_OK) s = walk_cells(c, m, f, of_facet, stop, &over);
     c->along = along.item, c->across = across.item, c->over = over.item;
     rg_mem_free(mem, of_facet);
     return s;

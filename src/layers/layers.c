@@ -1,5 +1,6 @@
 #include "layers/layers.h"
 #include "base/status.h"
+#include "base/text.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -44,7 +45,7 @@ static const char *rule_name(rg_rule rule)
 static void say_unsolved(rg_layers *l, const char *words)
 {
     l->info.state = RG_LAYERS_UNSOLVED;
-    snprintf(l->info.reason, sizeof l->info.reason, "%s", words);
+    rg_text(l->info.reason, sizeof l->info.reason, "%s", words);
 }
 
 /* As the file has it; what rounding leaves of 0 is 0 for people. */
@@ -59,15 +60,15 @@ static void name_facets(rg_layers *l, const int32_t *facet, int32_t n)
 {
     rg_layers_info *i = &l->info;
     const int32_t named = n < RG_LAYERS_NAMED ? n : RG_LAYERS_NAMED;
-    size_t used = (size_t)snprintf(i->reason, sizeof i->reason, "the facets at");
+    size_t used = (size_t)rg_text(i->reason, sizeof i->reason, "the facets at");
     for (int32_t k = 0; k < named; k++) {
         const rg_vec2 at = l->flat.middle[facet[k]], x = own(l, at);
         l->where[k] = facet[k];
         l->where_at[k][0] = at.x, l->where_at[k][1] = l->y_down ? 0 - at.y : at.y;
-        if (k < IN_WORDS) used += (size_t)snprintf(i->reason + used, sizeof i->reason - used, "%s (%.6g, %.6g)", k ? "," : "", x.x, x.y);
+        if (k < IN_WORDS) used += (size_t)rg_text(i->reason + used, sizeof i->reason - used, "%s (%.6g, %.6g)", k ? "," : "", x.x, x.y);
     }
-    if (n > IN_WORDS) used += (size_t)snprintf(i->reason + used, sizeof i->reason - used, " and %d more", (int)(n - IN_WORDS));
-    snprintf(i->reason + used, sizeof i->reason - used, " cannot be put in order (%s)", i->rule);
+    if (n > IN_WORDS) used += (size_t)rg_text(i->reason + used, sizeof i->reason - used, " and %d more", (int)(n - IN_WORDS));
+    rg_text(i->reason + used, sizeof i->reason - used, " cannot be put in order (%s)", i->rule);
     i->where_count = named;
     i->where = l->where;
     i->where_at = (const double(*)[2])l->where_at;
@@ -102,7 +103,7 @@ static void say_open(rg_layers *l)
     l->info.state = RG_LAYERS_NONE;
     l->info.rule = "closing";
     name_facets(l, facet, n);
-    snprintf(l->info.reason, sizeof l->info.reason, "folded flat, the facets round (%.6g, %.6g) do not meet", x.x, x.y);
+    rg_text(l->info.reason, sizeof l->info.reason, "folded flat, the facets round (%.6g, %.6g) do not meet", x.x, x.y);
 }
 
 static void say_not_flat(rg_layers *l)
@@ -110,7 +111,7 @@ static void say_not_flat(rg_layers *l)
     const int32_t *v = l->mesh.edge[l->flat.at_edge];
     const rg_vec2 a = own(l, l->mesh.X[v[0]]), b = own(l, l->mesh.X[v[1]]);
     l->info.state = RG_LAYERS_NOT_FLAT;
-    snprintf(l->info.reason, sizeof l->info.reason, "the crease from (%.6g, %.6g) to (%.6g, %.6g) ends neither flat nor folded by half a turn",
+    rg_text(l->info.reason, sizeof l->info.reason, "the crease from (%.6g, %.6g) to (%.6g, %.6g) ends neither flat nor folded by half a turn",
              a.x, a.y, b.x, b.y);
 }
 
@@ -148,7 +149,7 @@ static rg_status write_count(rg_layers *l)
         more |= q->more[i];
     }
     char *to = l->count;
-    if (more) to += snprintf(to, room, "%s", at_least);
+    if (more) to += rg_text(to, room, "%s", at_least);
     while (n) *to++ = (char)('0' + digit[--n]);
     rg_mem_free(&l->mem, digit);
     l->info.count = l->count;
@@ -177,7 +178,7 @@ static rg_status solve(rg_layers *l)
     return RG_OK;
 }
 
-rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, const rg_memory *mem, rg_layers **layers, rg_diag *why)
+rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, const rg_memory *mem, const rg_stop *stop, rg_layers **layers, rg_diag *why)
 {
     rg_layers *l = rg_mem_array(mem, 1, sizeof *l);
     rg_diag close = {0, ""};
@@ -192,14 +193,15 @@ rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, c
     else if (s == RG_OK && l->flat.state == RG_FLAT_OPEN) say_open(l);
     else if (s == RG_OK && l->flat.state == RG_FLAT_UNTOLD) say_unsolved(l, "which of the undriven creases fold could not be told");
     else if (s == RG_OK) {
-        s = rg_cells_init(&l->cells, mem, &l->mesh, &l->flat, &close);
+        s = rg_cells_init(&l->cells, mem, &l->mesh, &l->flat, stop, &close);
         if (s == RG_OK) s = rg_pairs_init(&l->pairs, mem, &l->cells, l->flat.nf);
+        if (s == RG_OK && rg_stop_asked(stop)) s = RG_EFORMAT;
         if (s == RG_OK) s = rg_constraints_init(&l->constraints, mem, &l->mesh, &l->flat, &l->cells, &l->pairs);
         l->info.pairs = l->pairs.count;
         if (s == RG_OK) s = solve(l);
         if (s == RG_EFORMAT) {
             s = RG_OK;
-            say_unsolved(l, "folded flat, lines are too many or too close together to tell what lies on what");
+            say_unsolved(l, rg_stop_asked(stop) ? "interrupted" : "folded flat, lines are too many or too close together to tell what lies on what");
         }
     }
     if (s != RG_OK) {
@@ -219,7 +221,7 @@ rg_status rg_layers_create(const rg_pattern *p, const rg_memory *memory, rg_laye
     double *angle = rg_mem_array(&mem, (size_t)m.N, sizeof *angle);
     if (!angle) s = rg_fail(RG_ENOMEM, why, 0, "out of memory");
     for (int32_t i = 0; s == RG_OK && i < m.N; i++) angle[i] = m.target[m.crease_edge[i]];
-    if (s == RG_OK) s = rg_layers_of_mesh(&m, angle, p->lines.y_down, &mem, layers, why);
+    if (s == RG_OK) s = rg_layers_of_mesh(&m, angle, p->lines.y_down, &mem, NULL, layers, why);
     rg_mem_free(&mem, angle);
     rg_mesh_free(&m);
     return s;

@@ -27,7 +27,7 @@ struct rg_layers {
 
 /* Of a sheet whose creases end at angle[m->N], radians; NAN: not said. m: triangulated or not; it is copied. y_down: the file's y runs
  * the other way, in which places are told. RG_OK whatever is found, see l->info; RG_ENOMEM. */
-rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, const rg_memory *mem, rg_layers **layers, rg_diag *why);
+rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, const rg_memory *mem, const rg_stop *stop, rg_layers **layers, rg_diag *why);
 
 /* Sets l->orders.value to the order whose parts have the numbers which[l->parts.count] (NULL: all 0). RG_ENOMEM; RG_EARG: there is
  * none. Scratch of the handle is used: one thread at a time. */

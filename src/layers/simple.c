@@ -42,7 +42,7 @@ static rg_status state_init(state *s, const rg_memory *mem, const rg_mesh *m, co
     rg_status status = rg_flat_init(&s->flat, mem, m, angle);
     *good = status == RG_OK && s->flat.state == RG_FLAT_END;
     if (!*good) return status;
-    status = rg_cells_init(&s->cells, mem, m, &s->flat, &why);
+    status = rg_cells_init(&s->cells, mem, m, &s->flat, NULL, &why);
     if (status == RG_OK) status = rg_pairs_init(&s->pairs, mem, &s->cells, s->flat.nf);
     *good = status == RG_OK;
     return status == RG_EFORMAT ? RG_OK : status;

@@ -1,6 +1,7 @@
 #include "lines/lines.h"
 #include "base/memory.h"
 #include "base/status.h"
+#include "base/text.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -41,7 +42,7 @@ rg_status rg_lines_warn(rg_lines *l, int32_t where, const char *format, ...)
     va_list args;
     va_start(args, format);
     if (is_last) snprintf(d->text, sizeof d->text, "more warnings are left out");
-    else vsnprintf(d->text, sizeof d->text, format, args);
+    else rg_text_with(d->text, sizeof d->text, format, args);
     va_end(args);
     rg_status_one_line(d->text);
     d->line = where;

@@ -1,6 +1,7 @@
 #include "base/memory.h"
 #include "base/status.h"
 #include "mesh/connect.h"
+#include "pattern/check.h"
 
 #include <string.h>
 
@@ -42,6 +43,12 @@ rg_status rg_mesh_from_pattern(const rg_pattern *p, const rg_memory *mem, rg_mes
 {
     memset(m, 0, sizeof *m);
     if (!p->info.is_disk) return rg_fail(RG_ESHEET, why, 0, "not one sheet without holes: %s", p->info.not_disk);
+    const int32_t crowded = rg_check_crowded(p);
+    if (crowded >= 0) {
+        char text[200];
+        rg_check_crowded_text(p, crowded, text);
+        return rg_fail(RG_ESHEET, why, 0, "%s", text);
+    }
     m->mem = *mem;
     m->size = p->info.size;
     rg_status s = copy_edges(p, m);

@@ -199,14 +199,14 @@ rg_status rg_assemble_frames(rg_motion *m, const rg_states *q, rg_diag *why)
 /* ---------------------------------------------------------------------------------------------- the motion ---- */
 
 /* Measuring goes by angles from one state to one other; of a sequence, it is the way that counts. */
-static rg_status measure(rg_motion *m)
+static rg_status measure(rg_motion *m, rg_watch *watch)
 {
     rg_report *r = &m->report;
     const double folded = r->folded_percent, least = r->least_folded_percent;
     double *percent = rg_mem_array(&m->mem, (size_t)r->frame_count, sizeof *percent);
     if (!percent) return RG_ENOMEM;
     for (int32_t k = 0; k < r->frame_count; k++) percent[k] = m->frame[k].percent;
-    const rg_status s = rg_measure_frames(m);
+    const rg_status s = rg_measure_frames(m, watch);
     for (int32_t k = 0; k < r->frame_count; k++) m->frame[k].percent = percent[k];
     r->folded_percent = folded;
     r->least_folded_percent = least;
@@ -214,7 +214,7 @@ static rg_status measure(rg_motion *m)
     return s;
 }
 
-static rg_status make(rg_motion *m, const rg_states *q, const rg_pattern *last, rg_diag *why)
+static rg_status make(rg_motion *m, const rg_states *q, const rg_pattern *last, rg_watch *watch, rg_diag *why)
 {
     rg_status s = rg_motion_name(m, last);
     if (s == RG_OK) s = rg_assemble_frames(m, q, why);
@@ -223,8 +223,8 @@ static rg_status make(rg_motion *m, const rg_states *q, const rg_pattern *last, 
     s = rg_tree_init(&m->mesh, m->settings.fixed_facet, &m->tree);
     if (s == RG_EARG)
         rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)m->settings.fixed_facet, (int)m->mesh.nf - 1);
-    if (s == RG_OK) s = measure(m);
-    return s == RG_OK ? rg_ending_find(m, why) : s;
+    if (s == RG_OK) s = measure(m, watch);
+    return s == RG_OK ? rg_ending_find(m, watch, why) : s;
 }
 
 rg_status rg_motion_create_states(const rg_pattern *const *states, int32_t count, const rg_settings *given,
@@ -243,8 +243,9 @@ rg_status rg_motion_create_states(const rg_pattern *const *states, int32_t count
     m->settings = *settings;
     m->source.y_down = states[0]->lines.y_down;
     rg_states q;
+    rg_watch watch = {.progress = progress, .ctx = ctx};
     s = rg_states_run(&q, states, count, settings, progress, ctx, why);
-    if (s == RG_OK) s = make(m, &q, states[count - 1], why);
+    if (s == RG_OK) s = make(m, &q, states[count - 1], &watch, why);
     rg_states_free(&q);
     if (s != RG_OK) {
         rg_motion_destroy(m);

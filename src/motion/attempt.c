@@ -1,6 +1,7 @@
 #include "motion/attempt.h"
 #include "base/clock.h"
 #include "base/status.h"
+#include "base/text.h"
 #include "fold/tuning.h"
 #include "motion/diagnose.h"
 #include "motion/rest.h"
@@ -35,6 +36,8 @@ static int is_cancelled(rg_watch *w, double done)
     if (w->progress && !w->cancelled) w->cancelled = w->progress(w->ctx, fmin(1, fmax(0, done))) != 0;
     return w->cancelled;
 }
+
+int rg_watch_asked(void *watch) { return is_cancelled(watch, 1); }
 
 /* ------------------------------------------------------------------------------------- what it came to ---- */
 
@@ -88,8 +91,8 @@ static void cut_back(rg_attempt *t)
     if (good == *n) return;
     *n = good > 0 ? good : 1;
     const size_t used = strlen(t->reason);
-    if (t->outcome == RG_FOLDED) snprintf(t->reason, sizeof t->reason, "creases go past half a turn on the way");
-    else snprintf(t->reason + used, sizeof t->reason - used, "; from there on creases go past half a turn");
+    if (t->outcome == RG_FOLDED) rg_text(t->reason, sizeof t->reason, "creases go past half a turn on the way");
+    else rg_text(t->reason + used, sizeof t->reason - used, "; from there on creases go past half a turn");
     t->outcome = RG_STOPPED;
 }
 
@@ -107,7 +110,7 @@ static void judge(rg_attempt *t, const double *rho)
         wrong += !(part >= -LEFT_FLAT);
     }
     if (wrong) t->outcome = RG_STOPPED;
-    snprintf(t->reason, sizeof t->reason, "as far as was asked for%s", wrong ? ", but with creases on the wrong side of flat" : "");
+    rg_text(t->reason, sizeof t->reason, "as far as was asked for%s", wrong ? ", but with creases on the wrong side of flat" : "");
 }
 
 /* Everything that attempts are compared by. */
@@ -200,7 +203,7 @@ rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *sett
     if (s == RG_OK) {
         memcpy(t->target, f->drive.target, (size_t)f->mesh.N * sizeof *t->target);
         for (int32_t i = f->limit.first_added; i < f->mesh.N; i++) t->target[i] = NAN;
-        snprintf(t->reason, sizeof t->reason, "%.190s", watch->cancelled ? "interrupted" : f->reason);
+        rg_text(t->reason, sizeof t->reason, "%.190s", watch->cancelled ? "interrupted" : f->reason);
         if (t->outcome == RG_STOPPED && f->mesh.N > 0)
             s = rg_diagnose_blocking(f, t->vertex, &t->vertices, t->crease, &t->creases);
         static const char *const methods[] = {"auto", "euler", "newton", "heun", "rk4", "adaptive"};
@@ -214,7 +217,7 @@ rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *sett
         judge(t, last_state(t));
         if (rests && t->outcome == RG_FOLDED) {
             t->outcome = RG_RESTS;
-            snprintf(t->reason, sizeof t->reason, "undriven creases leave its end open: it rests at %.0f %%", 100 * s_rest);
+            rg_text(t->reason, sizeof t->reason, "undriven creases leave its end open: it rests at %.0f %%", 100 * s_rest);
         }
     }
     rg_straight_destroy(f);
@@ -258,7 +261,7 @@ static rg_status run_relaxed(rg_attempt *t, rg_watch *watch)
         if (is_cancelled(watch, F->s_end > 0 ? F->s / F->s_end : 1)) break;
     }
     t->outcome = watch->cancelled || (t->backwards && !F->landed) ? RG_STOPPED : F->outcome;
-    snprintf(t->reason, sizeof t->reason, "%.190s", watch->cancelled ? "interrupted" : F->reason);
+    rg_text(t->reason, sizeof t->reason, "%.190s", watch->cancelled ? "interrupted" : F->reason);
     if (t->outcome == RG_STOPPED) {
         const rg_status s = rg_diagnose_relaxed(F, t->vertex, &t->vertices, t->crease, &t->creases);
         if (s != RG_OK) return s;

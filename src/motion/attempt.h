@@ -49,6 +49,9 @@ typedef struct rg_attempt {
     int32_t *crease, creases;  /* short of their targets, and not let any nearer */
 } rg_attempt;
 
+/* Is it to end? Tells nothing new. The watch as a stop: rg_stop = {rg_watch_asked, watch}. */
+int rg_watch_asked(void *watch);
+
 void rg_attempt_free(rg_attempt *t);
 /* Straight on along the motion that closes exactly, on the pattern given. most_steps 0: as many as it takes. *m is taken over, also on failure. */
 rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *s, int32_t most_steps, rg_watch *watch, rg_diag *why);

@@ -2,6 +2,7 @@
 #include "base/clock.h"
 #include "base/settings.h"
 #include "base/status.h"
+#include "base/text.h"
 #include "motion/ending.h"
 #include "motion/fold.h"
 #include "motion/measure.h"
@@ -75,8 +76,8 @@ static rg_status explain(rg_motion *m, const rg_pattern *p)
                                                                       : "nothing known helps";
     size_t used = strlen(r->reason);
     if (s == RG_OK)
-        used += (size_t)snprintf(r->reason + used, sizeof r->reason - used, "; ways the sheet could go to first order: %d", (int)ways);
-    snprintf(r->reason + used, sizeof r->reason - used,
+        used += (size_t)rg_text(r->reason + used, sizeof r->reason - used, "; ways the sheet could go to first order: %d", (int)ways);
+    rg_text(r->reason + used, sizeof r->reason - used,
              "; held most at (%.6g, %.6g), a %svertex of %d creases (%d free); creases of the sheet locked flat: %d, at half a turn: %d; %s", x, y,
              closed ? "closed " : "", (int)creases, (int)(creases > 3 ? creases - 3 : 0), (int)locked, (int)at_limit, help);
     return RG_OK;
@@ -93,7 +94,7 @@ static rg_status adopt(rg_motion *m, rg_search *c)
     r->blocking_vertex_count = t->vertices, r->blocking_crease_count = t->creases;
     r->frame_count = t->count;
     r->outcome = t->outcome;
-    snprintf(r->reason, sizeof r->reason, "%s", t->reason);
+    rg_text(r->reason, sizeof r->reason, "%s", t->reason);
     r->method = t->method, r->solver = t->solver;
     r->adjust_gain = t->relax ? t->relax->how.gain : 0;
     r->compliance = c->compliance;
@@ -105,7 +106,7 @@ static rg_status adopt(rg_motion *m, rg_search *c)
 
     r->triangulation = c->triangulation;
     r->why_triangulated = c->why_triangulated;
-    snprintf(r->strategy, sizeof r->strategy, "%s", c->strategy);
+    rg_text(r->strategy, sizeof r->strategy, "%s", c->strategy);
     rg_search_tell(m, c->tries, &c->cost);
 
     m->tried = rg_mem_array(&m->mem, (size_t)c->tried_count, sizeof *m->tried);
@@ -189,13 +190,13 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *given, rg_pro
     if (s == RG_OK) s = rg_tree_init(&m->mesh, settings->fixed_facet, &m->tree);
     if (s == RG_EARG && m->mesh.nf > 0)
         rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)settings->fixed_facet, (int)m->mesh.nf - 1);
-    if (s == RG_OK) s = rg_measure_frames(m);
-    if (s == RG_OK) s = rg_ending_find(m, why);
+    if (s == RG_OK) s = rg_measure_frames(m, &watch);
+    if (s == RG_OK) s = rg_ending_find(m, &watch, why);
     if (s == RG_OK && !watch.cancelled) find_theorem(m, p);
     if (s == RG_OK && !watch.cancelled) s = explain(m, p);
     if (s == RG_OK && r->pattern->creases == 0 && r->pattern->lost_creases > 0) {
         r->outcome = RG_STOPPED;
-        snprintf(r->reason, sizeof r->reason, "no crease is left to fold: all %d that are drawn end short of the next line, or lie on the border",
+        rg_text(r->reason, sizeof r->reason, "no crease is left to fold: all %d that are drawn end short of the next line, or lie on the border",
                  (int)r->pattern->lost_creases);
     }
     rg_mesh_free(&none);
@@ -239,7 +240,7 @@ static rg_status lay_out(rg_motion *m, const rg_pattern *p, rg_diag *why)
     if (s == RG_EARG && m->mesh.nf > 0)
         rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)m->settings.fixed_facet, (int)m->mesh.nf - 1);
     if (s == RG_OK) rg_motion_lend(m);
-    return s == RG_OK ? rg_measure_frames(m) : s;
+    return s == RG_OK ? rg_measure_frames(m, NULL) : s;
 }
 
 rg_status rg_motion_unfolded(const rg_pattern *p, const rg_settings *settings, rg_motion **motion, rg_diag *why)

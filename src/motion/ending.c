@@ -31,15 +31,23 @@ static rg_status choose(rg_motion *m)
     return s;
 }
 
-rg_status rg_ending_find(rg_motion *m, rg_diag *why)
+rg_status rg_ending_find(rg_motion *m, rg_watch *watch, rg_diag *why)
 {
+    const rg_stop stop = {rg_watch_asked, watch};
     double *angle = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *angle);
     rg_layers_info info;
     rg_status s = RG_OK;
     if (!angle) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
     m->ends_flat = whole_turns(m, m->report.frame_count - 1, angle);
     for (int32_t i = 0; !m->ends_flat && i < m->mesh.N; i++) angle[i] = fabs(m->settings.to) * m->target[i];
-    s = rg_layers_of_mesh(&m->mesh, angle, m->source.y_down, &m->mem, &m->layers, why);
+    if (watch && rg_watch_asked(watch)) {
+        rg_mem_free(&m->mem, angle);
+        m->report.layers = rg_layers_state_name(RG_LAYERS_UNSOLVED);
+        m->report.layer_orders = "";
+        m->report.layers_reason = "interrupted";
+        return RG_OK;
+    }
+    s = rg_layers_of_mesh(&m->mesh, angle, m->source.y_down, &m->mem, watch ? &stop : NULL, &m->layers, why);
     if (s == RG_OK) {
         info = *rg_layers_get_info(m->layers);
         m->report.layers = rg_layers_state_name(info.state);

@@ -213,8 +213,8 @@ rg_status rg_fold_record(const rg_fold *f, rg_motion **motion, rg_diag *why)
     if (s == RG_OK) s = fill(m, f);
     if (s == RG_OK) s = rg_tree_init(&m->mesh, f->settings.fixed_facet, &m->tree);
     if (s == RG_OK) rg_motion_lend(m);
-    if (s == RG_OK) s = rg_measure_frames(m);
-    if (s == RG_OK) s = rg_ending_find(m, why);
+    if (s == RG_OK) s = rg_measure_frames(m, NULL);
+    if (s == RG_OK) s = rg_ending_find(m, NULL, why);
     if (s != RG_OK) {
         rg_motion_destroy(m);
         return rg_fail(s, why, 0, "%s", rg_status_text(s));

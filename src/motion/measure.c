@@ -192,9 +192,9 @@ static void measure_contact(rg_motion *m, rg_course *c)
     }
 }
 
-rg_status rg_measure_frames(rg_motion *m)
+rg_status rg_measure_frames(rg_motion *m, rg_watch *watch)
 {
-    const int looks = m->settings.contact != RG_CONTACT_IGNORE;
+    int looks = m->settings.contact != RG_CONTACT_IGNORE && !(watch && rg_watch_asked(watch));
     rg_course course = {0};
     gauge g = {0};
     const int ok = make_room(&g, &m->mem, &m->mesh) && (!looks || rg_course_init(&m->mesh, &course) == RG_OK);
@@ -202,11 +202,14 @@ rg_status rg_measure_frames(rg_motion *m)
     m->report.isometric = 1;
     for (int32_t k = 0; ok && k < m->report.frame_count; k++) {
         measure_frame(m, k, &g);
+        looks = looks && !(watch && rg_watch_asked(watch));
         if (looks) rg_course_add(&course, &(rg_plates_state){rg_motion_pattern(m, k), g.place, g.x});
     }
     if (ok) measure_contact(m, looks ? &course : NULL);
     rg_course_free(&course);
     void *block[] = {g.rho, g.theta, g.sector, g.place, g.x, g.part};
     for (int i = 0; i < 6; i++) rg_mem_free(&m->mem, block[i]);
-    return ok ? measure_symmetry(m) : RG_ENOMEM;
+    if (!ok) return RG_ENOMEM;
+    m->report.symmetry = 1;
+    return watch && watch->cancelled ? RG_OK : measure_symmetry(m);
 }

@@ -115,7 +115,7 @@ static rg_status find_layers(work *w)
     w->angle = rg_mem_array(&w->mem, (size_t)w->none->N, sizeof *w->angle);
     if (!w->angle) return RG_ENOMEM;
     for (int32_t i = 0; i < w->none->N; i++) w->angle[i] = w->sign * w->none->target[w->none->crease_edge[i]];
-    rg_status s = rg_layers_of_mesh(w->none, w->angle, 0, &w->mem, &w->layers, &why);
+    rg_status s = rg_layers_of_mesh(w->none, w->angle, 0, &w->mem, NULL, &w->layers, &why);
     if (s != RG_OK || w->layers->info.state != RG_LAYERS_VALID) return s;
     w->which = rg_mem_array(&w->mem, (size_t)w->layers->parts.count + 1, sizeof *w->which);
     s = w->which ? find_folds(w) : RG_ENOMEM;
@@ -206,7 +206,7 @@ static rg_status layers_of(const work *w, const rg_mesh *m, rg_layers **l)
     double *angle = rg_mem_array(&w->mem, (size_t)m->N, sizeof *angle);
     if (!angle) return RG_ENOMEM;
     for (int32_t i = 0; i < m->N; i++) angle[i] = i < m->N - m->added ? w->sign * m->target[m->crease_edge[i]] : 0;
-    const rg_status s = rg_layers_of_mesh(m, angle, 0, &w->mem, l, &why);
+    const rg_status s = rg_layers_of_mesh(m, angle, 0, &w->mem, NULL, l, &why);
     rg_mem_free(&w->mem, angle);
     return s;
 }
@@ -333,7 +333,7 @@ static rg_status is_good(work *w, rg_search *c, int order_is_known, int *good)
     rg_settings read = *w->settings;
     read.frames = w->settings->frames > LEAST_READ ? w->settings->frames : LEAST_READ;
     read.pace = RG_PACE_STEADY;
-    rg_status s = rg_unfolding_crosses(t, w->settings, &crossing);
+    rg_status s = rg_unfolding_crosses(t, w->settings, NULL, &crossing);
     if (s == RG_OK && crossing < 0) s = rg_attempt_read(t, &read);
     if (s == RG_OK && crossing < 0) s = drop_open_frames(t);
     if (s != RG_OK || crossing >= 0 || t->count < LEAST_READ / 2) return s;
@@ -613,7 +613,7 @@ static rg_status fold(work *w, rg_stages *q, rg_search *c, rg_watch *watch, rg_d
     for (int32_t i = 0; s == RG_OK && i < w->fine.N; i++) target[i] = w->sign * w->fine.target[w->fine.crease_edge[i]];
     if (s == RG_OK) s = rg_mesh_copy(&w->fine, &m);
     if (s == RG_OK) s = rg_attempt_from_path(&t, &m, &with, target, read, w, why);
-    if (s == RG_OK) s = rg_unfolding_crosses(&t, w->settings, &crossing);
+    if (s == RG_OK) s = rg_unfolding_crosses(&t, w->settings, NULL, &crossing);
     if (s == RG_OK && crossing < 0) {
         s = tell(w, q);
         if (s == RG_OK) adopt(w, c, &t);

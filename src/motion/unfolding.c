@@ -19,8 +19,8 @@ static const double GIVE = 1;
 /* A path is looked at in so many states, evenly in percent, whatever frames are asked for: what is chosen must not depend on them. */
 static const int32_t LOOKED_AT = 121;
 
-/* The first frame in which facets cross; -1: none. */
-static rg_status first_crossing(const rg_attempt *t, int32_t *frame)
+/* The first frame in which facets cross; -1: none, or the watch (NULL: nobody's) stopped it before it came to one. */
+static rg_status first_crossing(const rg_attempt *t, rg_watch *watch, int32_t *frame)
 {
     const rg_mesh *m = &t->mesh;
     rg_plates plates = {0};
@@ -32,7 +32,7 @@ static rg_status first_crossing(const rg_attempt *t, int32_t *frame)
     if (s == RG_OK) s = rg_plates_init(m, &plates);
     if (s == RG_OK) s = rg_contact_work_init(&plates, &w);
     *frame = -1;
-    for (int32_t k = 0; s == RG_OK && k < t->count && *frame < 0; k++) {
+    for (int32_t k = 0; s == RG_OK && k < t->count && *frame < 0 && !(watch && rg_watch_asked(watch)); k++) {
         const rg_vec2 *X = t->flat ? t->flat + (size_t)k * (size_t)m->nv : m->X;
         rg_contact_hit deepest;
         rg_pose_facets(m, X, &tree, t->rho + (size_t)k * (size_t)m->N, place);
@@ -48,13 +48,13 @@ static rg_status first_crossing(const rg_attempt *t, int32_t *frame)
 }
 
 /* The same of the path itself; what went straight on has its frames only. */
-rg_status rg_unfolding_crosses(rg_attempt *t, const rg_settings *settings, int32_t *frame)
+rg_status rg_unfolding_crosses(rg_attempt *t, const rg_settings *settings, rg_watch *watch, int32_t *frame)
 {
     rg_settings look = *settings;
     look.frames = LOOKED_AT;
     look.pace = RG_PACE_PERCENT;
     rg_status s = rg_attempt_read(t, &look);
-    if (s == RG_OK) s = first_crossing(t, frame);
+    if (s == RG_OK) s = first_crossing(t, watch, frame);
     rg_attempt_forget_frames(t);
     return s;
 }
@@ -121,9 +121,9 @@ rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings 
     c->tries += u.tries;
     if (status == RG_OK && u.outcome == RG_UNFOLD_FREE) {
         status = take_over(&t, &u, none, s, wish.shorter, why);
-        if (status == RG_OK) status = first_crossing(&t, &crossing);
+        if (status == RG_OK) status = first_crossing(&t, watch, &crossing);
         /* A part of the way is to be one of creases that have all left flat. */
-        if (status == RG_OK && crossing < 0 && rg_search_is_folded(&t)) adopt(c, &t, &u);
+        if (status == RG_OK && crossing < 0 && !watch->cancelled && rg_search_is_folded(&t)) adopt(c, &t, &u);
     }
     c->cost.seconds += rg_seconds() - begun;
     rg_attempt_free(&t);
@@ -138,7 +138,8 @@ rg_status rg_unfolding_wanted(rg_search *c, const rg_mesh *none, const rg_settin
     if (s->contact != RG_CONTACT_AVOID || s->effort == RG_EFFORT_FAST || s->to == 0 || watch->cancelled) return RG_OK;
     if (none->still) return RG_OK; /* its end is no flat one */
     const int stopped = c->best.outcome == RG_STOPPED;
-    const rg_status status = stopped ? RG_OK : rg_unfolding_crosses(&c->best, s, &crossing);
-    *wanted = status == RG_OK && (stopped || crossing >= 0);
+    rg_watch looking = *watch; /* whoever ends this look is asked again later */
+    const rg_status status = stopped ? RG_OK : rg_unfolding_crosses(&c->best, s, &looking, &crossing);
+    *wanted = status == RG_OK && !looking.cancelled && (stopped || crossing >= 0);
     return status == RG_ENOMEM ? rg_fail(status, why, 0, "%s", rg_status_text(status)) : status;
 }

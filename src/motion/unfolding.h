@@ -12,6 +12,6 @@ rg_status rg_unfolding_wanted(rg_search *c, const rg_mesh *none, const rg_settin
 /* Looks for one, which *c, that may be empty, becomes. part: of the work that may be spent. RG_OK also when there is none. */
 rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings *s, double part, rg_watch *watch, rg_diag *why);
 /* The first of evenly spaced states of a path in which facets cross; -1: none. Frames that can be read off again are let go. */
-rg_status rg_unfolding_crosses(rg_attempt *t, const rg_settings *s, int32_t *frame);
+rg_status rg_unfolding_crosses(rg_attempt *t, const rg_settings *s, rg_watch *watch, int32_t *frame);
 
 #endif

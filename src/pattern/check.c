@@ -1,4 +1,5 @@
 #include "pattern/check.h"
+#include "base/text.h"
 
 #include <stdlib.h>
 
@@ -73,6 +74,20 @@ int32_t rg_check_most_edges(const struct rg_pattern *p)
         if (n > most) most = n;
     }
     return most;
+}
+
+int32_t rg_check_crowded(const struct rg_pattern *p)
+{
+    for (int32_t v = 0; v < p->nv; v++)
+        if (p->star_start[v + 1] - p->star_start[v] > RG_MOST_AT_A_VERTEX) return v;
+    return -1;
+}
+
+void rg_check_crowded_text(const struct rg_pattern *p, int32_t v, char text[200])
+{
+    const rg_vec2 at = rg_lines_own(&p->lines, p->X[v], p->info.size);
+    rg_text(text, 200, "%d creases meet at (%.6g, %.6g), and no more than %d at one vertex are folded",
+            (int)(p->star_start[v + 1] - p->star_start[v]), at.x, at.y, RG_MOST_AT_A_VERTEX);
 }
 
 rg_status rg_check_vertices(struct rg_pattern *p)

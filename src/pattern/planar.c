@@ -13,6 +13,10 @@ enum { MOST_WARNINGS = 20 };
 /* Cuts, and pairs of edges in one cell, of one round: more than any drawing has that is not made to cost hours. */
 enum { MOST_CUTS = 1 << 24 };
 static const int64_t MOST_PAIRS = (int64_t)1 << 34;
+/* Cells that one long line crosses, added up over all: what is kept of them takes 1 GB at the most. */
+static const int64_t MOST_ENTRIES = (int64_t)1 << 28;
+/* Crossings are guessed from so many pairs of lines, of which so many have to cross to mean anything; that few lines are not asked. */
+enum { PAIRS_LOOKED_AT = 200000, TO_MEAN_ANYTHING = 10, FEW_LINES = 3000 };
 /* Cells of the search grid, side by side: memory, and what one long line crosses, stay small. */
 static const double MOST_SIDE = 1024;
 
@@ -24,23 +28,41 @@ typedef struct splitter {
     rg_edge *E;
     int32_t ne;
     size_t room;
+    unsigned char *fresh; /* [ne] not looked at yet: what was, crosses nothing that was */
+    int32_t looked_at;    /* vertices below this one as well */
     cut *cuts;
     size_t cut_count, cut_room;
-    int too_many; /* cuts or pairs: RG_EFORMAT */
+    int32_t (*parent)[2]; /* of vertices from `looked_at` on: the two edges that it was found to be the crossing of, which are cut */
+    size_t parent_room;
+    const char *too_many; /* of what: RG_EFORMAT */
     /* search grid: edges of cell c are in[start[c]] ... in[start[c + 1] - 1] */
     rg_vec2 origin;
-    double cell;
+    double cell, per_cell; /* a cell's side, and one over it */
     int32_t side[2];
     int32_t *start, *in;
+    unsigned char *wanted; /* [cells] something is to be looked at there */
 } splitter;
 
 static int clamp(double i, int32_t n) { return i < 0 ? 0 : i >= n ? n - 1 : (int)i; }
-static int32_t column(const splitter *s, double x) { return clamp(floor((x - s->origin.x) / s->cell), s->side[0]); }
-static int32_t row(const splitter *s, double y) { return clamp(floor((y - s->origin.y) / s->cell), s->side[1]); }
+static int32_t column(const splitter *s, double x) { return clamp((x - s->origin.x) * s->per_cell, s->side[0]); }
+static int32_t row(const splitter *s, double y) { return clamp((y - s->origin.y) * s->per_cell, s->side[1]); }
+static int32_t cell_of(const splitter *s, rg_vec2 x) { return column(s, x.x) * s->side[1] + row(s, x.y); }
 
-/* Visits the cells within the tolerance of an edge: counts it there (in NULL) or puts it in. */
-static void register_edge(splitter *s, int32_t e, int32_t *count, int32_t *in)
+typedef enum visit { MARK, COUNT, FILL } visit;
+
+/* At an edge's cell: marks it as wanted; or where it is, counts the edge there, or puts it in. Returns whether it is. */
+static inline int visit_cell(splitter *s, int32_t e, int32_t c, visit what)
 {
+    if (what == MARK) s->wanted[c] = 1;
+    else if (s->wanted[c] && what == FILL) s->in[s->start[c + 1]++] = e;
+    else s->start[c + 1] += s->wanted[c];
+    return s->wanted[c];
+}
+
+/* Visits the cells within the tolerance of an edge. Returns whether any of them is wanted. */
+static int register_edge(splitter *s, int32_t e, visit what)
+{
+    int any = 0;
     rg_vec2 a = s->points.X[s->E[e].v[0]], b = s->points.X[s->E[e].v[1]];
     if (a.x > b.x) {
         rg_vec2 t = a;
@@ -49,6 +71,12 @@ static void register_edge(splitter *s, int32_t e, int32_t *count, int32_t *in)
     }
     const double pad = 2 * s->points.tol + 1e-9 * s->cell; /* more than rounding moves what is computed below */
     const int32_t first = column(s, a.x - pad), last = column(s, b.x + pad);
+    const int32_t bottom = row(s, fmin(a.y, b.y) - pad), top = row(s, fmax(a.y, b.y) + pad);
+    if (first == last || bottom == top) { /* as most are that are short */
+        for (int32_t i = first; i <= last; i++)
+            for (int32_t j = bottom; j <= top; j++) any |= visit_cell(s, e, i * s->side[1] + j, what);
+        return any;
+    }
     for (int32_t i = first; i <= last; i++) {
         double y0 = a.y, y1 = b.y;
         if (b.x - a.x > pad) { /* the part of it in this column */
@@ -58,48 +86,53 @@ static void register_edge(splitter *s, int32_t e, int32_t *count, int32_t *in)
             y1 = a.y + slope * (right - a.x);
         }
         const int32_t low = row(s, fmin(y0, y1) - pad), high = row(s, fmax(y0, y1) + pad);
-        for (int32_t j = low; j <= high; j++) {
-            int32_t c = i * s->side[1] + j;
-            if (in) in[count[c]++] = e;
-            else count[c]++;
-        }
+        for (int32_t j = low; j <= high; j++) any |= visit_cell(s, e, i * s->side[1] + j, what);
     }
+    return any;
 }
 
+/* The edges in each cell that has to be looked at: where an edge or a vertex is new. */
 static rg_status build_grid(splitter *s, rg_vec2 low, rg_vec2 high)
 {
     const double w = high.x - low.x, h = high.y - low.y, size = fmax(w, h);
     const double side = fmin(ceil(sqrt((double)s->ne)) + 1, MOST_SIDE);
     s->origin = low;
     s->cell = size / side;
+    s->per_cell = 1 / s->cell;
     s->side[0] = clamp(ceil(w / s->cell), (int32_t)side) + 1;
     s->side[1] = clamp(ceil(h / s->cell), (int32_t)side) + 1;
     const size_t cells = (size_t)s->side[0] * (size_t)s->side[1];
     rg_mem_free(&s->mem, s->start);
     rg_mem_free(&s->mem, s->in);
+    rg_mem_free(&s->mem, s->wanted);
     s->in = NULL;
     s->start = rg_mem_array(&s->mem, cells + 2, sizeof *s->start);
-    if (!s->start) return RG_ENOMEM;
+    s->wanted = rg_mem_array(&s->mem, cells, 1);
+    if (!s->start || !s->wanted) return RG_ENOMEM;
+    for (int32_t e = 0; e < s->ne; e++)
+        if (s->fresh[e]) register_edge(s, e, MARK);
+    for (int32_t v = s->looked_at; v < s->points.count; v++) s->wanted[cell_of(s, s->points.X[v])] = 1;
     /* counted one to the right, so that the sums are the starts; filling moves each start to its end, so they are put
      * one further to the right before */
-    for (int32_t e = 0; e < s->ne; e++) register_edge(s, e, s->start + 1, NULL);
+    int32_t near = 0;
+    int32_t *list = rg_mem_array(&s->mem, (size_t)s->ne, sizeof *list); /* of what is in any of these cells */
+    if (!list) return RG_ENOMEM;
+    for (int32_t e = 0; e < s->ne; e++)
+        if (register_edge(s, e, COUNT)) list[near++] = e;
     int64_t total = 0;
-    for (size_t c = 1; c < cells + 2; c++) {
-        total += s->start[c];
-        if (total > INT32_MAX) return RG_ENOMEM;
-        s->start[c] = (int32_t)total;
-    }
-    s->in = rg_mem_array(&s->mem, (size_t)total, sizeof *s->in);
-    if (!s->in) return RG_ENOMEM;
-    for (size_t c = cells + 1; c > 0; c--) s->start[c] = s->start[c - 1];
-    for (int32_t e = 0; e < s->ne; e++) register_edge(s, e, s->start + 1, s->in);
-    return RG_OK;
+    for (size_t c = 1; c < cells + 2 && total <= MOST_ENTRIES; c++) s->start[c] = (int32_t)(total += s->start[c]);
+    if (total > MOST_ENTRIES) s->too_many = "lines that cross the whole drawing";
+    else s->in = rg_mem_array(&s->mem, (size_t)total, sizeof *s->in);
+    for (size_t c = cells + 1; s->in && c > 0; c--) s->start[c] = s->start[c - 1];
+    for (int32_t k = 0; s->in && k < near; k++) register_edge(s, list[k], FILL);
+    rg_mem_free(&s->mem, list);
+    return s->in ? RG_OK : s->too_many ? RG_EFORMAT : RG_ENOMEM;
 }
 
 static rg_status add_cut(splitter *s, int32_t e, int32_t v)
 {
     if (s->E[e].v[0] == v || s->E[e].v[1] == v) return RG_OK;
-    if (s->cut_count == MOST_CUTS) return s->too_many = 1, RG_EFORMAT;
+    if (s->cut_count == MOST_CUTS) return s->too_many = "crossings", RG_EFORMAT;
     rg_status status = rg_mem_grow(&s->mem, (void **)&s->cuts, &s->cut_room, s->cut_count + 1, sizeof *s->cuts);
     if (status != RG_OK) return status;
     rg_vec2 a = s->points.X[s->E[e].v[0]], d = rg_vec2_sub(s->points.X[s->E[e].v[1]], a);
@@ -118,9 +151,15 @@ static rg_status cross(splitter *s, int32_t e, int32_t f, int32_t c)
     const double t = au / (au - bu);
     if (!(t >= 0 && t <= 1)) return RG_OK;
     const rg_vec2 x = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
-    if (column(s, x.x) * s->side[1] + row(s, x.y) != c) return RG_OK;
+    if (cell_of(s, x) != c) return RG_OK;
+    const int32_t before = s->points.count;
     int32_t vertex;
     rg_status status = rg_points_add(&s->points, x, &vertex);
+    if (status == RG_OK && s->points.count > before) {
+        const size_t n = (size_t)(vertex - s->looked_at);
+        status = rg_mem_grow(&s->mem, (void **)&s->parent, &s->parent_room, n + 1, sizeof *s->parent);
+        if (status == RG_OK) s->parent[n][0] = e, s->parent[n][1] = f;
+    }
     if (status == RG_OK) status = add_cut(s, e, vertex);
     if (status == RG_OK) status = add_cut(s, f, vertex);
     return status;
@@ -147,30 +186,47 @@ static rg_status find_crossings(splitter *s)
         const int64_t n = s->start[c + 1] - s->start[c];
         pairs += n * (n - 1) / 2;
     }
-    if (pairs > MOST_PAIRS) return s->too_many = 1, RG_EFORMAT;
+    if (pairs > MOST_PAIRS) return s->too_many = "lines in one place", RG_EFORMAT;
     for (int32_t c = 0; c < cells; c++)
-        for (int32_t i = s->start[c]; i < s->start[c + 1]; i++)
+        for (int32_t i = s->start[c]; i < s->start[c + 1]; i++) {
+            const int32_t e = s->in[i], is_fresh = s->fresh[e];
             for (int32_t j = i + 1; j < s->start[c + 1]; j++) {
-                if (apart(s, s->E[s->in[i]].v, s->E[s->in[j]].v)) continue;
-                rg_status status = cross(s, s->in[i], s->in[j], c);
+                const int32_t f = s->in[j];
+                if (!(is_fresh || s->fresh[f]) || apart(s, s->E[e].v, s->E[f].v)) continue;
+                rg_status status = cross(s, e, f, c);
                 if (status != RG_OK) return status;
             }
+        }
     return RG_OK;
 }
 
-/* Vertices within the tolerance of an edge's inside. */
-static rg_status find_junctions(splitter *s)
+/* Is x within the tolerance of an edge's inside, so that it is to be cut there? */
+static int is_junction(const splitter *s, const rg_edge *e, rg_vec2 x)
+{
+    const rg_vec2 a = s->points.X[e->v[0]], d = rg_vec2_sub(s->points.X[e->v[1]], a), r = rg_vec2_sub(x, a);
+    const double along = rg_vec2_dot(r, d), from = rg_vec2_dot(r, r), off = rg_vec2_cross(d, r), tol = s->points.tol;
+    if (!(along > 0) || off * off > tol * tol * rg_vec2_dot(d, d) * (1 + 1e-9)) return 0; /* most are: no root is drawn for them */
+    const double length = rg_vec2_length(d);
+    if (!(along < length * length) || !(fabs(off) <= tol * length)) return 0;
+    /* Both parts must be shorter than the whole: a vertex beside an end would be cut in again and again. */
+    return from < length * length && from < 2 * along;
+}
+
+/* Was the vertex found as the crossing of this edge, which is cut there already? */
+static int is_parent(const splitter *s, int32_t v, int32_t e, int32_t known)
+{
+    return v >= known && (s->parent[v - s->looked_at][0] == e || s->parent[v - s->looked_at][1] == e);
+}
+
+/* Vertices on edges. `known`: those from here on are crossings of this round. */
+static rg_status find_junctions(splitter *s, int32_t known)
 {
     for (int32_t v = 0; v < s->points.count; v++) {
         const rg_vec2 x = s->points.X[v];
-        const int32_t c = column(s, x.x) * s->side[1] + row(s, x.y);
+        const int32_t c = cell_of(s, x);
         for (int32_t i = s->start[c]; i < s->start[c + 1]; i++) {
             const int32_t e = s->in[i];
-            const rg_vec2 a = s->points.X[s->E[e].v[0]], d = rg_vec2_sub(s->points.X[s->E[e].v[1]], a), r = rg_vec2_sub(x, a);
-            const double length = rg_vec2_length(d), along = rg_vec2_dot(r, d), from = rg_vec2_dot(r, r);
-            if (!(along > 0 && along < length * length) || !(fabs(rg_vec2_cross(d, r)) <= s->points.tol * length)) continue;
-            /* Both parts must be shorter than the whole: a vertex beside an end would be cut in again and again. */
-            if (!(from < length * length) || !(from < 2 * along)) continue;
+            if (!(v >= s->looked_at || s->fresh[e]) || is_parent(s, v, e, known) || !is_junction(s, &s->E[e], x)) continue;
             rg_status status = add_cut(s, e, v);
             if (status != RG_OK) return status;
         }
@@ -181,9 +237,28 @@ static rg_status find_junctions(splitter *s)
 static int by_place(const void *a, const void *b)
 {
     const cut *p = a, *q = b;
-    if (p->edge != q->edge) return p->edge < q->edge ? -1 : 1;
     if (p->t != q->t) return p->t < q->t ? -1 : 1;
     return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
+}
+
+/* Edge by edge, along each. *start: out, [ne + 1], where those of an edge begin. */
+static rg_status sort_cuts(splitter *s, int32_t **start)
+{
+    cut *sorted = rg_mem_array(&s->mem, s->cut_count, sizeof *sorted);
+    int32_t *at = *start = rg_mem_array(&s->mem, (size_t)s->ne + 2, sizeof *at);
+    if (!sorted || !at) {
+        rg_mem_free(&s->mem, sorted);
+        return RG_ENOMEM;
+    }
+    for (size_t i = 0; i < s->cut_count; i++) at[s->cuts[i].edge + 2]++;
+    for (int32_t e = 0; e < s->ne; e++) at[e + 2] += at[e + 1];
+    for (size_t i = 0; i < s->cut_count; i++) sorted[at[s->cuts[i].edge + 1]++] = s->cuts[i];
+    for (int32_t e = 0; e < s->ne; e++)
+        if (at[e + 1] > at[e] + 1) qsort(sorted + at[e], (size_t)(at[e + 1] - at[e]), sizeof *sorted, by_place);
+    rg_mem_free(&s->mem, s->cuts);
+    s->cuts = sorted;
+    s->cut_room = s->cut_count;
+    return RG_OK;
 }
 
 static double length_of(const splitter *s, int32_t u, int32_t v) { return rg_vec2_length(rg_vec2_sub(s->points.X[u], s->points.X[v])); }
@@ -198,30 +273,38 @@ static size_t cuts_to_make(const splitter *s, const rg_edge *e, const cut *cuts,
     return n;
 }
 
+/* What is cut is fresh then, the rest is not. */
 static rg_status apply_cuts(splitter *s)
 {
     rg_edge *E = NULL;
     size_t room = 0;
-    int32_t n = 0;
-    qsort(s->cuts, s->cut_count, sizeof *s->cuts, by_place);
-    rg_status status = rg_mem_grow(&s->mem, (void **)&E, &room, (size_t)s->ne + s->cut_count, sizeof *E);
-    if (status != RG_OK) return status;
-    size_t at = 0;
+    int32_t n = 0, *start = NULL;
+    unsigned char *fresh = rg_mem_array(&s->mem, (size_t)s->ne + s->cut_count, 1);
+    rg_status status = fresh ? sort_cuts(s, &start) : RG_ENOMEM;
+    if (status == RG_OK) status = rg_mem_grow(&s->mem, (void **)&E, &room, (size_t)s->ne + s->cut_count, sizeof *E);
+    if (status != RG_OK) {
+        rg_mem_free(&s->mem, fresh);
+        rg_mem_free(&s->mem, start);
+        return status;
+    }
     for (int32_t e = 0; e < s->ne; e++) {
         rg_edge rest = s->E[e];
-        size_t end = at;
-        while (end < s->cut_count && s->cuts[end].edge == e) end++;
-        const size_t made = at + cuts_to_make(s, &rest, s->cuts + at, end - at);
-        for (; at < made; at++) {
-            if (s->cuts[at].vertex == rest.v[0] || s->cuts[at].vertex == rest.v[1]) continue;
+        const int32_t first = n, count = start[e + 1] - start[e];
+        const cut *cuts = s->cuts + start[e];
+        const int32_t made = (int32_t)cuts_to_make(s, &rest, cuts, (size_t)count);
+        for (int32_t i = 0; i < made; i++) {
+            if (cuts[i].vertex == rest.v[0] || cuts[i].vertex == rest.v[1]) continue;
             E[n] = rest;
-            E[n++].v[1] = rest.v[0] = s->cuts[at].vertex;
+            E[n++].v[1] = rest.v[0] = cuts[i].vertex;
         }
         E[n++] = rest;
-        at = end;
+        memset(fresh + first, count > 0, (size_t)(n - first));
     }
+    rg_mem_free(&s->mem, start);
     rg_mem_free(&s->mem, s->E);
+    rg_mem_free(&s->mem, s->fresh);
     s->E = E;
+    s->fresh = fresh;
     s->room = room;
     s->ne = n;
     return RG_OK;
@@ -229,45 +312,61 @@ static rg_status apply_cuts(splitter *s)
 
 /* ------------------------------------------------------------------------------------------------ doubles */
 
-typedef struct keyed { int32_t low, high, e; int rank; } keyed;
+typedef struct keyed { int32_t high, e; int rank; } keyed; /* of the edges of one lower vertex */
 
-static int by_ends(const void *a, const void *b)
+static int by_end(const void *a, const void *b)
 {
     const keyed *p = a, *q = b;
-    if (p->low != q->low) return p->low < q->low ? -1 : 1;
     if (p->high != q->high) return p->high < q->high ? -1 : 1;
     if (p->rank != q->rank) return p->rank < q->rank ? -1 : 1;
     return p->e < q->e ? -1 : p->e > q->e;
 }
 
+static int32_t lower(const rg_edge *e) { return e->v[0] < e->v[1] ? e->v[0] : e->v[1]; }
+
+/* The edges by their lower vertex, then by the other one. start[nv + 2]: out, where those of a vertex begin. */
+static void sort_edges(const splitter *s, int32_t *start, keyed *key)
+{
+    const int32_t nv = s->points.count;
+    for (int32_t e = 0; e < s->ne; e++) start[lower(&s->E[e]) + 2]++;
+    for (int32_t v = 0; v < nv; v++) start[v + 2] += start[v + 1];
+    for (int32_t e = 0; e < s->ne; e++) {
+        const rg_edge *edge = &s->E[e];
+        const int32_t low = lower(edge);
+        key[start[low + 1]++] = (keyed){edge->v[0] + edge->v[1] - low, e, rg_overlap_rank(edge->assignment)};
+    }
+    for (int32_t v = 0; v < nv; v++)
+        if (start[v + 1] > start[v] + 1) qsort(key + start[v], (size_t)(start[v + 1] - start[v]), sizeof *key, by_end);
+}
+
 /* Of edges with the same ends the first of the highest rank stays: border, then mountain and valley, then the rest. */
 static rg_status merge_doubles(splitter *s, rg_lines *lines)
 {
+    const int32_t nv = s->points.count;
     keyed *key = rg_mem_array(&s->mem, (size_t)s->ne, sizeof *key);
+    int32_t *start = rg_mem_array(&s->mem, (size_t)nv + 2, sizeof *start);
     unsigned char *drop = rg_mem_array(&s->mem, (size_t)s->ne, 1);
-    rg_status status = key && drop ? RG_OK : RG_ENOMEM;
-    for (int32_t e = 0; status == RG_OK && e < s->ne; e++) {
-        const int32_t *v = s->E[e].v, low = v[0] < v[1] ? v[0] : v[1];
-        key[e] = (keyed){low, v[0] + v[1] - low, e, rg_overlap_rank(s->E[e].assignment)};
-    }
-    if (status == RG_OK) qsort(key, (size_t)s->ne, sizeof *key, by_ends);
+    rg_status status = key && start && drop ? RG_OK : RG_ENOMEM;
+    if (status == RG_OK) sort_edges(s, start, key);
     int told = 0;
-    for (int32_t i = 1, first = 0; status == RG_OK && i < s->ne; i++) {
-        if (key[i].low != key[first].low || key[i].high != key[first].high) {
-            first = i;
-            continue;
+    for (int32_t v = 0; status == RG_OK && v < nv; v++)
+        for (int32_t first = start[v], i = first + 1; status == RG_OK && i < start[v + 1]; i++) {
+            if (key[i].high != key[first].high) {
+                first = i;
+                continue;
+            }
+            drop[key[i].e] = 1;
+            status = rg_overlap_warn(lines, s->points.X, &s->E[key[first].e], &s->E[key[i].e], &told);
         }
-        drop[key[i].e] = 1;
-        status = rg_overlap_warn(lines, s->points.X, &s->E[key[first].e], &s->E[key[i].e], &told);
-    }
     if (status == RG_OK) status = rg_overlap_warn_more(lines, told);
     if (status == RG_OK) {
         int32_t n = 0;
         for (int32_t e = 0; e < s->ne; e++)
-            if (!drop[e]) s->E[n++] = s->E[e];
+            if (!drop[e]) s->fresh[n] = s->fresh[e], s->E[n++] = s->E[e];
         s->ne = n;
     }
     rg_mem_free(&s->mem, key);
+    rg_mem_free(&s->mem, start);
     rg_mem_free(&s->mem, drop);
     return status;
 }
@@ -428,22 +527,55 @@ static rg_status add_lines(splitter *s, rg_lines *lines, const rg_reading *setti
     return status;
 }
 
+/* A pair of lines, as the numbers of a simple sequence have it: the same every time. */
+static int32_t pick(uint64_t *state, int32_t n)
+{
+    *state = *state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return (int32_t)((*state >> 33) % (uint64_t)n);
+}
+
+/* Is it to be feared, before anything is kept of them, that there are more crossings than may be? Guessed from pairs of lines. */
+static int crosses_too_often(const splitter *s)
+{
+    uint64_t state = 1;
+    int32_t crossing = 0;
+    if (s->ne <= FEW_LINES) return 0;
+    for (int i = 0; i < PAIRS_LOOKED_AT; i++) {
+        const int32_t *p = s->E[pick(&state, s->ne)].v, *q = s->E[pick(&state, s->ne)].v;
+        const rg_vec2 *X = s->points.X, a = X[p[0]], b = X[p[1]], u = X[q[0]], v = X[q[1]];
+        crossing += rg_vec2_turn(u, v, a) * rg_vec2_turn(u, v, b) < 0 && rg_vec2_turn(a, b, u) * rg_vec2_turn(a, b, v) < 0;
+    }
+    const double cuts = (double)s->ne * (double)s->ne * crossing / PAIRS_LOOKED_AT; /* two a crossing, which is of n^2 / 2 pairs */
+    return crossing >= TO_MEAN_ANYTHING && cuts > 2.0 * MOST_CUTS; /* guessed at twice what may be, it is not by chance */
+}
+
+static rg_status look(splitter *s, rg_vec2 low, rg_vec2 high)
+{
+    s->cut_count = 0;
+    rg_status status = build_grid(s, low, high);
+    const int32_t known = s->points.count;
+    if (status == RG_OK) status = find_crossings(s);
+    if (status == RG_OK) status = find_junctions(s, known);
+    s->looked_at = s->points.count;
+    return status;
+}
+
 static rg_status planarise(splitter *s, rg_lines *lines, rg_vec2 low, rg_vec2 high, rg_diag *why)
 {
     rg_status status = rg_overlap_resolve(lines, s->points.X, s->points.tol, fmax(high.x - low.x, high.y - low.y), &s->E, &s->ne, &s->room);
+    if (status == RG_OK && !(s->fresh = rg_mem_array(&s->mem, (size_t)s->ne, 1))) status = RG_ENOMEM;
+    if (status == RG_OK) memset(s->fresh, 1, (size_t)s->ne);
     if (status == RG_OK) status = merge_doubles(s, lines);
+    if (status == RG_OK && crosses_too_often(s)) s->too_many = "crossings", status = RG_EFORMAT;
     for (int round = 0; status == RG_OK && s->ne > 0; round++) {
         if (round == MOST_ROUNDS)
             return rg_fail(RG_EFORMAT, why, 0, "lines lie too close together to tell crossings apart: try another --merge");
-        s->cut_count = 0;
-        status = build_grid(s, low, high);
-        if (status == RG_OK) status = find_crossings(s);
-        if (status == RG_OK) status = find_junctions(s);
+        status = look(s, low, high);
         if (status != RG_OK || !s->cut_count) break;
         status = apply_cuts(s);
         if (status == RG_OK) status = merge_doubles(s, lines);
     }
-    if (s->too_many) return rg_fail(RG_EFORMAT, why, 0, "too many lines lie over each other or in one place");
+    if (s->too_many) return rg_fail(RG_EFORMAT, why, 0, "too many %s: this is no crease pattern", s->too_many);
     return status;
 }
 
@@ -483,6 +615,9 @@ static rg_status graph(rg_lines *lines, const rg_reading *settings, double merge
     rg_mem_free(&s.mem, s.cuts);
     rg_mem_free(&s.mem, s.start);
     rg_mem_free(&s.mem, s.in);
+    rg_mem_free(&s.mem, s.wanted);
+    rg_mem_free(&s.mem, s.fresh);
+    rg_mem_free(&s.mem, s.parent);
     return status;
 }
 

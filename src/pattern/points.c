@@ -5,6 +5,10 @@
 
 /* Cells of a sheet's side where the tolerance asks for more: cell numbers stay whole in a double and in 64 bits. */
 static const double MOST_CELLS = 1e9;
+/* A cell's side over the tolerance: of a point's neighbours within it, most lie in the point's own cell. */
+static const double WIDE = 4;
+/* More than rounding moves the edge of a cell, in cells. */
+static const double ROUNDING = 1e-6;
 
 rg_status rg_points_init(rg_points *p, const rg_memory *mem, rg_vec2 origin, double size, double tol)
 {
@@ -12,7 +16,7 @@ rg_status rg_points_init(rg_points *p, const rg_memory *mem, rg_vec2 origin, dou
     p->mem = *mem;
     p->origin = origin;
     p->tol = tol;
-    p->cell = fmax(tol, size / MOST_CELLS);
+    p->cell = fmax(WIDE * tol, size / MOST_CELLS);
     p->heads = 64;
     p->head = rg_mem_array(mem, p->heads, sizeof *p->head);
     if (!p->head) return RG_ENOMEM;
@@ -62,13 +66,16 @@ static rg_status rehash(rg_points *p, size_t heads)
 
 rg_status rg_points_add(rg_points *p, rg_vec2 x, int32_t *vertex)
 {
-    const int64_t i = column(p, x.x), j = row(p, x.y);
+    const double reach = p->tol + ROUNDING * p->cell;
+    const int64_t left = column(p, x.x - reach), right = column(p, x.x + reach), low = row(p, x.y - reach), high = row(p, x.y + reach);
     double best = INFINITY;
     int32_t found = -1;
-    for (int64_t di = -1; di <= 1; di++)
-        for (int64_t dj = -1; dj <= 1; dj++)
-            for (int32_t v = p->head[slot(p, i + di, j + dj)]; v >= 0; v = p->next[v]) {
-                double d = rg_vec2_length(rg_vec2_sub(p->X[v], x));
+    for (int64_t i = left; i <= right; i++)
+        for (int64_t j = low; j <= high; j++)
+            for (int32_t v = p->head[slot(p, i, j)]; v >= 0; v = p->next[v]) {
+                const rg_vec2 off = rg_vec2_sub(p->X[v], x);
+                if (!(fabs(off.x) <= p->tol && fabs(off.y) <= p->tol)) continue;
+                const double d = rg_vec2_length(off);
                 if (d > p->tol || d > best || (d == best && v > found)) continue;
                 best = d;
                 found = v;
@@ -135,7 +142,9 @@ rg_status rg_points_nearest(const rg_memory *mem, const rg_vec2 *X, int32_t n, d
     *distance = INFINITY;
     for (int32_t i = 0; i < n; i++)
         for (int32_t j = i + 1; j < n && line[j].key - line[i].key < *distance; j++) {
-            double d = rg_vec2_length(rg_vec2_sub(X[line[i].v], X[line[j].v]));
+            const rg_vec2 off = rg_vec2_sub(X[line[i].v], X[line[j].v]);
+            if (!(fabs(off.x) < *distance && fabs(off.y) < *distance)) continue;
+            const double d = rg_vec2_length(off);
             if (!(d < *distance)) continue;
             *distance = d;
             if (at) *at = line[i].v;

@@ -1,4 +1,5 @@
 #include "pattern/sheet.h"
+#include "base/text.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -11,10 +12,10 @@ static void refuse(rg_pattern_info *info, const rg_lines *lines, const char *wha
     if (!info->is_disk) return; /* the first reason is the one to tell */
     info->is_disk = 0;
     at = rg_lines_own(lines, at, info->size);
-    snprintf(info->not_disk, sizeof info->not_disk, "%s at (%.6g, %.6g)", what, at.x, at.y);
+    rg_text(info->not_disk, sizeof info->not_disk, "%s at (%.6g, %.6g)", what, at.x, at.y);
     const size_t n = strlen(info->not_disk);
     if (info->sheets > 1)
-        snprintf(info->not_disk + n, sizeof info->not_disk - n, "; --sheet N takes one of the %d, in the order of the file", (int)info->sheets);
+        rg_text(info->not_disk + n, sizeof info->not_disk - n, "; --sheet N takes one of the %d, in the order of the file", (int)info->sheets);
 }
 
 /* Is x within the outer border of a piece? It is when a ray from it crosses that border an odd number of times. */
@@ -198,7 +199,7 @@ rg_status rg_sheet_from_graph(rg_graph *g, double tol, rg_lines *lines, rg_patte
         for (int32_t k = 0; k < faces.count; k++) info->facets += !(faces.area[k] < 0);
         if (!g->ne) {
             info->is_disk = 0;
-            snprintf(info->not_disk, sizeof info->not_disk, "no lines that enclose a sheet");
+            rg_text(info->not_disk, sizeof info->not_disk, "no lines that enclose a sheet");
         }
         s = find_rim(g, &faces, rim, outer, lines, info);
     }

@@ -1,6 +1,7 @@
 #include "read/fold.h"
 #include "base/memory.h"
 #include "base/status.h"
+#include "base/text.h"
 #include "base/unit.h"
 #include "read/locate.h"
 #include "read/plane.h"
@@ -68,7 +69,7 @@ static rg_status bad(const reader *r, const char *format, ...)
     char text[200], path[PATH_ROOM];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    rg_text_with(text, sizeof text, format, args);
     va_end(args);
     begin_path(r, text, path);
     return rg_fail(RG_EFORMAT, r->why, 0, "%s%s", path, text);
@@ -79,7 +80,7 @@ static rg_status warn(const reader *r, const char *format, ...)
     char text[200], path[PATH_ROOM];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    rg_text_with(text, sizeof text, format, args);
     va_end(args);
     begin_path(r, text, path);
     return rg_lines_warn(r->out, 0, "%s%s", path, text);

@@ -197,8 +197,10 @@ static rg_status slurp(FILE *f, const rg_memory *mem, char **bytes, size_t *size
     do {
         if (rg_mem_grow(mem, (void **)bytes, &room, *size + 65536, 1) != RG_OK)
             return rg_fail(RG_ENOMEM, why, 0, "out of memory");
-        got = fread(*bytes + *size, 1, room - *size, f);
+        const size_t left = RG_MOST_BYTES + 1 - *size; /* the one more tells that there is more */
+        got = fread(*bytes + *size, 1, room - *size < left ? room - *size : left, f);
         *size += got;
+        if (*size > RG_MOST_BYTES) return rg_fail(RG_EFORMAT, why, 0, "more than %zu MB: this is no crease pattern", RG_MOST_BYTES >> 20);
     } while (got > 0);
     return ferror(f) ? rg_fail(RG_EREAD, why, 0, "%s", strerror(errno)) : RG_OK;
 }

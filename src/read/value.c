@@ -1,15 +1,158 @@
 #include "read/value.h"
 #include "base/status.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include <jansson.h>
+
+/* ------------------------------------------------------------------------------- well-formed or not ---- */
+
+/* Where memory is short, the library may call a text ill-formed that is not. So what it refuses is looked at once more, by the
+ * grammar alone (RFC 8259), which takes no memory: a text that is well-formed was refused for want of it. */
+
+/* Open lists and objects, a bit each; deeper than any text that the library takes. */
+enum { DEEPEST = 2048 };
+typedef struct nest { unsigned char is_object[DEEPEST / 8]; int depth; } nest;
+
+static int is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+static int is_digit(char c) { return c >= '0' && c <= '9'; }
+static int is_hex(char c) { return is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); }
+
+static const char *skip_blanks(const char *s, const char *end)
+{
+    while (s < end && is_blank(*s)) s++;
+    return s;
+}
+
+/* The four hexadecimal digits behind s[0] as a number; -1: they are none. */
+static long unit_at(const char *s, const char *end)
+{
+    char digit[5] = "";
+    for (int k = 0; k < 4; k++)
+        if (s + 1 + k < end && is_hex(s[1 + k])) digit[k] = s[1 + k];
+        else return -1;
+    return strtol(digit, NULL, 16);
+}
+
+/* From the u of an escape to its last digit: one character of UTF-16, in one unit or two. NULL: it is none. */
+static const char *escape_at(const char *s, const char *end)
+{
+    const long unit = unit_at(s, end);
+    if (unit < 0 || (unit >= 0xdc00 && unit < 0xe000)) return NULL;
+    if (unit < 0xd800 || unit >= 0xe000) return s + 4;
+    const long other = s + 6 < end && s[5] == '\\' && s[6] == 'u' ? unit_at(s + 6, end) : -1;
+    return other >= 0xdc00 && other < 0xe000 ? s + 10 : NULL;
+}
+
+/* Each: the byte after it, NULL: there is none. */
+static const char *string_at(const char *s, const char *end)
+{
+    if (s >= end || *s++ != '"') return NULL;
+    for (; s < end && *s != '"'; s++) {
+        if ((unsigned char)*s < ' ') return NULL;
+        if (*s != '\\') continue;
+        if (++s >= end || !strchr("\"\\/bfnrtu", *s) || !*s) return NULL;
+        if (*s == 'u' && !(s = escape_at(s, end))) return NULL;
+    }
+    return s < end ? s + 1 : NULL;
+}
+
+static const char *digits_at(const char *s, const char *end)
+{
+    const char *from = s;
+    while (s < end && is_digit(*s)) s++;
+    return s > from ? s : NULL;
+}
+
+static const char *number_at(const char *s, const char *end)
+{
+    if (s < end && *s == '-') s++;
+    if (s < end && *s == '0') s++;
+    else s = digits_at(s, end);
+    if (s && s < end && *s == '.') s = digits_at(s + 1, end);
+    if (s && s < end && (*s == 'e' || *s == 'E')) {
+        s++;
+        if (s < end && (*s == '+' || *s == '-')) s++;
+        s = digits_at(s, end);
+    }
+    return s;
+}
+
+static const char *word_at(const char *s, const char *end)
+{
+    static const char *const words[] = {"true", "false", "null"};
+    for (int i = 0; i < 3; i++) {
+        const size_t n = strlen(words[i]);
+        if ((size_t)(end - s) >= n && memcmp(s, words[i], n) == 0) return s + n;
+    }
+    return NULL;
+}
+
+static const char *key_at(const char *s, const char *end)
+{
+    s = string_at(skip_blanks(s, end), end);
+    if (s) s = skip_blanks(s, end);
+    return s && s < end && *s == ':' ? s + 1 : NULL;
+}
+
+static int is_object(const nest *n) { return n->is_object[(n->depth - 1) / 8] >> (n->depth - 1) % 8 & 1; }
+
+static int is_well_formed(const char *s, const char *end)
+{
+    nest n = {{0}, 0};
+    for (;;) { /* a value begins here */
+        s = skip_blanks(s, end);
+        if (s < end && (*s == '[' || *s == '{')) {
+            const char close = *s == '{' ? '}' : ']';
+            if (n.depth == DEEPEST) return 0;
+            const unsigned char bit = (unsigned char)(1 << n.depth % 8);
+            if (*s == '{') n.is_object[n.depth / 8] |= bit;
+            else n.is_object[n.depth / 8] &= (unsigned char)~bit;
+            n.depth++;
+            s = skip_blanks(s + 1, end);
+            if (s >= end || *s != close) {
+                if (is_object(&n) && !(s = key_at(s, end))) return 0;
+                continue;
+            }
+            s++;
+            n.depth--;
+        } else if (s < end) {
+            s = *s == '"' ? string_at(s, end) : *s == '-' || is_digit(*s) ? number_at(s, end) : word_at(s, end);
+        } else s = NULL;
+        for (; s && n.depth > 0; s++, n.depth--) { /* a value ended here */
+            s = skip_blanks(s, end);
+            if (s >= end) return 0;
+            if (*s == ',') break;
+            if (*s != (is_object(&n) ? '}' : ']')) return 0;
+        }
+        if (!s) return 0;
+        if (n.depth == 0) return skip_blanks(s, end) == end;
+        s++; /* the comma */
+        if (is_object(&n) && !(s = key_at(s, end))) return 0;
+    }
+}
+
+/* What it says of texts that are well-formed and refused all the same. */
+static int is_of_the_text(const json_error_t *e)
+{
+    switch (json_error_code(e)) {
+    case json_error_stack_overflow:
+    case json_error_duplicate_key:
+    case json_error_numeric_overflow:
+    case json_error_invalid_utf8:
+    case json_error_null_character:
+    case json_error_null_byte_in_key: return 1;
+    default: return 0;
+    }
+}
 
 rg_status rg_value_parse(const void *bytes, size_t size, rg_value **root, rg_diag *why)
 {
     json_error_t e;
     json_t *v = json_loadb(bytes, size, JSON_REJECT_DUPLICATES, &e);
-    if (!v && json_error_code(&e) == json_error_out_of_memory) return RG_ENOMEM;
+    if (!v && (json_error_code(&e) == json_error_out_of_memory ||
+               (!is_of_the_text(&e) && is_well_formed(bytes, (const char *)bytes + size)))) return RG_ENOMEM;
     if (!v) {
         for (char *c = e.text; *c; c++)
             if ((unsigned char)*c < ' ') *c = ' ';

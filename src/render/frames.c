@@ -1,5 +1,6 @@
 #include "render/frames.h"
 #include "base/status.h"
+#include "base/text.h"
 #include "render/caption.h"
 #include "render/lift.h"
 #include "render/render.h"
@@ -72,7 +73,7 @@ static int next_frame(painter *p, int32_t *frame)
         s->status = rg_lift_next(s->layers, p->x, p->lift);
         if (s->status != RG_OK) rg_fail(s->status, s->why, 0, "%s", rg_status_text(s->status));
         *frame = s->next++;
-        found = s->status == RG_OK && is_wanted(s->wish, *frame);
+        found = s->status == RG_OK && is_wanted(s->wish, *frame) && !(s->wish->has && s->wish->has(s->wish->ctx, *frame));
     }
     if (s->status != RG_OK) pthread_cond_broadcast(&s->moved);
     pthread_mutex_unlock(&s->lock);
@@ -122,7 +123,7 @@ static void caption(const studio *s, int32_t frame, unsigned char *rgb)
     const rg_picture *p = &s->wish->picture;
     unsigned char ink[3];
     char percent[40];
-    snprintf(percent, sizeof percent, "%.0f %%", s->motion->frame[frame].percent);
+    rg_text(percent, sizeof percent, "%.0f %%", s->motion->frame[frame].percent);
     rg_caption_ink(p->background, ink);
     rg_caption_draw(s->title, percent, ink, p->width, p->height, rgb);
 }
@@ -224,7 +225,7 @@ static rg_status set_up(studio *s)
     s->tint = rg_tint_of(m, s->wish->picture.colour);
     rg_tint_words(&s->tint, tells, sizeof tells);
     const char *title = m->title && *m->title ? m->title : s->wish->picture.title ? s->wish->picture.title : "";
-    snprintf(s->title, sizeof s->title, "%s%s%s", title, *title && *tells ? ": " : "", tells);
+    rg_text(s->title, sizeof s->title, "%s%s%s", title, *title && *tells ? ": " : "", tells);
     rg_status status = rg_picture_check(&s->wish->picture, s->why);
     if (status != RG_OK) return status;
     s->camera = rg_mem_array(&s->mem, (size_t)m->report.frame_count, sizeof *s->camera);

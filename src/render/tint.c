@@ -1,4 +1,5 @@
 #include "render/tint.h"
+#include "base/text.h"
 
 #include <stdio.h>
 
@@ -74,10 +75,10 @@ void rg_tint_facets(const rg_tint_scale *t, const rg_motion *m, int32_t k, const
 void rg_tint_words(const rg_tint_scale *t, char *text, size_t room)
 {
     switch (t->by) {
-    case RG_COLOUR_STRAIN: snprintf(text, room, "strain up to %.2g %%", 100 * t->most); break;
-    case RG_COLOUR_ROLL: snprintf(text, room, "roll up to %.2g %%", 100 * t->most); break;
-    case RG_COLOUR_SPEED: snprintf(text, room, "up to %.3g degrees a frame", t->most / RG_DEG); break;
-    case RG_COLOUR_LAYER: snprintf(text, room, "layers"); break;
-    default: snprintf(text, room, "%s", "");
+    case RG_COLOUR_STRAIN: rg_text(text, room, "strain up to %.2g %%", 100 * t->most); break;
+    case RG_COLOUR_ROLL: rg_text(text, room, "roll up to %.2g %%", 100 * t->most); break;
+    case RG_COLOUR_SPEED: rg_text(text, room, "up to %.3g degrees a frame", t->most / RG_DEG); break;
+    case RG_COLOUR_LAYER: rg_text(text, room, "layers"); break;
+    default: rg_text(text, room, "%s", "");
     }
 }

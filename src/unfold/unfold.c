@@ -83,7 +83,7 @@ static rg_status find_layers(rg_unfold *u, double sign)
         const double target = u->mesh.target[u->mesh.crease_edge[i]];
         u->end[i] = i < u->P.N - u->mesh.added ? sign * target : 0;
     }
-    const rg_status s = rg_layers_of_mesh(&u->mesh, u->end, 0, &u->mem, &u->layers, &why);
+    const rg_status s = rg_layers_of_mesh(&u->mesh, u->end, 0, &u->mem, NULL, &u->layers, &why);
     if (s == RG_EFORMAT || s == RG_ESHEET) return RG_OK;
     if (s != RG_OK) return s;
     u->which = rg_mem_array(&u->mem, (size_t)u->layers->parts.count + 1, sizeof *u->which);

@@ -2,6 +2,7 @@
 #include "base/file.h"
 #include "base/json.h"
 #include "base/status.h"
+#include "base/text.h"
 #include "verify/given.h"
 
 #include <errno.h>
@@ -102,11 +103,11 @@ rg_status rg_certificate_create(const char *path, const rg_pattern *given, const
 
 static void where(const rg_certificate *c, const rg_fault *f, char *text, size_t room)
 {
-    int n = f->frame < 0 ? snprintf(text, room, "pattern: ") : snprintf(text, room, "frame %d", (int)f->frame);
-    if (f->frame >= 0 && !isnan(c->percent[f->frame])) n += snprintf(text + n, room - (size_t)n, " (%.4g %%)", c->percent[f->frame]);
-    if (f->frame >= 0) n += snprintf(text + n, room - (size_t)n, ": ");
-    if (f->facet[0] >= 0 && f->facet[1] >= 0) snprintf(text + n, room - (size_t)n, "facets %d and %d ", (int)f->facet[0], (int)f->facet[1]);
-    else if (f->facet[0] >= 0 || f->facet[1] >= 0) snprintf(text + n, room - (size_t)n, "facet %d ", (int)(f->facet[0] >= 0 ? f->facet[0] : f->facet[1]));
+    int n = f->frame < 0 ? rg_text(text, room, "pattern: ") : rg_text(text, room, "frame %d", (int)f->frame);
+    if (f->frame >= 0 && !isnan(c->percent[f->frame])) n += rg_text(text + n, room - (size_t)n, " (%.4g %%)", c->percent[f->frame]);
+    if (f->frame >= 0) n += rg_text(text + n, room - (size_t)n, ": ");
+    if (f->facet[0] >= 0 && f->facet[1] >= 0) rg_text(text + n, room - (size_t)n, "facets %d and %d ", (int)f->facet[0], (int)f->facet[1]);
+    else if (f->facet[0] >= 0 || f->facet[1] >= 0) rg_text(text + n, room - (size_t)n, "facet %d ", (int)(f->facet[0] >= 0 ? f->facet[0] : f->facet[1]));
 }
 
 static void write_text(const rg_certificate *c, FILE *out)
@@ -116,14 +117,14 @@ static void write_text(const rg_certificate *c, FILE *out)
     for (int32_t k = 0; k < i->faults && k < SHOWN; k++) {
         char place[120] = "";
         where(c, &c->faults.list[k], place, sizeof place);
-        fprintf(out, "%s%s\n", place, c->faults.list[k].text);
+        rg_text_to(out, "%s%s\n", place, c->faults.list[k].text);
     }
-    if (i->faults > SHOWN) fprintf(out, "and %d more\n", (int)(i->faults - SHOWN));
+    if (i->faults > SHOWN) rg_text_to(out, "and %d more\n", (int)(i->faults - SHOWN));
     if (!i->valid) return;
-    fprintf(out, "valid: one sheet, %d rigid facets, closed in all of %d frames; nothing crosses in them deeper than %g of the sheet, or on rigid ways "
+    rg_text_to(out, "valid: one sheet, %d rigid facets, closed in all of %d frames; nothing crosses in them deeper than %g of the sheet, or on rigid ways "
             "between them deeper than %.2g\n", (int)i->facets, (int)i->frames, RG_THROUGH_LEAST, i->between_depth);
     if (i->ends_flat)
-        fprintf(out, "the last frame lies flat and rests on the order of its layers alone: %d pairs of facets, valid; the frame before shows %d of them\n",
+        rg_text_to(out, "the last frame lies flat and rests on the order of its layers alone: %d pairs of facets, valid; the frame before shows %d of them\n",
                 (int)i->layer_pairs, (int)i->layers_shown);
 }
 

@@ -1,4 +1,5 @@
 #include "verify/faults.h"
+#include "base/text.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -10,6 +11,6 @@ void rg_faults_add(rg_faults *all, int32_t frame, int32_t f, int32_t g, const ch
     va_list args;
     va_start(args, format);
     all->list[k] = (rg_fault){.frame = frame, .facet = {f, g}};
-    vsnprintf(all->list[k].text, sizeof all->list[k].text, format, args);
+    rg_text_with(all->list[k].text, sizeof all->list[k].text, format, args);
     va_end(args);
 }

@@ -5,6 +5,7 @@
 #include "render/frames.h"
 #include "write/apng.h"
 #include "write/gif.h"
+#include "write/key.h"
 #include "write/numbered.h"
 #include "write/png.h"
 #include "write/reel.h"
@@ -63,13 +64,13 @@ static rg_status name_it(rg_status s, const char *path, rg_diag *why)
 
 /* ---- pictures, each in its file */
 
-static rg_status write_png(const rg_memory *mem, const rg_dest *to, const rg_picture *p, const unsigned char *rgb,
+static rg_status write_png(const rg_memory *mem, const rg_dest *to, const rg_picture *p, const unsigned char *rgb, const char *run,
                            rg_diag *why)
 {
     rg_file file;
-    rg_status s = rg_file_begin_to(&file, mem, to, why);
+    rg_status s = rg_file_begin_to_swept(&file, mem, to, why);
     if (s != RG_OK) return s;
-    s = rg_png_write(file.stream, p->width, p->height, rgb, why);
+    s = rg_png_write_of(file.stream, p->width, p->height, rgb, run, why);
     if (s == RG_OK) return rg_file_commit(&file, why);
     rg_file_abandon(&file);
     return name_it(s, to->path, why);
@@ -79,33 +80,51 @@ typedef struct album {
     const rg_picture *picture;
     rg_numbered name;
     const rg_dest *to; /* NULL: one file a frame, by its number */
+    char run[RG_KEY_ROOM];
+    char *room;       /* for a name, of rg_numbered_room */
 } album;
 
 static rg_status paste(void *ctx, const rg_memory *mem, int32_t frame, const unsigned char *rgb, rg_diag *why)
 {
     const album *a = ctx;
-    if (a->to) return write_png(mem, a->to, a->picture, rgb, why);
+    if (a->to) return write_png(mem, a->to, a->picture, rgb, a->run, why);
     const size_t room = rg_numbered_room(&a->name);
     char *name = rg_mem_array(mem, room, 1);
     if (!name) return rg_fail(RG_ENOMEM, why, 0, "out of memory for a file name");
     rg_numbered_name(&a->name, frame, name, room);
-    const rg_status s = write_png(mem, &(rg_dest){name, NULL}, a->picture, rgb, why);
+    const rg_status s = write_png(mem, &(rg_dest){name, NULL}, a->picture, rgb, a->run, why);
     rg_mem_free(mem, name);
     return s;
 }
 
-static int is_ours(const char *path)
+/* Does it say so near its beginning? */
+static int has_mark(const char *path, const char *mark, size_t length)
 {
-    static const char mark[] = "tEXtSoftware\0" RG_PNG_SOFTWARE;
     char head[256];
     struct stat is;
     if (lstat(path, &is) != 0 || !S_ISREG(is.st_mode)) return 0;
     FILE *f = fopen(path, "rb");
     const size_t n = f ? fread(head, 1, sizeof head, f) : 0;
     if (f) fclose(f);
-    for (size_t i = 0; i + sizeof mark - 1 <= n; i++)
-        if (memcmp(head + i, mark, sizeof mark - 1) == 0) return 1;
+    for (size_t i = 0; i + length <= n; i++)
+        if (memcmp(head + i, mark, length) == 0) return 1;
     return 0;
+}
+
+static int is_ours(const char *path)
+{
+    static const char mark[] = "tEXtSoftware\0" RG_PNG_SOFTWARE;
+    return has_mark(path, mark, sizeof mark - 1);
+}
+
+/* Is the frame there, of a run that drew the same? A file that has its name is whole. */
+static int is_drawn(void *ctx, int32_t frame)
+{
+    const album *a = ctx;
+    char mark[sizeof "tEXtRun" + RG_KEY_ROOM] = "tEXtRun";
+    memcpy(mark + sizeof "tEXtRun", a->run, RG_KEY_ROOM - 1);
+    rg_numbered_name(&a->name, frame, a->room, rg_numbered_room(&a->name));
+    return has_mark(a->room, mark, sizeof "tEXtRun" + RG_KEY_ROOM - 1);
 }
 
 /* Frames of a longer run before this one would be taken for its end. */
@@ -131,7 +150,11 @@ static rg_status write_numbered(const rg_motion *m, const char *path, rg_frames 
     rg_numbered_find(path, &a.name);
     f->take = paste;
     f->ctx = &a;
-    const rg_status s = rg_frames_draw(m, f, why);
+    rg_key_of(m, &f->picture, f->print, a.run);
+    if (f->picture.resume) f->has = is_drawn;
+    a.room = rg_mem_array(&m->mem, rg_numbered_room(&a.name), 1);
+    rg_status s = a.room ? rg_frames_draw(m, f, why) : rg_fail(RG_ENOMEM, why, 0, "out of memory for a file name");
+    rg_mem_free(&m->mem, a.room);
     return s == RG_OK ? remove_stale(m, &a.name, why) : s;
 }
 
@@ -142,6 +165,7 @@ static rg_status write_one(const rg_motion *m, int32_t frame, const rg_dest *to,
     f->step = m->report.frame_count; /* and no other one */
     f->take = paste;
     f->ctx = &a;
+    rg_key_of(m, &f->picture, f->print, a.run);
     return rg_frames_draw(m, f, why);
 }
 
@@ -155,10 +179,9 @@ static rg_status write_folder(const rg_motion *m, const char *path, rg_frames *f
     memcpy(pattern, path, n);
     strcpy(pattern + n, path[n - 1] == '/' ? name + 1 : name);
     rg_status s = RG_OK;
-    const int made = mkdir(path, 0777) == 0;
+    const int made = mkdir(path, 0777) == 0, reason = errno;
     if (!made && (stat(path, &is) != 0 || !S_ISDIR(is.st_mode)))
-        s = rg_fail(RG_EWRITE, why, 0, "%.150s: cannot make this folder: %s", path,
-                    strerror(errno == EEXIST ? ENOTDIR : errno));
+        s = rg_fail(RG_EWRITE, why, 0, "%.150s: cannot make this folder: %s", path, strerror(reason == EEXIST ? ENOTDIR : reason));
     if (s == RG_OK) s = write_numbered(m, pattern, f, why);
     if (s != RG_OK && made) rmdir(path); /* stays if there is something in it */
     rg_mem_free(&m->mem, pattern);
@@ -318,7 +341,8 @@ static rg_status pass_on(int fd, FILE *out, rg_diag *why)
 
 static rg_status write_video(const rg_motion *m, rg_file *file, const char *container, rg_frames *f, rg_diag *why)
 {
-    if (!file->pile) return run_video(m, file->temporary ? file->temporary : file->path, container, f, why);
+    char reach[RG_FILE_REACH];
+    if (!file->pile) return run_video(m, rg_file_reach(file, reach), container, f, why);
     const char *folder = getenv("TMPDIR");
     char path[1024];
     snprintf(path, sizeof path, "%.1000s/rigami-XXXXXX", folder && *folder ? folder : "/tmp");

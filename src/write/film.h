@@ -9,7 +9,7 @@
  *
  * Each file is written to a temporary name and renamed. Numbered frames replace those of an earlier run: where that was
  * longer, the frames that follow on the last one in number are removed, as far as they are PNG files that say that they
- * were made by rigami. Nothing else is. */
+ * were made by rigami. Nothing else is. Each says of which run it is: picture.resume keeps those of this one. */
 #ifndef RG_FILM_H
 #define RG_FILM_H
 

@@ -2,6 +2,7 @@
 #include "base/base64.h"
 #include "base/bytes.h"
 #include "base/json.h"
+#include "base/text.h"
 #include "render/lift.h"
 #include "render/stage.h"
 #include "render/tint.h"
@@ -112,11 +113,11 @@ static void told(rg_json *j, const rg_motion *m, const rg_tint_scale *t)
     const rg_report *r = &m->report;
     const int first = (int)strcspn(r->reason, ";"); /* what follows is for those who look into it */
     char stopped[sizeof r->reason + 60] = "", crosses[80] = "", colours[80], text[sizeof stopped + 200];
-    if (r->outcome == RG_STOPPED) snprintf(stopped, sizeof stopped, "Stopped short at %.1f %%: %.*s. ", r->folded_percent, first, r->reason);
+    if (r->outcome == RG_STOPPED) rg_text(stopped, sizeof stopped, "Stopped short at %.1f %%: %.*s. ", r->folded_percent, first, r->reason);
     if (r->contact == RG_CONTACT_CROSSES)
-        snprintf(crosses, sizeof crosses, "It passes through itself from %.1f %% on. ", r->first_contact_percent);
+        rg_text(crosses, sizeof crosses, "It passes through itself from %.1f %% on. ", r->first_contact_percent);
     rg_tint_words(t, colours, sizeof colours);
-    snprintf(text, sizeof text, "%s%s%s%s%s", stopped, crosses, *colours ? "Colours: " : "", colours, *colours ? "." : "");
+    rg_text(text, sizeof text, "%s%s%s%s%s", stopped, crosses, *colours ? "Colours: " : "", colours, *colours ? "." : "");
     rg_json_string(j, "told", text);
     rg_json_number(j, "crosses", r->contact == RG_CONTACT_CROSSES ? r->first_contact_percent : NAN); /* null: nowhere */
 }

@@ -1,10 +1,12 @@
 /* What is known of a pattern before it is folded, as JSON and for people. */
 #include "base/file.h"
 #include "base/number.h"
+#include "base/text.h"
 #include "base/unit.h"
 #include "layers/layers.h"
 #include "motion/motion.h"
 #include "pattern/alike.h"
+#include "pattern/check.h"
 #include "pattern/pattern.h"
 #include "write/report.h"
 
@@ -98,7 +100,7 @@ static void symmetry(rg_json *j, const rg_alike *a)
 static rg_status find_layers(const rg_pattern *p, rg_layers **l, rg_diag *why)
 {
     *l = NULL;
-    return p->info.is_disk ? rg_layers_create(p, &p->mem, l, why) : RG_OK;
+    return p->info.is_disk && rg_check_crowded(p) < 0 ? rg_layers_create(p, &p->mem, l, why) : RG_OK;
 }
 
 static void layers(rg_json *j, const rg_layers *l)
@@ -197,59 +199,59 @@ static const char *plural(int32_t n, const char *one, const char *more) { return
 
 static void title(const rg_pattern_info *i, FILE *out)
 {
-    if (*i->title) fprintf(out, "%s", i->title);
-    if (*i->title && *i->author) fprintf(out, ", ");
-    if (*i->author) fprintf(out, "by %s", i->author);
+    if (*i->title) rg_text_to(out, "%s", i->title);
+    if (*i->title && *i->author) rg_text_to(out, ", ");
+    if (*i->author) rg_text_to(out, "by %s", i->author);
     if (*i->title || *i->author) fputc('\n', out);
 }
 
 static void counts(const rg_pattern_info *i, int32_t ways, FILE *out)
 {
     const char *unit = rg_unit_name(i->unit);
-    fprintf(out, "graph       %d %s, %d %s, %d %s; size %.6g%s%s\n", (int)i->vertices, plural(i->vertices, "vertex", "vertices"),
+    rg_text_to(out, "graph       %d %s, %d %s, %d %s; size %.6g%s%s\n", (int)i->vertices, plural(i->vertices, "vertex", "vertices"),
             (int)i->edges, plural(i->edges, "edge", "edges"), (int)i->facets, plural(i->facets, "facet", "facets"), i->size,
             unit ? " " : "", unit ? unit : "");
-    fprintf(out, "creases     %d: %d mountain, %d valley", (int)i->creases, (int)i->mountains, (int)i->valleys);
-    if (i->unassigned) fprintf(out, ", %d unassigned", (int)i->unassigned);
-    if (i->flat) fprintf(out, ", %d flat", (int)i->flat);
-    if (i->cuts) fprintf(out, ", %d %s", (int)i->cuts, plural(i->cuts, "slit", "slits"));
-    if (i->lost_creases) fprintf(out, "; %d more %s drawn, left out or taken for border", (int)i->lost_creases, plural(i->lost_creases, "is", "are"));
+    rg_text_to(out, "creases     %d: %d mountain, %d valley", (int)i->creases, (int)i->mountains, (int)i->valleys);
+    if (i->unassigned) rg_text_to(out, ", %d unassigned", (int)i->unassigned);
+    if (i->flat) rg_text_to(out, ", %d flat", (int)i->flat);
+    if (i->cuts) rg_text_to(out, ", %d %s", (int)i->cuts, plural(i->cuts, "slit", "slits"));
+    if (i->lost_creases) rg_text_to(out, "; %d more %s drawn, left out or taken for border", (int)i->lost_creases, plural(i->lost_creases, "is", "are"));
     fputc('\n', out);
-    if (ways >= 0) fprintf(out, "mobility    %d %s to move once it has left flat\n", (int)ways, plural(ways, "way", "ways"));
+    if (ways >= 0) rg_text_to(out, "mobility    %d %s to move once it has left flat\n", (int)ways, plural(ways, "way", "ways"));
 }
 
 static void model(const rg_pattern_info *i, FILE *out)
 {
-    fprintf(out, "model       M = %d interior %s, N = %d, N0 = %d border %s; N - 3M = %d\n", (int)i->interior_vertices,
+    rg_text_to(out, "model       M = %d interior %s, N = %d, N0 = %d border %s; N - 3M = %d\n", (int)i->interior_vertices,
             plural(i->interior_vertices, "vertex", "vertices"), (int)i->creases, (int)i->boundary_edges,
             plural(i->boundary_edges, "edge", "edges"), (int)i->degrees_of_freedom);
     if (i->is_disk)
-        fprintf(out, "            cut into triangles: %d more %s, N0 - 3 = %d degrees of freedom\n", (int)triangulating_adds(i),
+        rg_text_to(out, "            cut into triangles: %d more %s, N0 - 3 = %d degrees of freedom\n", (int)triangulating_adds(i),
                 plural(triangulating_adds(i), "crease", "creases"), (int)i->boundary_edges - 3);
-    fprintf(out, "drawing     largest gap closed %.3g, smallest distance kept %.3g\n", i->merged_max, i->kept_min);
+    rg_text_to(out, "drawing     largest gap closed %.3g, smallest distance kept %.3g\n", i->merged_max, i->kept_min);
 }
 
 /* "turns by 90 degrees, mirrors at 0, 45 degrees"; all: how many turns there are with the one by nothing. */
 static void likeness(const rg_likeness *l, int32_t all, FILE *out)
 {
-    if (l->turns && all > 1) fprintf(out, "turns by %.6g degrees", 360.0 / all);
-    if (l->turns && all > 1 && l->mirrors) fprintf(out, ", ");
-    if (l->mirrors > listed(l)) fprintf(out, "%d ", (int)l->mirrors);
+    if (l->turns && all > 1) rg_text_to(out, "turns by %.6g degrees", 360.0 / all);
+    if (l->turns && all > 1 && l->mirrors) rg_text_to(out, ", ");
+    if (l->mirrors > listed(l)) rg_text_to(out, "%d ", (int)l->mirrors);
     for (int32_t i = 0; i < listed(l); i++)
-        fprintf(out, "%s%.4g", i ? ", " : plural(l->mirrors, "mirror at ", "mirrors at "), round(1e4 * l->mirror[i]) / 1e4);
-    if (l->mirrors) fprintf(out, "%s degrees", l->mirrors > listed(l) ? " ..." : "");
+        rg_text_to(out, "%s%.4g", i ? ", " : plural(l->mirrors, "mirror at ", "mirrors at "), round(1e4 * l->mirror[i]) / 1e4);
+    if (l->mirrors) rg_text_to(out, "%s degrees", l->mirrors > listed(l) ? " ..." : "");
 }
 
 static void symmetries(const rg_alike *a, FILE *out)
 {
     const rg_likeness *same = &a->same, *other = &a->exchanged;
     const int is_same = same->turns > 1 || same->mirrors, is_other = other->turns || other->mirrors;
-    fprintf(out, "symmetry    ");
-    if (!is_same && !is_other) fprintf(out, "none");
+    rg_text_to(out, "symmetry    ");
+    if (!is_same && !is_other) rg_text_to(out, "none");
     if (is_same) likeness(same, same->turns, out);
-    if (is_same && is_other) fprintf(out, "\n            ");
+    if (is_same && is_other) rg_text_to(out, "\n            ");
     if (is_other) {
-        fprintf(out, "mountain for valley: ");
+        rg_text_to(out, "mountain for valley: ");
         likeness(other, other->turns + same->turns, out);
     }
     fputc('\n', out);
@@ -258,22 +260,22 @@ static void symmetries(const rg_alike *a, FILE *out)
 void rg_unfoldable_text(const rg_pattern *p, const rg_unfoldable *u, char text[240])
 {
     const rg_vec2 at = rg_lines_own(&p->lines, (rg_vec2){u->x, u->y}, p->info.size);
-    const int n = snprintf(text, 240, "at (%.6g, %.6g) ", at.x, at.y);
+    const int n = rg_text(text, 240, "at (%.6g, %.6g) ", at.x, at.y);
     const size_t room = (size_t)(240 - n);
     switch (u->theorem) {
     case RG_KAWASAKI:
-        snprintf(text + n, room, "every other angle should add up to 180 degrees, and is %.4g degrees off (Kawasaki's theorem)", u->by);
+        rg_text(text + n, room, "every other angle should add up to 180 degrees, and is %.4g degrees off (Kawasaki's theorem)", u->by);
         break;
     case RG_MAEKAWA:
-        snprintf(text + n, room, "mountains and valleys differ by %.0f, and should by 2 (Maekawa's theorem)", u->by);
+        rg_text(text + n, room, "mountains and valleys differ by %.0f, and should by 2 (Maekawa's theorem)", u->by);
         break;
-    case RG_DEGREE: snprintf(text + n, room, "%.0f creases meet, an odd number", u->by); break;
+    case RG_DEGREE: rg_text(text + n, room, "%.0f creases meet, an odd number", u->by); break;
     case RG_BIG_LITTLE_BIG:
-        snprintf(text + n, room, "the smallest angle, by %.4g degrees, lies between two creases of one kind: one of them has to be the other (big-little-big)",
+        rg_text(text + n, room, "the smallest angle, by %.4g degrees, lies between two creases of one kind: one of them has to be the other (big-little-big)",
                  u->by);
         break;
     case RG_TARGETS:
-        snprintf(text + n, room, "the fold angles of the file contradict each other: with all of them the paper misses itself by %.4g degrees", u->by);
+        rg_text(text + n, room, "the fold angles of the file contradict each other: with all of them the paper misses itself by %.4g degrees", u->by);
         break;
     }
 }
@@ -295,12 +297,12 @@ static void vertices(const rg_pattern *p, int32_t bad, int lists, FILE *out)
 {
     char text[240];
     const int32_t M = p->info.interior_vertices;
-    if (M == 0) fprintf(out, "vertices    none inside the sheet\n");
-    else if (bad == 0) fprintf(out, "vertices    each of %d inside the sheet can fold flat by itself\n", (int)M);
-    else fprintf(out, "vertices    %d of %d inside the sheet cannot fold flat%s\n", (int)bad, (int)M, lists || bad < 2 ? "" : "; -v lists them");
+    if (M == 0) rg_text_to(out, "vertices    none inside the sheet\n");
+    else if (bad == 0) rg_text_to(out, "vertices    each of %d inside the sheet can fold flat by itself\n", (int)M);
+    else rg_text_to(out, "vertices    %d of %d inside the sheet cannot fold flat%s\n", (int)bad, (int)M, lists || bad < 2 ? "" : "; -v lists them");
     for (int32_t k = 0; lists && k < p->unfoldables; k++) {
         rg_unfoldable_text(p, &p->unfoldable[k], text);
-        fprintf(out, "            %s\n", text);
+        rg_text_to(out, "            %s\n", text);
     }
 }
 
@@ -308,12 +310,12 @@ static void closed_vertices(const rg_pattern *p, int lists, FILE *out)
 {
     const int32_t n = p->info.closed_vertices;
     if (n > 0)
-        fprintf(out, "closed      %d %s: a crease halves the angle of two that fold opposite ways, which locks them%s\n", (int)n,
+        rg_text_to(out, "closed      %d %s: a crease halves the angle of two that fold opposite ways, which locks them%s\n", (int)n,
                 plural(n, "vertex", "vertices"), lists ? "" : "; -v lists them");
     for (int32_t k = 0; lists && k < p->closed_triples; k++) {
         const rg_closed *c = &p->closed[k];
         const rg_vec2 at[] = {own(p, c->x, c->y), own(p, c->a[0], c->a[1]), own(p, c->c[0], c->c[1]), own(p, c->b[0], c->b[1])};
-        fprintf(out, "            (%.6g, %.6g): creases to (%.6g, %.6g), (%.6g, %.6g), (%.6g, %.6g), inside angle %.4g degrees\n", at[0].x, at[0].y,
+        rg_text_to(out, "            (%.6g, %.6g): creases to (%.6g, %.6g), (%.6g, %.6g), (%.6g, %.6g), inside angle %.4g degrees\n", at[0].x, at[0].y,
                 at[1].x, at[1].y, at[2].x, at[2].y, at[3].x, at[3].y, c->inside_angle / RG_DEG);
     }
 }
@@ -323,28 +325,28 @@ static void flat_folding(const rg_layers *l, FILE *out)
     rg_layers_info i;
     if (!l) return;
     i = *rg_layers_get_info(l);
-    fprintf(out, "folded flat ");
+    rg_text_to(out, "folded flat ");
     switch (i.state) {
     case RG_LAYERS_VALID:
-        fprintf(out, "%s %s of its %d %s", i.count, strcmp(i.count, "1") == 0 ? "layer order" : "layer orders", (int)i.facets,
+        rg_text_to(out, "%s %s of its %d %s", i.count, strcmp(i.count, "1") == 0 ? "layer order" : "layer orders", (int)i.facets,
                 plural(i.facets, "facet", "facets"));
         for (int32_t k = 0; i.parts > 1 && k < i.parts; k++)
-            fprintf(out, "%s%.0f", k ? " x " : ": ", (double)rg_layers_part(l, k));
+            rg_text_to(out, "%s%.0f", k ? " x " : ": ", (double)rg_layers_part(l, k));
         fputc('\n', out);
         break;
-    case RG_LAYERS_NONE: fprintf(out, "no layer order: %s\n", i.reason); break;
-    case RG_LAYERS_UNSOLVED: fprintf(out, "not solved: %s\n", i.reason); break;
-    case RG_LAYERS_NOT_FLAT: fprintf(out, "not meant to be: %s\n", i.reason); break;
+    case RG_LAYERS_NONE: rg_text_to(out, "no layer order: %s\n", i.reason); break;
+    case RG_LAYERS_UNSOLVED: rg_text_to(out, "not solved: %s\n", i.reason); break;
+    case RG_LAYERS_NOT_FLAT: rg_text_to(out, "not meant to be: %s\n", i.reason); break;
     }
 }
 
 static void warnings(const rg_pattern *p, int lists, FILE *out)
 {
-    if (p->lines.warnings) fprintf(out, "warnings    %d\n", (int)p->lines.warnings);
+    if (p->lines.warnings) rg_text_to(out, "warnings    %d\n", (int)p->lines.warnings);
     for (int32_t k = 0; lists && k < p->lines.warnings; k++) {
-        fprintf(out, "            ");
-        if (p->lines.warning[k].line) fprintf(out, "line %d: ", p->lines.warning[k].line);
-        fprintf(out, "%s\n", p->lines.warning[k].text);
+        rg_text_to(out, "            ");
+        if (p->lines.warning[k].line) rg_text_to(out, "line %d: ", p->lines.warning[k].line);
+        rg_text_to(out, "%s\n", p->lines.warning[k].text);
     }
 }
 
@@ -370,7 +372,7 @@ static void traits(const rg_pattern *p, FILE *out)
         for (int32_t k = 0; k < p->lines.traits; k++) {
             const rg_trait *t = &p->lines.trait[k];
             if ((int)t->sort == sort)
-                fprintf(out, "%s%s: %d %s", n++ ? ", " : names[sort], t->name, (int)t->count, letter_name(t->assignment));
+                rg_text_to(out, "%s%s: %d %s", n++ ? ", " : names[sort], t->name, (int)t->count, letter_name(t->assignment));
         }
         if (n) fputc('\n', out);
     }
@@ -379,9 +381,9 @@ static void traits(const rg_pattern *p, FILE *out)
 static void sheets(const rg_pattern *p, FILE *out)
 {
     if (p->info.sheets < 2) return;
-    fprintf(out, "sheets      %d; --sheet N takes one\n", (int)p->info.sheets);
+    rg_text_to(out, "sheets      %d; --sheet N takes one\n", (int)p->info.sheets);
     for (int32_t k = 0; k < p->info.sheets; k++)
-        fprintf(out, "            %d: %.6g x %.6g at (%.6g, %.6g), %d lines\n", (int)k + 1, p->piece[k].high[0] - p->piece[k].low[0],
+        rg_text_to(out, "            %d: %.6g x %.6g at (%.6g, %.6g), %d lines\n", (int)k + 1, p->piece[k].high[0] - p->piece[k].low[0],
                 p->piece[k].high[1] - p->piece[k].low[1], p->piece[k].low[0], p->piece[k].low[1], (int)p->piece[k].lines);
 }
 
@@ -393,10 +395,10 @@ static void crease_list(const rg_pattern *p, FILE *out)
         const rg_edge *E = &p->E[e];
         if (E->assignment == RG_BORDER) continue;
         const rg_vec2 a = own(p, p->X[E->v[0]].x, p->X[E->v[0]].y), b = own(p, p->X[E->v[1]].x, p->X[E->v[1]].y);
-        fprintf(out, "            c%d %c, vertices %d and %d: (%.6g, %.6g) to (%.6g, %.6g)", (int)number++, E->assignment, (int)E->v[0], (int)E->v[1], a.x,
+        rg_text_to(out, "            c%d %c, vertices %d and %d: (%.6g, %.6g) to (%.6g, %.6g)", (int)number++, E->assignment, (int)E->v[0], (int)E->v[1], a.x,
                 a.y, b.x, b.y);
-        if (isfinite(E->target)) fprintf(out, ", target %.6g", rg_number_degrees(E->target));
-        if (E->where) fprintf(out, ", line %d", (int)E->where);
+        if (isfinite(E->target)) rg_text_to(out, ", target %.6g", rg_number_degrees(E->target));
+        if (E->where) rg_text_to(out, ", line %d", (int)E->where);
         fputc('\n', out);
     }
 }
@@ -410,7 +412,7 @@ static rg_status mobility(const rg_pattern *p, int32_t *ways)
     rg_settings s = rg_settings_default();
     rg_motion *m = NULL;
     *ways = -1;
-    if (!p->info.is_disk || p->info.creases == 0 || p->info.creases > MOST_MOVED) return RG_OK;
+    if (!p->info.is_disk || rg_check_crowded(p) >= 0 || p->info.creases == 0 || p->info.creases > MOST_MOVED) return RG_OK;
     s.memory = &p->mem;
     s.frames = 2;
     s.to = 0.05;
@@ -436,35 +438,38 @@ static void verdict(const rg_pattern *p, const rg_layers *l, FILE *out)
     char text[240];
     if (l) layers = *rg_layers_get_info(l);
     if (!i->is_disk) {
-        fprintf(out, "It cannot be folded here, for it is not one sheet without holes: %s.\n", i->not_disk);
+        rg_text_to(out, "It cannot be folded here, for it is not one sheet without holes: %s.\n", i->not_disk);
+    } else if (rg_check_crowded(p) >= 0) {
+        rg_check_crowded_text(p, rg_check_crowded(p), text);
+        rg_text_to(out, "It cannot be folded here: %s.\n", text);
     } else if (i->creases == 0 && i->lost_creases > 0) {
-        fprintf(out, "There is no crease to fold: all that are drawn (%d) are left out.\n", (int)i->lost_creases);
-        fprintf(out, "Next: draw them up to the lines that they should meet, or join them with --merge; the warnings say by how much.\n");
+        rg_text_to(out, "There is no crease to fold: all that are drawn (%d) are left out.\n", (int)i->lost_creases);
+        rg_text_to(out, "Next: draw them up to the lines that they should meet, or join them with --merge; the warnings say by how much.\n");
     } else if (i->creases == 0) {
-        fprintf(out, "There is no crease to fold.\n");
+        rg_text_to(out, "There is no crease to fold.\n");
     } else if (u) {
         rg_unfoldable_text(p, u, text);
         if (u->theorem == RG_TARGETS) {
-            fprintf(out, "It cannot get to where it should: %s.\n", text);
-            fprintf(out, "Next: change an angle there, or leave one open (unassigned), or fold with --no-targets.\n");
+            rg_text_to(out, "It cannot get to where it should: %s.\n", text);
+            rg_text_to(out, "Next: change an angle there, or leave one open (unassigned), or fold with --no-targets.\n");
         } else {
-            fprintf(out, "It does not fold flat: %s.\n", text);
-            fprintf(out, "Next: mend the creases there, or fold part of the way: rigami fold --to 50.\n");
+            rg_text_to(out, "It does not fold flat: %s.\n", text);
+            rg_text_to(out, "Next: mend the creases there, or fold part of the way: rigami fold --to 50.\n");
         }
     } else if (layers.state == RG_LAYERS_NONE) {
-        fprintf(out, "Each vertex folds flat by itself, the sheet does not without passing through itself: %s.\n", layers.reason);
-        fprintf(out, "Next: fold part of the way: rigami fold --to 50.\n");
+        rg_text_to(out, "Each vertex folds flat by itself, the sheet does not without passing through itself: %s.\n", layers.reason);
+        rg_text_to(out, "Next: fold part of the way: rigami fold --to 50.\n");
     } else if (i->mountains + i->valleys == 0) {
-        fprintf(out, "No crease says which way it folds: nothing will move.\n");
-        fprintf(out, "Next: draw mountains and valleys%s.\n", p->lines.traits ? ", or say with --line which lines they are" : "");
+        rg_text_to(out, "No crease says which way it folds: nothing will move.\n");
+        rg_text_to(out, "Next: draw mountains and valleys%s.\n", p->lines.traits ? ", or say with --line which lines they are" : "");
     } else if (i->closed_vertices) {
-        fprintf(out, "Each vertex folds flat by itself, but %d closed %s lock rigid facets: it needs creases added, or moved on the way.\n",
+        rg_text_to(out, "Each vertex folds flat by itself, but %d closed %s lock rigid facets: it needs creases added, or moved on the way.\n",
                 (int)i->closed_vertices, plural(i->closed_vertices, "vertex", "vertices"));
-        fprintf(out, "Next: rigami fold does so by itself, and says by how much.\n");
+        rg_text_to(out, "Next: rigami fold does so by itself, and says by how much.\n");
     } else if (i->degrees_of_freedom <= 0) {
-        fprintf(out, "It may fold: nothing here speaks against it, but its creases have to agree with each other on the way.\n");
+        rg_text_to(out, "It may fold: nothing here speaks against it, but its creases have to agree with each other on the way.\n");
     } else {
-        fprintf(out, "It is likely to fold: nothing here speaks against it.\n");
+        rg_text_to(out, "It is likely to fold: nothing here speaks against it.\n");
     }
 }
 

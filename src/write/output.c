@@ -14,8 +14,11 @@
 #include "write/stl.h"
 #include "write/svgfile.h"
 
+#include <limits.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 typedef struct form {
     const char *extension;
@@ -57,6 +60,19 @@ rg_status rg_output_check(const char *path, rg_diag *why)
     return rg_film_is_form(path) ? rg_film_check(path, why) : find_form(path, &f, why);
 }
 
+void rg_output_sweep(const char *path, int mine)
+{
+    struct stat is;
+    rg_numbered n;
+    char start[PATH_MAX];
+    const size_t length = strlen(path);
+    const int is_folder = length > 0 && (path[length - 1] == '/' || (stat(path, &is) == 0 && S_ISDIR(is.st_mode)));
+    const int numbered = !is_folder && rg_numbered_find(path, &n) == 1;
+    const int wrote = snprintf(start, sizeof start, "%.*s%s", numbered ? n.before : (int)length, path, is_folder ? "/" : "");
+    if (strcmp(path, "-") == 0 || wrote < 0 || wrote >= (int)sizeof start) return;
+    rg_file_sweep(start, is_folder ? ".png" : numbered ? n.after : "", mine);
+}
+
 static rg_status cancelled(rg_diag *why) { return rg_fail(RG_ECANCELLED, why, 0, "%s", rg_status_text(RG_ECANCELLED)); }
 
 /* Does who watches end it? */
@@ -66,7 +82,7 @@ static rg_status write_one(const rg_motion *m, const form *f, int32_t frame, con
                            rg_diag *why)
 {
     rg_file file;
-    rg_status s = rg_file_begin_to(&file, &m->mem, to, why);
+    rg_status s = rg_file_begin_to_swept(&file, &m->mem, to, why);
     if (s != RG_OK) return s;
     s = f->write(m, frame, p, file.stream);
     if (s == RG_OK) return rg_file_commit(&file, why);
@@ -103,6 +119,7 @@ rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_picture
     rg_picture mine, *const p = &mine;
     const form *f;
     rg_numbered n;
+    rg_output_sweep(path, 0);
     rg_status s = rg_picture_take(picture, p, why); /* models and pages have its colours, view and pace, too */
     if (s == RG_OK && rg_film_is_form(path)) return rg_film_write(m, path, p, why);
     if (s == RG_OK) s = find_form(path, &f, why);

@@ -33,7 +33,7 @@ static void write_bytes(png_structp png, png_bytep bytes, size_t n)
 static void flush(png_structp png) { (void)png; }
 
 /* Everything that libpng may jump out of is in here, so that nothing of the caller's is clobbered by the jump. */
-static rg_status write_all(png_structp png, png_infop info, int32_t width, int32_t height, const unsigned char *rgb)
+static rg_status write_all(png_structp png, png_infop info, int32_t width, int32_t height, const unsigned char *rgb, const char *run)
 {
     if (setjmp(png_jmpbuf(png))) return RG_EWRITE;
     png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
@@ -44,16 +44,19 @@ static rg_status write_all(png_structp png, png_infop info, int32_t width, int32
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     /* Not const in libpng, and not changed by it. */
-    static char keyword[] = "Software", program[] = RG_PNG_SOFTWARE;
-    const png_text by = {.compression = PNG_TEXT_COMPRESSION_NONE, .key = keyword, .text = program};
-    png_set_text(png, info, &by, 1);
+    static char keyword[] = "Software", program[] = RG_PNG_SOFTWARE, what[] = "Run";
+    char word[80];
+    snprintf(word, sizeof word, "%s", run ? run : "");
+    const png_text by[] = {{.compression = PNG_TEXT_COMPRESSION_NONE, .key = keyword, .text = program},
+                           {.compression = PNG_TEXT_COMPRESSION_NONE, .key = what, .text = word}};
+    png_set_text(png, info, by, run ? 2 : 1);
     png_write_info(png, info);
     for (int32_t y = 0; y < height; y++) png_write_row(png, rgb + 3 * (size_t)width * (size_t)y);
     png_write_end(png, info);
     return RG_OK;
 }
 
-rg_status rg_png_write(FILE *file, int32_t width, int32_t height, const unsigned char *rgb, rg_diag *why)
+rg_status rg_png_write_of(FILE *file, int32_t width, int32_t height, const unsigned char *rgb, const char *run, rg_diag *why)
 {
     if (width < 1 || height < 1)
         return rg_fail(RG_EARG, why, 0, "a picture of %d x %d pixels", (int)width, (int)height);
@@ -65,9 +68,14 @@ rg_status rg_png_write(FILE *file, int32_t width, int32_t height, const unsigned
         return rg_fail(RG_ENOMEM, why, 0, "out of memory for the PNG");
     }
     png_set_write_fn(png, &t, write_bytes, flush);
-    const rg_status s = write_all(png, info, width, height, rgb);
+    const rg_status s = write_all(png, info, width, height, rgb, run);
     png_destroy_write_struct(&png, &info);
     return s;
+}
+
+rg_status rg_png_write(FILE *file, int32_t width, int32_t height, const unsigned char *rgb, rg_diag *why)
+{
+    return rg_png_write_of(file, width, height, rgb, NULL, why);
 }
 
 /* ---- reading */

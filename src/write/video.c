@@ -1,14 +1,17 @@
+#define _GNU_SOURCE /* pipe2 */
 #include "write/video.h"
 #include "base/status.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#if defined(__linux__)
+#include <sys/prctl.h>
+#endif
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -49,35 +52,65 @@ rg_status rg_video_check(rg_diag *why)
     return find_program(program) ? RG_OK : absent(why);
 }
 
-/* The child's ends: pictures come in, complaints go to a file, the rest goes nowhere. */
+static int wait_for(rg_video *v)
+{
+    int status = -1;
+    while (waitpid(v->child, &status, 0) < 0)
+        if (errno != EINTR) return -1;
+    v->child = 0;
+    return status;
+}
+
+/* In the child, between fork and exec: pictures come in, complaints go to a file, the rest goes nowhere. It ends with its parent,
+ * whatever ends that and whatever it hangs in. Does not come back. */
+static void become(pid_t parent, const char *program, char *const argv[], int pictures, int complaints, int failure)
+{
+    const int null = open("/dev/null", O_WRONLY);
+    sigset_t none;
+    sigemptyset(&none);
+    (void)parent;
+#if defined(__linux__)
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(126); /* it was quicker */
+#endif
+    signal(SIGPIPE, SIG_DFL);
+    pthread_sigmask(SIG_SETMASK, &none, NULL);
+    if (null >= 0 && dup2(pictures, STDIN_FILENO) >= 0 && dup2(null, STDOUT_FILENO) >= 0 && dup2(complaints, STDERR_FILENO) >= 0)
+        execve(program, argv, environ);
+    const int error = errno;
+    if (write(failure, &error, sizeof error) < 0) _exit(126);
+    _exit(127);
+}
+
+/* 0, or an error number. */
 static int start(rg_video *v, const char *program, char *const argv[])
 {
-    int ends[2];
-    if (pipe(ends) != 0) return errno;
-    fcntl(ends[0], F_SETFD, FD_CLOEXEC);
-    fcntl(ends[1], F_SETFD, FD_CLOEXEC);
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t attributes;
-    sigset_t none, usual;
-    sigemptyset(&none);
-    sigemptyset(&usual);
-    sigaddset(&usual, SIGPIPE);
-    int error = posix_spawn_file_actions_init(&files);
-    if (error == 0) {
-        posix_spawnattr_init(&attributes);
-        posix_spawnattr_setsigmask(&attributes, &none);
-        posix_spawnattr_setsigdefault(&attributes, &usual);
-        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-        error = posix_spawn_file_actions_adddup2(&files, ends[0], STDIN_FILENO);
-        if (error == 0) error = posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-        if (error == 0) error = posix_spawn_file_actions_adddup2(&files, fileno(v->said), STDERR_FILENO);
-        if (error == 0) error = posix_spawn(&v->child, program, &files, &attributes, argv, environ);
-        posix_spawnattr_destroy(&attributes);
-        posix_spawn_file_actions_destroy(&files);
+    int ends[2], failure[2], error = 0;
+    if (pipe2(ends, O_CLOEXEC) != 0) return errno;
+    if (pipe2(failure, O_CLOEXEC) != 0) {
+        error = errno;
+        close(ends[0]);
+        close(ends[1]);
+        return error;
     }
+    /* No signal reaches the child before it is another program. */
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    const pid_t parent = getpid();
+    v->child = fork();
+    if (v->child == 0) become(parent, program, argv, ends[0], fileno(v->said), failure[1]);
+    if (v->child < 0) error = errno, v->child = 0;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
     close(ends[0]);
-    if (error == 0) v->pipe = ends[1];
-    else close(ends[1]), v->child = 0;
+    close(failure[1]);
+    if (error == 0 && read(failure[0], &error, sizeof error) <= 0) error = 0; /* nothing is said where all went well */
+    close(failure[0]);
+    v->pipe = ends[1];
+    if (error == 0) return 0;
+    close(v->pipe);
+    v->pipe = -1;
+    if (v->child > 0) wait_for(v);
     return error;
 }
 
@@ -160,15 +193,6 @@ static rg_status failed(rg_video *v, rg_diag *why)
     if (!fgets(line, sizeof line, v->said)) line[0] = 0;
     line[strcspn(line, "\r\n")] = 0;
     return rg_fail(RG_EWRITE, why, 0, "ffmpeg fails%s%s", line[0] ? ": " : "", line);
-}
-
-static int wait_for(rg_video *v)
-{
-    int status = -1;
-    while (waitpid(v->child, &status, 0) < 0)
-        if (errno != EINTR) return -1;
-    v->child = 0;
-    return status;
 }
 
 rg_status rg_video_add(rg_video *v, const unsigned char *rgb, rg_diag *why)

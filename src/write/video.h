@@ -2,7 +2,8 @@
  * Uses  base        Used by  film.c
  *
  * The program is the first ffmpeg in PATH. It is started without a shell, reads raw pictures from a pipe and writes into
- * the file given. Its standard output goes nowhere; what it complains of is told in why->text. */
+ * the file given. Its standard output goes nowhere; what it complains of is told in why->text. On Linux it ends with this process,
+ * whatever that ends by. */
 #ifndef RG_VIDEO_H
 #define RG_VIDEO_H
 

@@ -68,7 +68,7 @@ static rg_motion *fold(const char *path, const char *kind, int32_t n, bill *b)
         must(rg_motion_create(p, &s, NULL, NULL, &m, &why), path, &why);
         const double all = cpu() - from;
         from = cpu();
-        must(rg_measure_frames(m), path, &why);
+        must(rg_measure_frames(m, NULL), path, &why);
         const double measuring = cpu() - from;
         least(b, FOLDING, all - measuring);
         least(b, MEASURING, measuring);
