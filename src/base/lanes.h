@@ -14,6 +14,7 @@ typedef int64_t rg_quad_int __attribute__((vector_size(32)));
 
 /* Not by clang: up to 17 it gives the chosen version a name of its own, so that other files do not find the function. */
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__) && \
     defined(__has_attribute)
 #if __has_attribute(target_clones)
 #define RG_WIDE __attribute__((target_clones("avx2", "default")))
