@@ -14,7 +14,8 @@ typedef struct photo {
 } photo;
 
 /* Also without OpenGL pictures are made. */
-static inline photo take(const rg_motion *m, int32_t frame, rg_picture picture, const rg_print *print)
+static inline photo take_as(const rg_motion *m, int32_t frame, rg_picture picture, const rg_print *print, const unsigned char (*tint)[3],
+                            const rg_layers *layers)
 {
     photo p = {.picture = picture};
     rg_triangles t;
@@ -31,7 +32,7 @@ static inline photo take(const rg_motion *m, int32_t frame, rg_picture picture, 
     if (rg_render_create(NULL, &m->mesh, &t, &picture, print, &r, &why) != RG_OK) fail_msg("%s", why.text);
     assert_int_equal(rg_motion_place(m, frame, x), RG_OK);
     rg_stage_put(&stage, frame, x, m->mesh.nv);
-    const rg_shot shot = {x, NULL, &camera[frame], NULL};
+    const rg_shot shot = {x, NULL, &camera[frame], tint, layers};
     rg_render_frame(r, &shot, p.rgb);
     p.place = stage.place[frame];
     p.camera = camera[frame];
@@ -41,6 +42,11 @@ static inline photo take(const rg_motion *m, int32_t frame, rg_picture picture, 
     free(x);
     free(camera);
     return p;
+}
+
+static inline photo take(const rg_motion *m, int32_t frame, rg_picture picture, const rg_print *print)
+{
+    return take_as(m, frame, picture, print, NULL, NULL);
 }
 
 static inline const unsigned char *pixel(const photo *p, int x, int y) { return p->rgb + 3 * ((size_t)y * (size_t)p->picture.width + (size_t)x); }

@@ -8,6 +8,7 @@
 
 #include "near.h"
 #include "corpus.h"
+#include "motion/ending.h"
 #include "counted.h"
 #include "motions.h"
 #include "photo.h"
@@ -655,7 +656,7 @@ static void shortage_is_told(void **state)
         if (s == RG_OK) s = rg_render_create(&mem, &m->mesh, &t, &picture, NULL, &r, NULL);
         if (s == RG_OK) {
             const long asked = count.asked;
-            const rg_shot shot = {x, lift, &c[2], NULL};
+            const rg_shot shot = {x, lift, &c[2], NULL, NULL};
             rg_render_frame(r, &shot, rgb);
             assert_int_equal(count.asked, asked);
         } else {
@@ -674,6 +675,110 @@ static void shortage_is_told(void **state)
     rg_motion_destroy(m);
 }
 
+/* A facet's corners in the picture, pixels. */
+static int32_t outline_of(const photo *p, const rg_motion *m, const rg_vec3 *x, int32_t f, rg_vec2 *corner)
+{
+    const int32_t first = m->mesh.facet_start[f], n = m->mesh.facet_start[f + 1] - first;
+    for (int32_t j = 0; j < n; j++) {
+        const rg_vec2 s = seen(p, x[m->mesh.facet_vertex[first + j]]);
+        corner[j] = (rg_vec2){p->camera.half_width + s.x, p->camera.half_height - s.y};
+    }
+    return n;
+}
+
+/* +1: the point is inside, -1: outside, 0: nearer to an edge than two pixels. */
+static int inside(const rg_vec2 *corner, int32_t n, rg_vec2 at)
+{
+    int in = -1;
+    for (int32_t i = n - 1, j = 0; j < n; i = j++) {
+        const rg_vec2 a = corner[i], d = rg_vec2_sub(corner[j], a), r = rg_vec2_sub(at, a);
+        const double t = fmin(1, fmax(0, rg_vec2_dot(r, d) / rg_vec2_dot(d, d)));
+        if (rg_vec2_length((rg_vec2){r.x - t * d.x, r.y - t * d.y}) < 2) return 0;
+        if ((a.y > at.y) != (corner[j].y > at.y) && at.x < a.x + d.x * (at.y - a.y) / d.y) in = -in;
+    }
+    return in;
+}
+
+/* Each facet has a colour of its own. At points of the picture that are well inside, the one that is seen is the one above all others that
+ * cover the point, by the order of layers. side: +1 towards the front of the facet that the order is told from, -1 towards its back.
+ * Returns at how many points more than one covers. */
+static int32_t check_layers_seen(const rg_motion *m, const rg_layers *l, const unsigned char (*tint)[3], int side)
+{
+    enum { MOST = 64 };
+    rg_picture p = plain(300, 240);
+    const int32_t last = m->report.frame_count - 1, nf = m->mesh.nf, root = l->flat.part[l->flat.part_start[l->flat.root]];
+    rg_vec3 *x = calloc((size_t)m->mesh.nv, sizeof *x);
+    rg_vec2 corner[MOST];
+    int32_t piles = 0;
+    assert_non_null(x);
+    assert_int_equal(rg_motion_place(m, last, x), RG_OK);
+    const rg_vec3 up = rg_pose_area(&m->mesh, root, x);
+    photo first = take(m, last, p, NULL);
+    const rg_vec3 d = rg_mat3_mul_vec(first.place.R, rg_vec3_scale(side / rg_vec3_length(up), up));
+    p.azimuth = atan2(d.y, d.x) + 0.1, p.elevation = asin(0.95 * d.z); /* a little from aside */
+    photo a = take_as(m, last, p, NULL, tint, l);
+    free(first.rgb);
+    for (int py = 0; py < p.height; py += 3)
+        for (int px = 0; px < p.width; px += 3) {
+            int32_t cover[256], n = 0, top = -1, clear = 1;
+            for (int32_t f = 0; f < nf && clear; f++) {
+                const int in = inside(corner, outline_of(&a, m, x, f, corner), (rg_vec2){px + 0.5, py + 0.5});
+                if (in > 0) cover[n++] = f;
+                clear = in != 0;
+            }
+            if (!clear || n == 0) continue;
+            for (int32_t i = 0; i < n; i++) {
+                int over_all = 1;
+                for (int32_t j = 0; j < n; j++) over_all &= i == j || rg_layers_above_of_mesh(l, cover[j], cover[i]) == side;
+                if (over_all) top = cover[i];
+            }
+            assert_true(top >= 0);
+            const unsigned char *c = pixel(&a, px, py);
+            int32_t best = -1, least = INT32_MAX;
+            for (int32_t f = 0; f < nf; f++) { /* light takes as much of each of the three, nearly */
+                int32_t off = 0;
+                for (int k = 0; k < 2; k++) off += abs(c[k] * 200 - tint[f][k] * c[2]);
+                if (off < least) least = off, best = f;
+            }
+            if (best != top) fail_msg("at %d, %d facet %d is seen, not %d, of %d", px, py, (int)best, (int)top, (int)n);
+            piles += n > 1;
+        }
+    free(a.rgb);
+    free(x);
+    return piles;
+}
+
+/* A tatou ends with four flaps that lie on each other in a circle: no height for each of them shows that. It was drawn with one flap on top,
+ * and from below with the wrong side of the paper. */
+static void a_flat_end_is_seen_by_its_layers(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"patterns/tatou.opx", "patterns/bird.opx", "patterns/fish.opx"};
+    for (int i = 0; i < 3; i++) {
+        rg_settings s = rg_settings_default();
+        rg_diag why = {0, ""};
+        rg_pattern *cp = NULL;
+        rg_motion *m = NULL;
+        s.frames = 8;
+        assert_int_equal(rg_pattern_read(names[i], NULL, &cp, &why), RG_OK);
+        assert_int_equal(rg_motion_create(cp, &s, NULL, NULL, &m, &why), RG_OK);
+        const rg_layers *l = rg_ending_layers(m, m->report.frame_count - 1);
+        assert_non_null(l);
+        assert_null(rg_ending_layers(m, 0));
+        int32_t cuts = 0, *level = calloc((size_t)l->flat.nf, sizeof *level);
+        unsigned char (*tint)[3] = calloc((size_t)m->mesh.nf, sizeof *tint);
+        assert_true(level && tint && m->mesh.nf < 36);
+        for (int32_t f = 0; f < m->mesh.nf; f++) tint[f][0] = (unsigned char)(40 + f % 6 * 40), tint[f][1] = (unsigned char)(40 + f / 6 * 40), tint[f][2] = 200;
+        assert_true(rg_layers_levels(l, level, &cuts) > 1);
+        if (i == 0) assert_true(cuts > 0);
+        for (int side = -1; side <= 1; side += 2) assert_true(check_layers_seen(m, l, (const unsigned char(*)[3])tint, side) > 300);
+        free(level);
+        free(tint);
+        rg_motion_destroy(m);
+        rg_pattern_destroy(cp);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -682,6 +787,7 @@ int main(void)
         cmocka_unit_test(flat_miura_has_no_two_facets_in_one_place),
         cmocka_unit_test(facets_that_run_in_circles_are_apart_too),
         cmocka_unit_test(a_circle_of_flaps_is_cut),
+        cmocka_unit_test(a_flat_end_is_seen_by_its_layers),
         cmocka_unit_test(covered_area_is_the_projected_one),
         cmocka_unit_test(each_side_has_its_colour),
         cmocka_unit_test(the_sheet_is_in_the_middle_and_fills_the_picture),

@@ -119,8 +119,10 @@ static rg_status adopt(rg_motion *m, rg_search *c)
     if (!m->frame || !m->blocking_at) return RG_ENOMEM;
     for (int32_t k = 0; k < r->blocking_vertex_count; k++) {
         const rg_vec2 at = m->mesh.X[m->blocking_vertex[k]];
-        m->blocking_at[k][0] = at.x;
-        m->blocking_at[k][1] = m->source.y_down ? 0 - at.y : at.y;
+        /* What rounding leaves of 0 is 0 for people. */
+        const double x = fabs(at.x) > 1e-9 * m->mesh.size ? at.x : 0, y = fabs(at.y) > 1e-9 * m->mesh.size ? at.y : 0;
+        m->blocking_at[k][0] = x;
+        m->blocking_at[k][1] = m->source.y_down ? 0 - y : y;
     }
     r->blocking_vertices = m->blocking_vertex;
     r->blocking_creases = m->blocking_crease;

@@ -1,6 +1,7 @@
 #include "render/frames.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "motion/ending.h"
 #include "render/caption.h"
 #include "render/lift.h"
 #include "render/render.h"
@@ -139,7 +140,8 @@ static void *paint(void *ctx)
         rg_stage_put(&s->stage, frame, p->x, s->motion->mesh.nv);
         rg_stage_turn(&s->stage, frame, p->lift, s->motion->mesh.nf);
         if (p->tint) rg_tint_facets(&s->tint, s->motion, frame, p->lift, p->tint);
-        const rg_shot shot = {p->x, p->lift, &s->camera[frame], (const unsigned char(*)[3])p->tint};
+        const rg_shot shot = {p->x, p->lift, &s->camera[frame], (const unsigned char(*)[3])p->tint,
+                              rg_ending_layers(s->motion, frame)};
         rg_render_frame(p->render, &shot, p->rgb);
         if (w->picture.caption) caption(s, frame, p->rgb);
         if (w->in_order && !wait_turn(s, frame)) break;

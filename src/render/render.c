@@ -2,6 +2,7 @@
 #include "base/status.h"
 #include "render/canvas.h"
 #include "render/ink.h"
+#include "render/piled.h"
 #include "render/shadow.h"
 
 #include <string.h>
@@ -108,15 +109,14 @@ static void draw_tile(rg_render *r, const rg_shot *shot, area a, unsigned char *
         corners += n;
     }
     if (corners == 0) return;
-    rg_canvas_draw(&r->canvas, (int32_t)corners, FINE * a.x, FINE * a.y, FINE * a.width, FINE * a.height);
     const rg_samples tile = {r->canvas.mark, r->canvas.width, FINE * a.width, FINE * a.height, FINE * a.x, FINE * a.y, r->colour};
+    const rg_gl_scene scene = {r->canvas.vertex, r->canvas.corner, (int32_t)corners};
+    if (shot->layers) rg_piled_draw(shot->layers, &r->seen, &scene, &tile);
+    else rg_canvas_draw(&r->canvas, (int32_t)corners, tile.x, tile.y, tile.width, tile.height);
     const size_t stride = 3 * (size_t)r->picture.width;
     unsigned char *to = rgb + (size_t)a.y * stride + 3 * (size_t)a.x;
     if (r->print) rg_print_paint(r->print, &r->seen, shot, t, &r->picture, &tile);
-    if (r->count) {
-        const rg_gl_scene scene = {r->canvas.vertex, r->canvas.corner, (int32_t)corners};
-        rg_print_see_through(&r->seen, &scene, &r->picture, &tile, r->count, to, stride);
-    }
+    if (r->count) rg_print_see_through(&r->seen, &scene, &r->picture, &tile, r->count, to, stride);
     if (r->picture.lines != RG_LINES_NONE) rg_ink_draw(&r->seen, &r->picture, here, &tile);
     rg_samples_mean(&tile, r->seen.paper, r->ink, to, stride);
 }

@@ -3,6 +3,7 @@
 #ifndef RG_SEEN_H
 #define RG_SEEN_H
 
+#include "layers/layers.h"
 #include "render/camera.h"
 #include "render/gl.h"
 
@@ -13,6 +14,7 @@ typedef struct rg_shot {
     const rg_vec3 *lift;    /* [nf] how far to move each facet, NULL: nowhere */
     const rg_camera *camera;
     const unsigned char (*tint)[3]; /* [nf] the facets' own colours, NULL: those of the paper */
+    const rg_layers *layers; /* in what order they lie, where they lie flat and it is known; else NULL */
 } rg_shot;
 
 typedef struct rg_seen {

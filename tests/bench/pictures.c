@@ -103,7 +103,7 @@ static void paint(const rg_motion *m, const rg_picture *p, bill *b)
         const double laid = cpu(), from_wall = wall();
         rg_stage_put(&stage, f, x, m->mesh.nv);
         rg_stage_turn(&stage, f, lift, m->mesh.nf);
-        const rg_shot shot = {x, lift, &camera[f], NULL};
+        const rg_shot shot = {x, lift, &camera[f], NULL, NULL};
         rg_render_frame(render, &shot, rgb);
         sum[DRAWING] += wall() - from_wall;
         const double drawn = cpu();
