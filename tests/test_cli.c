@@ -330,6 +330,30 @@ static void a_motion_is_drawn_again(void **state)
     for (int i = 0; i < 5; i++) unlink(made[i]);
 }
 
+/* A strip of five squares, rolled up: the last one finds its place taken, unless its creases move. */
+static void creases_may_roll_so_far(void **state)
+{
+    (void)state;
+    write_file("roll.cp", "1 0 0 5 0\n1 5 0 5 1\n1 5 1 0 1\n1 0 1 0 0\n3 1 0 1 1\n3 2 0 2 1\n3 3 0 3 1\n3 4 0 4 1\n");
+    const char *const given[] = {"fold", "roll.cp", "-q", "--frames", "8", "--report", "roll.json", NULL};
+    ends(0, run_with(&(streams){0}, given));
+    json_t *report = json_load_file("roll.json", 0, NULL);
+    assert_non_null(report);
+    const double roll = 100 * json_number_value(json_object_get(json_object_get(report, "result"), "max_crease_roll"));
+    json_decref(report);
+    assert_true(roll > 0.1 && roll < 50);
+    char less[40], more[40];
+    snprintf(less, sizeof less, "%.9g", 0.99 * roll);
+    snprintf(more, sizeof more, "%.9g", 1.01 * roll);
+    says(ends(1, run("fold", "roll.cp", "-q", "--frames", "8", "--max-roll", less)), "rigami: roll.cp: ", "--max-roll");
+    ends(0, run("fold", "roll.cp", "-q", "--frames", "8", "--max-roll", more));
+    says(ends(2, run("fold", "roll.cp", "--max-roll", "101")), "rigami: --max-roll: ", "101");
+    /* A crease by its number as tables have it. */
+    ends(0, run("fold", "roll.cp", "-q", "--drive", "c2=60", "--report", "roll.json"));
+    unlink("roll.cp");
+    unlink("roll.json");
+}
+
 /* Each file by itself, one table, going on where it was; in parts that are joined; every sheet of a drawing. */
 static void a_batch(void **state)
 {
@@ -1045,6 +1069,7 @@ int main(void)
         cmocka_unit_test(a_fold_that_stops_short_is_written_and_explained),
         cmocka_unit_test(the_verdict_comes_first), cmocka_unit_test(states_in_frames), cmocka_unit_test(what_was_meant), cmocka_unit_test(a_motion_is_drawn_again),
         cmocka_unit_test(a_batch),
+        cmocka_unit_test(creases_may_roll_so_far),
         cmocka_unit_test(wrong_usage_is_refused),
         cmocka_unit_test(unreadable_input_is_refused),
         cmocka_unit_test(a_bad_line_is_named),

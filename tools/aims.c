@@ -17,11 +17,13 @@ static int number(const char *text, double *value, const char **end)
     return n > 0 && stop == text + n && isfinite(*value);
 }
 
-/* The edge of crease `text`: its number, as reports and .csv have it, or a point on it, "x,y". Ends at '=' or the end. -1: none. */
+/* The edge of crease `text`: its number, as reports have it, also with the c of .csv and .svg, or a point on it, "x,y". Ends at '=' or the
+ * end. -1: none. */
 static int32_t find_edge(const rg_pattern *p, const char *text, const char **end)
 {
     const rg_plane *plane = rg_pattern_get_plane(p);
     double x[2];
+    if (*text == 'c') text++;
     if (!number(text, &x[0], end)) return -1;
     if (**end == ',') return number(*end + 1, &x[1], end) ? rg_pattern_edge_at(p, x) : -1;
     int32_t left = x[0] >= 0 && x[0] == floor(x[0]) && x[0] < plane->edges ? (int32_t)x[0] : -1;

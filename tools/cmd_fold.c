@@ -171,14 +171,19 @@ int fold_one(const options *o, fold_seen seen, void *ctx)
             verdict_say(o, name, q.pattern[r->states && r->states_reached < r->states ? r->states_reached : q.count - 1], m);
             verdict_files(o, "written up to there: ", files, sizeof files);
             if (files[0] && !o->quiet) say("%s: %s", name, files);
-        } else if (!o->quiet && !on_output) summarize(o, name, m);
+        }
+        const int rolled = !(r->max_adjustment <= o->max_roll);
+        if (rolled)
+            say("%s: creases moved by up to %.3g %% of the sheet on the way, and should by no more than %.3g (--max-roll)", name, 100 * r->max_adjustment,
+                100 * o->max_roll);
+        if (!stopped && !o->quiet && !on_output) summarize(o, name, m);
         if (o->verbose && !on_output) tell_details(m);
         const int elsewhere = !stopped && !(r->moved_at_end <= ON_THE_PATTERN);
         if (elsewhere)
             say("%s: it ends on a pattern moved by %.2g %% of the sheet, as it does not close as it was drawn; rigami info says where", name,
                 100 * r->moved_at_end);
         if (!stopped && r->contact == RG_CONTACT_CROSSES) say_contact(name, r);
-        if (status == ENDS_WELL && (stopped || elsewhere || interrupt_came() || r->contact == RG_CONTACT_CROSSES)) status = ENDS_SHORT;
+        if (status == ENDS_WELL && (stopped || elsewhere || rolled || interrupt_came() || r->contact == RG_CONTACT_CROSSES)) status = ENDS_SHORT;
         if (seen) seen(ctx, m, status);
     }
     rg_motion_destroy(m);

@@ -91,6 +91,8 @@ static const rule rules[] = {
      "drive this crease, by its number or x,y of a point on it, to an angle; frames are even in it, the others follow; may be given many times"},
     {FOR_FOLD, "pin", 0, "CREASE", AIM, 0, AIM_PIN, 0, 1, NULL, "this crease stays flat; may be given many times"},
     {FOR_FOLD, "free", 0, "CREASE", AIM, 0, AIM_FREE, 0, 1, NULL, "nothing is wished of this crease, it follows the others; may be given many times"},
+    {FOR_FOLD, "max-roll", 0, "PCT", REAL, AT(max_roll), 0, 100, 0.01, NULL,
+     "the farthest that creases may move through the sheet on the way, in percent of its size; more ends with 1 (no limit)"},
     {FOR_FOLD, "fixed", 0, "FACET", WHOLE, AT(settings.fixed_facet), 0, INT32_MAX, 1, NULL,
      "the facet that stays where it is (the one nearest the middle)"},
     {READS, "from", 0, "FORMAT", CHOICE, AT(format), 0, 0, 1, formats,
@@ -515,7 +517,7 @@ int options_parse(options *o, const command *c, int argc, char **argv)
 {
     struct option longs[RULES + 1];
     char shorts[3 * RULES + 3];
-    *o = (options){.settings = rg_settings_default(), .reading = rg_reading_default(), .picture = rg_picture_default(), .progress = -1, .pace = -1,
+    *o = (options){.settings = rg_settings_default(), .reading = rg_reading_default(), .picture = rg_picture_default(), .progress = -1, .pace = -1, .max_roll = INFINITY,
                    .effort = RG_EFFORT_NORMAL};
     o->operand = calloc((size_t)argc + 1, sizeof *o->operand);
     o->output = calloc((size_t)argc + 1, sizeof *o->output);

@@ -439,6 +439,7 @@ static void verdict(const rg_pattern *p, const rg_layers *l, FILE *out)
     if (l) layers = *rg_layers_get_info(l);
     if (!i->is_disk) {
         rg_text_to(out, "It cannot be folded here, for it is not one sheet without holes: %s.\n", i->not_disk);
+        if (i->cuts && p->lines.traits) rg_text_to(out, "Next: if such lines are creases, say with --line which way they fold.\n");
     } else if (rg_check_crowded(p) >= 0) {
         rg_check_crowded_text(p, rg_check_crowded(p), text);
         rg_text_to(out, "It cannot be folded here: %s.\n", text);
