@@ -217,7 +217,7 @@ check:
 	@$(setup) check
 	@mkdir -p build
 	@$(if $(tested),,$(MAKE) --no-print-directory $(jobs) run-tests)
-	@for part in layers equations header docs werror install-check abi-check outputs without-gpl without-gl lint valgrind fuzz-smoke debian asan; do \
+	@for part in layers equations tutorial header docs werror install-check abi-check outputs without-gpl without-gl lint valgrind fuzz-smoke debian asan; do \
 	    echo "== $$part"; $(MAKE) --no-print-directory $(jobs) $$part >build/check.log 2>&1 || \
 	        { cat build/check.log; echo "check: $$part FAILED"; exit 1; }; \
 	    grep '^SKIPPED' build/check.log; tail -n 1 build/check.log; \
@@ -249,6 +249,10 @@ layers:
 
 equations:
 	@sh tools/check_equations
+
+# What docs/tutorial.md says that the program says.
+tutorial: all
+	@sh tools/check_tutorial $B/rigami
 
 header:
 	@clang -x c++ -std=c++11 -Wall -Wextra -Wpedantic -Werror -Iinclude -fsyntax-only tests/header.cpp
