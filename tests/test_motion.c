@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include <cmocka.h>
+#include <dirent.h>
 
 #include "near.h"
 
@@ -464,6 +465,67 @@ static void the_report_file_says_the_same(void **state)
     rg_motion_destroy(m);
 }
 
+/* A row of the table in patterns/README.md: `file` | what it is | V | E | F | M | what becomes of it. */
+typedef struct told { char file[60], becomes[200]; int V, E, F, M; } told;
+
+static int told_row(const char *line, told *t)
+{
+    char what[300];
+    return sscanf(line, "| `%59[^`]` | %299[^|]| %d | %d | %d | %d | %199[^|]", t->file, what, &t->V, &t->E, &t->F, &t->M, t->becomes) == 7;
+}
+
+static int is_said(const told *t, const char *word) { return strstr(t->becomes, word) != NULL; }
+
+/* These take seconds each. */
+static int takes_long(const char *file)
+{
+    static const char *const names[] = {"crane.opx", "four-crane.opx", "waterbomb.opx"};
+    for (int i = 0; i < 3; i++)
+        if (strcmp(file, names[i]) == 0) return 1;
+    return 0;
+}
+
+static void patterns_are_as_their_readme_says(void **state)
+{
+    (void)state;
+    FILE *f = fopen("patterns/README.md", "r");
+    char line[1000], path[100];
+    int rows = 0, files = 0;
+    assert_non_null(f);
+    while (fgets(line, sizeof line, f)) {
+        told t;
+        rg_pattern *p = NULL;
+        rg_motion *m = NULL;
+        rg_diag why = {0, ""};
+        rg_settings s = rg_settings_default();
+        if (!told_row(line, &t)) continue;
+        rows++;
+        snprintf(path, sizeof path, "patterns/%s", t.file);
+        if (rg_pattern_read(path, NULL, &p, &why) != RG_OK) fail_msg("%s: %s", path, why.text);
+        const rg_pattern_info *i = rg_pattern_get_info(p);
+        if (i->vertices != t.V || i->edges != t.E || i->facets != t.F || i->interior_vertices != t.M)
+            fail_msg("%s: %d, %d, %d, %d", t.file, (int)i->vertices, (int)i->edges, (int)i->facets, (int)i->interior_vertices);
+        s.frames = 12;
+        if (!takes_long(t.file)) {
+            assert_int_equal(rg_motion_create(p, &s, NULL, NULL, &m, &why), RG_OK);
+            const rg_report *r = rg_motion_report(m);
+            assert_int_equal(r->outcome, is_said(&t, "rests") ? RG_RESTS : is_said(&t, "to the end") ? RG_FOLDED : RG_STOPPED);
+            if ((r->added_creases > 0) != is_said(&t, "triangulated") || (r->max_adjustment > 1e-3) != is_said(&t, "adjusted") ||
+                (r->contact == RG_CONTACT_CROSSES) != is_said(&t, "crossing"))
+                fail_msg("%s: %d creases added, moved by %g, contact %d", t.file, (int)r->added_creases, r->max_adjustment, (int)r->contact);
+        }
+        rg_motion_destroy(m);
+        rg_pattern_destroy(p);
+    }
+    fclose(f);
+    DIR *d = opendir("patterns");
+    assert_non_null(d);
+    for (struct dirent *e; (e = readdir(d));) files += strstr(e->d_name, ".opx") != NULL;
+    closedir(d);
+    assert_int_equal(rows, files);
+    assert_true(rows >= 15);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -473,6 +535,7 @@ int main(void)
         cmocka_unit_test(interrupted), cmocka_unit_test(no_more_cuts_than_have_to_be), cmocka_unit_test(straight_on_with_fewer_cuts), cmocka_unit_test(a_part_of_the_way), cmocka_unit_test(a_part_too_far),
         cmocka_unit_test(the_same_bits_twice), cmocka_unit_test(fold_files_carry_the_pattern_of_each_frame),
         cmocka_unit_test(the_report_file_says_the_same),
+        cmocka_unit_test(patterns_are_as_their_readme_says),
     };
     return cmocka_run_group_tests(tests, written_begin, written_end);
 }
