@@ -250,8 +250,9 @@ layers:
 equations:
 	@sh tools/check_equations
 
-# What docs/tutorial.md says that the program says.
+# What docs/tutorial.md and docs/troubleshooting.md say that the program says.
 tutorial: all
+	@sh tools/check_messages
 	@sh tools/check_tutorial $B/rigami
 
 header:

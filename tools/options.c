@@ -80,7 +80,7 @@ static const rule rules[] = {
     {FOR_FOLD, "symmetry", 0, "WHAT", CHOICE, AT(symmetry), 0, 0, 1, symmetries,
      "fold a symmetric pattern by its symmetry, or by as much of it as folds (auto):"},
     {FOR_FOLD, "pace", 0, "WHAT", CHOICE, AT(pace), 0, 0, 1, paces,
-     "frames even in percent, or even in the largest angle that a crease turns (percent; steady for films and pages alone):"},
+     "frames even in percent, or even in the largest angle that a crease turns (percent; steady where all outputs are films and pages, as all outputs of a run show the same frames):"},
     {FOR_FOLD, "effort", 0, "HOW", CHOICE, AT(effort), 0, 0, 1, efforts,
      "how much is tried when the plain way stops short (normal):"},
     {FOR_FOLD, "contact", 0, "WHAT", CHOICE, AT(contact), 0, 0, 1, contacts,
