@@ -823,6 +823,60 @@ static void passing_through_itself_is_told(void **state)
     says(ends(2, run("fold", "through.opx", "--contact", "perhaps")), "rigami: --contact: ", "avoid, report or ignore");
 }
 
+/* Frames are even in the angle of the crease that is driven, by its number or a point on it, and all others follow; as does what a FOLD
+ * file leaves open. Pinned, it stays flat. */
+static void creases_are_driven_pinned_and_freed(void **state)
+{
+    (void)state;
+    static char text[ROOM];
+    ends(0, run("gen", "miura", "4", "-o", "one.opx"));
+    ends(0, run("fold", "one.opx", "--drive", "0=30", "--frames", "4", "-o", "driven.csv", "--report", "driven.json"));
+    json_t *report = json_load_file("driven.json", 0, NULL);
+    const json_t *crease = json_array_get(json_object_get(report, "creases"), 0), *at = json_object_get(crease, "at");
+    near(json_number_value(json_object_get(crease, "target_deg")), 30, 1e-12);
+    assert_true(json_is_null(json_object_get(json_array_get(json_object_get(report, "creases"), 1), "target_deg")));
+    char point[80];
+    double middle[2];
+    for (size_t i = 0; i < 2; i++)
+        middle[i] = (json_number_value(json_array_get(json_array_get(at, 0), i)) + json_number_value(json_array_get(json_array_get(at, 1), i))) / 2;
+    snprintf(point, sizeof point, "%.17g,%.17g=30", middle[0], middle[1]);
+    json_decref(report);
+    int frame = 0;
+    slurp("driven.csv", text);
+    for (char *line = strchr(text, '\n') + 1; line && *line; line = strchr(line, '\n') + 1, frame++) {
+        double percent, rho[2];
+        assert_int_equal(sscanf(line, "%*d,%lf,%lf,%lf", &percent, &rho[0], &rho[1]), 3);
+        near(rho[0], 10 * frame, 1e-12);
+        near(percent, 100.0 * frame / 3, 1e-9);
+        if (frame) assert_true(fabs(rho[1]) > 1);
+    }
+    assert_int_equal(frame, 4);
+    ends(0, run("fold", "one.opx", "--drive", point, "--frames", "4", "-o", "point.csv"));
+    static char again[ROOM];
+    assert_string_equal(slurp("point.csv", again), text);
+    /* Written as FOLD, the driven crease has its angle and the others null: folded again, they follow again. */
+    ends(0, run("fold", "one.opx", "--drive", "0=30", "--frames", "4", "-o", "driven.fold"));
+    ends(0, run("fold", "driven.fold", "--frame", "0", "--frames", "4", "-o", "again.csv"));
+    slurp("again.csv", again);
+    double last[2][2];
+    assert_int_equal(sscanf(strstr(text, "\n3,"), "\n3,%*f,%lf,%lf", &last[0][0], &last[0][1]), 2);
+    assert_int_equal(sscanf(strstr(again, "\n3,"), "\n3,%*f,%lf,%lf", &last[1][0], &last[1][1]), 2);
+    for (int i = 0; i < 2; i++) near(last[1][i], last[0][i], 1e-6);
+    ends(0, run("fold", "one.opx", "--drive", "0=30", "--drive", "0=-30"));
+    ends(1, run("fold", "one.opx", "--pin", "0", "--effort", "fast", "--frames", "4", "-o", "pinned.csv"));
+    slurp("pinned.csv", again);
+    for (char *line = strchr(again, '\n') + 1; line && *line; line = strchr(line, '\n') + 1) {
+        double rho;
+        assert_int_equal(sscanf(line, "%*d,%*f,%lf", &rho), 1);
+        near(rho, 0, 0);
+    }
+    ends(0, run("fold", "one.opx", "--free", "0"));
+    says(ends(2, run("fold", "one.opx", "--drive", "0")), "rigami: --drive: \"0\" is not CREASE=DEG", "5=60");
+    says(ends(2, run("fold", "one.opx", "--drive", "0=181")), "rigami: --drive: ", "-180 to 180");
+    says(ends(2, run("fold", "one.opx", "--pin", "99")), "rigami: one.opx: --pin 99: there is no such crease", "0 to 23");
+    says(ends(2, run("fold", "one.opx", "--free", "x")), "rigami: --free: ", "a crease");
+}
+
 /* A strip rolled up, on its creases as they are: panel after panel, which the summary says, -v and the report tell fold by fold. */
 static void stages_are_listed(void **state)
 {
@@ -1088,7 +1142,7 @@ int main(void)
         cmocka_unit_test(help_names_every_option),
         cmocka_unit_test(examples_are_made),
         cmocka_unit_test(patterns_are_converted),
-        cmocka_unit_test(passing_through_itself_is_told), cmocka_unit_test(stages_are_listed),
+        cmocka_unit_test(passing_through_itself_is_told), cmocka_unit_test(creases_are_driven_pinned_and_freed), cmocka_unit_test(stages_are_listed),
         cmocka_unit_test(motions_are_verified),
         cmocka_unit_test(the_report_has_what_is_promised),
         cmocka_unit_test(info_as_json_has_what_is_promised),

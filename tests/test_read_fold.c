@@ -74,6 +74,10 @@ static void angles(void **state)
     last_target(ONE("\"U\"", "45"), NULL, 45);
     last_target(ONE("\"F\"", "45"), NULL, NAN);
     last_target(ONE("\"V\"", "null"), NULL, NAN);
+    rg_lines free_one = read_fold("{" SQUARE ",\"edges_assignment\":[\"M\",\"B\",\"B\",\"B\",\"V\"],\"edges_foldAngle\":[-90,0,0,0,null]}");
+    assert_true(free_one.line[4].target == RG_FREE); /* null beside others that are given: it follows */
+    near(free_one.line[0].target / RG_DEG, -90, 1e-12);
+    rg_lines_free(&free_one);
     last_target(ONE("\"V\"", "0"), NULL, NAN); /* all are 0: it is the flat sheet that is described */
     last_target("{" SQUARE ",\"edges_assignment\":[\"M\",\"B\",\"B\",\"B\",\"V\"],\"edges_foldAngle\":[-90,0,0,0,0]}", NULL, 0);
     last_target("{" SQUARE ",\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"M\"],\"edges_foldAngles\":[0,0,0,0,-77]}", NULL, -77); /* 1.0 */
