@@ -580,6 +580,38 @@ static void what_a_way_may_bend_is_not_held_against_it(void **state)
     }
 }
 
+/* As near before half a turn as it is beyond it, it may have stayed before: what counts is the lesser of both. */
+static void a_hair_before_half_a_turn(void **state)
+{
+    (void)state;
+    static const struct { double before, after; rg_sweep_verdict verdict; } all[] = {
+        {0.001, 0.4, RG_SWEEP_FREE}, {0.4, 0.001, RG_SWEEP_FREE}, {0.3, 0.4, RG_SWEEP_CONTACT}, {0.4, 0.3, RG_SWEEP_CONTACT}};
+    rg_lines l = drawing();
+    draw_box(&l, 0, 0, 1, 1);
+    draw(&l, RG_VALLEY, 0.5, 0, 0.5, 1);
+    rg_pattern *d = pattern_of(&l);
+    rg_mesh m = mesh_of(d);
+    rg_tree t;
+    rg_plates p;
+    rg_sweep_work w;
+    posed s[2];
+    assert_int_equal(rg_tree_init(&m, 0, &t), RG_OK);
+    assert_int_equal(rg_plates_init(&m, &p), RG_OK);
+    assert_int_equal(rg_sweep_work_init(&p, &w), RG_OK);
+    const rg_sweep_rule rule = {0.01, 0, NULL, NULL};
+    const rg_plates_state from = {m.X, s[0].place, s[0].x}, to = {m.X, s[1].place, s[1].x};
+    for (int k = 0; k < 4; k++) {
+        pose(&m, &t, (const double[]){RG_PI - all[k].before}, &s[0]);
+        pose(&m, &t, (const double[]){RG_PI + all[k].after}, &s[1]);
+        assert_int_equal(rg_sweep_step(&p, &from, &to, &rule, &w).verdict, all[k].verdict);
+    }
+    rg_sweep_work_free(&w);
+    rg_plates_free(&p);
+    rg_tree_free(&t);
+    rg_mesh_free(&m);
+    rg_pattern_destroy(d);
+}
+
 /* A hinge past half a turn is as deep in itself as its smaller facet reaches, whichever that is, and not as the larger one. */
 static void a_narrow_flap_is_not_deep(void **state)
 {
@@ -834,6 +866,7 @@ int main(void)
         cmocka_unit_test(keeps_its_distance),
         cmocka_unit_test(hinges_stop_at_half_a_turn),
         cmocka_unit_test(a_narrow_flap_is_not_deep),
+        cmocka_unit_test(a_hair_before_half_a_turn),
         cmocka_unit_test(the_first_crossing_of_a_motion),
         cmocka_unit_test(what_a_way_may_bend_is_not_held_against_it),
         cmocka_unit_test(nearest_points),

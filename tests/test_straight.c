@@ -406,6 +406,31 @@ static void one_percent_is_one_percent(void **state)
     rg_pattern_destroy(p);
 }
 
+/* What a fold costs is counted, never backwards. */
+static void what_it_cost(void **state)
+{
+    (void)state;
+    for (int k = RG_METHOD_EULER; k <= RG_METHOD_ADAPTIVE; k++) {
+        rg_settings s = rg_settings_default();
+        rg_pattern *p = generated("bird", 0, 0);
+        s.method = (rg_method)k;
+        s.frames = 7;
+        rg_straight *f = fold_of(p, &s);
+        rg_cost was = rg_straight_cost(f);
+        rg_step_info i;
+        do {
+            assert_int_equal(rg_straight_step(f, &i), RG_OK);
+            const rg_cost is = rg_straight_cost(f);
+            assert_true(is.steps >= was.steps && is.solves >= was.solves && is.assemblies >= was.assemblies);
+            assert_int_equal(is.solves - was.solves, i.solves);
+            was = is;
+        } while (i.outcome == RG_RUNNING);
+        assert_true(was.steps > 5 && was.solves > 5);
+        rg_straight_destroy(f);
+        rg_pattern_destroy(p);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -422,6 +447,7 @@ int main(void)
         cmocka_unit_test(what_stops_is_closed),
         cmocka_unit_test(solvers_say_the_same),
         cmocka_unit_test(one_percent_is_one_percent),
+        cmocka_unit_test(what_it_cost),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
