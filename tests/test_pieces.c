@@ -105,39 +105,6 @@ static void doubles_are_told_where_they_begin(void **state)
     }
 }
 
-/* Many lines on one: of each part the one that was drawn first stays. */
-static void the_first_of_many_on_one_line_stays(void **state)
-{
-    (void)state;
-    enum { MANY = 150, LONG = 97 };
-    unsigned seed = 11;
-    for (int round = 0; round < 10; round++) {
-        int from[MANY], to[MANY];
-        rg_lines l = drawing();
-        for (int i = 0; i < MANY; i++) {
-            from[i] = whole_noise(&seed, LONG), to[i] = from[i] + 1 + whole_noise(&seed, LONG - from[i]);
-            if (i == MANY - 1) from[i] = 0, to[i] = LONG; /* all of it, so that none hangs loose */
-            draw(&l, 'M', from[i], 5, to[i], 5);
-        }
-        draw_box(&l, 0, 0, LONG, 10);
-        rg_pattern *p = pattern_of(&l);
-        int seen = 0;
-        double length = 0;
-        for (int32_t e = 0; e < p->ne; e++) {
-            const rg_vec2 a = p->X[p->E[e].v[0]], b = p->X[p->E[e].v[1]];
-            if (a.y != 5 || b.y != 5) continue;
-            int first = 0;
-            while (!(from[first] < (a.x + b.x) / 2 && (a.x + b.x) / 2 < to[first])) first++;
-            assert_int_equal(p->E[e].where, first + 1);
-            length += fabs(a.x - b.x);
-            seen++;
-        }
-        near(length, LONG, 1e-9);
-        assert_true(seen >= 1);
-        rg_pattern_destroy(p);
-    }
-}
-
 /* Of many such lines the first few are told, and how many more there are. */
 static void more_doubles_are_counted(void **state)
 {
@@ -247,7 +214,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(one_of_several), cmocka_unit_test(loose_ends), cmocka_unit_test(slits_are_counted),
                                        cmocka_unit_test(numbers_stay),
                                        cmocka_unit_test(size_is_that_of_the_sheet_taken), cmocka_unit_test(doubles_are_told_where_they_begin),
-                                       cmocka_unit_test(more_doubles_are_counted),
-                                       cmocka_unit_test(the_first_of_many_on_one_line_stays)};
+                                       cmocka_unit_test(more_doubles_are_counted)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

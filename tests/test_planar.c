@@ -741,6 +741,40 @@ static void merge_out_of_range(void **state)
     }
 }
 
+/* Many lines on one: of each part the one that was drawn first stays. */
+static void the_first_of_many_on_one_line_stays(void **state)
+{
+    (void)state;
+    enum { MANY = 150, LONG = 97 };
+    unsigned seed = 11;
+    for (int round = 0; round < 10; round++) {
+        int from[MANY], to[MANY];
+        rg_lines l = drawing();
+        for (int i = 0; i < MANY; i++) {
+            from[i] = whole_noise(&seed, LONG), to[i] = from[i] + 1 + whole_noise(&seed, LONG - from[i]);
+            if (i == MANY - 1) from[i] = 0, to[i] = LONG; /* all of it, so that none hangs loose */
+            draw(&l, 'M', from[i], 5, to[i], 5);
+        }
+        draw_box(&l, 0, 0, LONG, 10);
+        rg_graph g = graph_of(&l, 1e-9);
+        int seen = 0;
+        double length = 0;
+        for (int32_t e = 0; e < g.ne; e++) {
+            const rg_vec2 a = g.X[g.E[e].v[0]], b = g.X[g.E[e].v[1]];
+            if (a.y != 5 || b.y != 5) continue;
+            int first = 0;
+            while (!(from[first] < (a.x + b.x) / 2 && (a.x + b.x) / 2 < to[first])) first++;
+            assert_int_equal(g.E[e].where, first + 1);
+            length += fabs(a.x - b.x);
+            seen++;
+        }
+        near(length, LONG, 1e-9);
+        assert_true(seen >= 1);
+        rg_graph_free(&g);
+        rg_lines_free(&l);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -756,6 +790,7 @@ int main(void)
         cmocka_unit_test(counts_do_not_depend_on_place_turn_and_size),
         cmocka_unit_test(doubles_by_rank),
         cmocka_unit_test(lines_nested_in_one),
+        cmocka_unit_test(the_first_of_many_on_one_line_stays),
         cmocka_unit_test(too_many_in_one_place),
         cmocka_unit_test(crossings_are_guessed_before_they_are_kept),
         cmocka_unit_test(what_is_left_out_is_said),
