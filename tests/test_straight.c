@@ -421,7 +421,7 @@ static void what_it_cost(void **state)
         do {
             assert_int_equal(rg_straight_step(f, &i), RG_OK);
             const rg_cost is = rg_straight_cost(f);
-            assert_true(is.steps >= was.steps && is.solves >= was.solves && is.assemblies >= was.assemblies);
+            assert_true(is.seconds >= was.seconds && is.steps >= was.steps && is.solves >= was.solves && is.assemblies >= was.assemblies);
             assert_int_equal(is.solves - was.solves, i.solves);
             was = is;
         } while (i.outcome == RG_RUNNING);
@@ -429,6 +429,23 @@ static void what_it_cost(void **state)
         rg_straight_destroy(f);
         rg_pattern_destroy(p);
     }
+    /* Nothing to fold is no work, and all frames are there. */
+    rg_settings s = rg_settings_default();
+    rg_lines l = drawing();
+    draw_box(&l, 0, 0, 2, 1);
+    draw(&l, 'U', 1, 0, 1, 1);
+    s.frames = 5;
+    rg_pattern *p = pattern_of(&l);
+    rg_straight *f = fold_of(p, &s);
+    rg_step_info i;
+    for (int k = 0; k < 5; k++) {
+        assert_true(next_frame(f, &i));
+        assert_int_equal(i.frame, k);
+        near(i.progress, k / 4.0, 1e-12);
+    }
+    assert_int_equal(rg_straight_cost(f).solves, 0);
+    rg_straight_destroy(f);
+    rg_pattern_destroy(p);
 }
 
 int main(void)
