@@ -22,7 +22,7 @@ static const double OFF_CENTRE = 10, LONGER = 1.5, LONGER_BY = 0.3;
 /* On the diagonal where rounding spoils a pivot. */
 static const double BETA = 1e-9, BETA_GROWTH = 100, BETA_LARGEST = 1;
 /* What adding a number to its place costs, in multiplications of a product of panels. */
-static const double LAYING = 8;
+static const double LAYING = 4;
 static const rg_slots NONE;
 /* Iterations that a solution by rows is reckoned to take, where its cost is compared. */
 static const double RECKONED = 12;
