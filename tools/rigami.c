@@ -43,7 +43,16 @@ static const command commands[] = {
      "for joining ends. Exit status: 0 when it was written; 2 when IN cannot be read; 3 when OUT\n"
      "cannot be written.\n",
      cmd_convert},
-    {"gen", FOR_GEN, "KIND [N [M]] -o OUT", 1, 3, "Writes an example crease pattern as .opx, of N by M parts.", "", cmd_gen},
+    {"gen", FOR_GEN, "KIND [N [M]] -o OUT", 1, 3, "Writes an example crease pattern as .opx, of N by M parts.",
+     "What N, M and --angle are, with their usual values:\n"
+     "  miura      N columns, M rows of rhombs (8); their acute angle, 10 to 85 degrees (60)\n"
+     "  waterbomb  N by M units (6); between a diagonal and the rows, 30 to 80 degrees (45)\n"
+     "  yoshimura  N triangles in each of M rows (6); at their bases, 5 to 60 degrees (30)\n"
+     "  kresling   N sides (6), M storeys; between base and diagonal, 5 to 90 degrees\n"
+     "  hypar      N squares in each other (8); boxpleat: a grid of N by N (16); resch: N by M (3)\n"
+     "  random     N by N rhombs (8), M the seed\n"
+     "The sheet's longer side is 400; rigami fold --unit says what 1 is.\n",
+     cmd_gen},
     {"draw", FOR_DRAW, "MOTION.fold -o OUT [-o OUT]...", 1, 1, "Draws a motion that was written before, without folding.",
      "MOTION is a FOLD file with a flat crease pattern and frames that have vertices_coords: what rigami fold\n"
      "writes as .fold, or another program; - is standard input. OUT is as for rigami fold. Exit status: 0 when\n"
