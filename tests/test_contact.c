@@ -612,6 +612,44 @@ static void a_hair_before_half_a_turn(void **state)
     rg_pattern_destroy(d);
 }
 
+/* The box of a part is that of its corners, and of a node that of what is below it: no wider, or more is looked at than need be. */
+static void boxes_fit(void **state)
+{
+    (void)state;
+    unsigned seed = 13;
+    for (int k = 0; k < 10; k++) {
+        rg_mesh m = strip(5 + k, &seed);
+        rg_tree t;
+        rg_plates p;
+        posed s;
+        double rho[MOST];
+        assert_int_equal(rg_tree_init(&m, 0, &t), RG_OK);
+        assert_int_equal(rg_plates_init(&m, &p), RG_OK);
+        for (int32_t i = 0; i < m.N; i++) rho[i] = 2 * noise(&seed);
+        pose(&m, &t, rho, &s);
+        rg_box *box = calloc((size_t)p.nodes, sizeof *box);
+        assert_non_null(box);
+        rg_plates_boxes(&p, s.x, box);
+        for (int32_t n = 0; n < p.nodes; n++) {
+            const int32_t a = p.node[n].part;
+            if (a < 0) continue;
+            rg_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+            for (int32_t j = p.start[a]; j < p.start[a + 1]; j++) {
+                const rg_vec3 x = s.x[p.vertex[j]];
+                low = (rg_vec3){fmin(low.x, x.x), fmin(low.y, x.y), fmin(low.z, x.z)};
+                high = (rg_vec3){fmax(high.x, x.x), fmax(high.y, x.y), fmax(high.z, x.z)};
+            }
+            const double is[] = {box[n].low.x, box[n].low.y, box[n].low.z, box[n].high.x, box[n].high.y, box[n].high.z};
+            const double want[] = {low.x, low.y, low.z, high.x, high.y, high.z};
+            for (int i = 0; i < 6; i++) near(is[i], want[i], 0);
+        }
+        free(box);
+        rg_plates_free(&p);
+        rg_tree_free(&t);
+        rg_mesh_free(&m);
+    }
+}
+
 /* A hinge past half a turn is as deep in itself as its smaller facet reaches, whichever that is, and not as the larger one. */
 static void a_narrow_flap_is_not_deep(void **state)
 {
@@ -866,6 +904,7 @@ int main(void)
         cmocka_unit_test(keeps_its_distance),
         cmocka_unit_test(hinges_stop_at_half_a_turn),
         cmocka_unit_test(a_narrow_flap_is_not_deep),
+        cmocka_unit_test(boxes_fit),
         cmocka_unit_test(a_hair_before_half_a_turn),
         cmocka_unit_test(the_first_crossing_of_a_motion),
         cmocka_unit_test(what_a_way_may_bend_is_not_held_against_it),
