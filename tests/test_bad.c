@@ -91,6 +91,13 @@ static void numbers_of_vertices_are_within(void **state)
     is_refused("mesh-size.dxf", "a mesh of 4294967298 by 4294967298 with 4 vertices");
 }
 
+/* A value that stands alone is no pattern, and was told as memory that is short. */
+static void a_number_is_no_pattern(void **state)
+{
+    (void)state;
+    is_refused("number.fold", "not well-formed JSON");
+}
+
 /* Converted to FOLD, such lines left a file that could not be read again. */
 static void lines_without_length_are_no_pattern(void **state)
 {
@@ -107,6 +114,7 @@ int main(void)
         cmocka_unit_test(read_or_refused),
         cmocka_unit_test(what_a_file_says_is_one_line),
         cmocka_unit_test(numbers_of_vertices_are_within),
+        cmocka_unit_test(a_number_is_no_pattern),
         cmocka_unit_test(lines_without_length_are_no_pattern),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -104,7 +104,8 @@ static void on_signal(int number)
     signals++;
     /* With no thread to be had, it is the second one that ends what is held. */
     if (!has_watcher && (phase != HELD || signals > 1)) _exit(ENDS_SHORT);
-    if (has_watcher && write(wake[1], &(char){phase == HELD ? WITH_GRACE : AT_ONCE}, 1) < 0) _exit(ENDS_SHORT);
+    const char word = phase == HELD ? WITH_GRACE : AT_ONCE;
+    if (has_watcher && write(wake[1], &word, 1) < 0) _exit(ENDS_SHORT);
     errno = error;
 }
 

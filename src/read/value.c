@@ -101,6 +101,8 @@ static int is_object(const nest *n) { return n->is_object[(n->depth - 1) / 8] >>
 static int is_well_formed(const char *s, const char *end)
 {
     nest n = {{0}, 0};
+    s = skip_blanks(s, end);
+    if (s >= end || (*s != '[' && *s != '{')) return 0; /* other values are not read, so that it is the text and not memory */
     for (;;) { /* a value begins here */
         s = skip_blanks(s, end);
         if (s < end && (*s == '[' || *s == '{')) {
