@@ -155,6 +155,65 @@ static void targets_pins_and_free_creases(void **state)
     rg_pattern_destroy(p);
 }
 
+/* Two at once: as the sheet has them they go; otherwise they stop where the facets no longer give, and say what is held. */
+static void a_group(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("miura", 4);
+    for (int fits = 0; fits < 2; fits++) {
+        rg_fold *f = flat_fold(p, 13);
+        int32_t both[2] = {0, 1};
+        const rg_step_info *i;
+        const double first = 40 * RG_DEG;
+        assert_int_equal(rg_fold_drive(f, 1, both, &first), RG_OK);
+        rg_fold_step(f);
+        for (int32_t c = 1; c < 24; c++) /* one that turns as far */
+            if (fabs(fabs(rg_fold_angles(f, NULL)[c]) - fabs(rg_fold_angles(f, NULL)[0])) < 1e-6) both[1] = c;
+        const double side = rg_fold_angles(f, NULL)[both[1]] > 0 ? 1 : -1, to[2] = {first, side * (fits ? 40 : 15) * RG_DEG};
+        rg_fold_step_back(f);
+        assert_int_equal(rg_fold_drive(f, 2, both, to), RG_OK);
+        while ((i = rg_fold_step(f))->outcome == RG_RUNNING) {
+            for (int k = 0; k < 2; k++) near(rg_fold_angles(f, NULL)[both[k]], to[k] * i->progress, 1e-15);
+            below(i->closure, 1e-10);
+        }
+        assert_int_equal(i->outcome, fits ? RG_FOLDED : RG_STOPPED);
+        if (!fits) assert_true(i->reason[0] && i->blocking_crease_count == 2 && i->blocking_vertex_count > 0);
+        rg_fold_destroy(f);
+    }
+    rg_pattern_destroy(p);
+}
+
+/* From the middle of a motion on whose way the pattern moved: the crease goes where it is driven, on the pattern as it is there. */
+static void from_a_moved_pattern(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("closed-adjust", 0);
+    rg_settings s = rg_settings_default();
+    rg_fold *f = NULL;
+    s.frames = 11;
+    s.contact = RG_CONTACT_REPORT;
+    s.triangulate = RG_TRIANGULATE_NONE;
+    assert_int_equal(rg_fold_create(p, &s, NULL, NULL, &f, NULL), RG_OK);
+    for (int k = 0; k < 4; k++) rg_fold_step(f);
+    int32_t N, nv;
+    const double *rho = rg_fold_angles(f, &N);
+    const double (*X)[2] = rg_fold_flat(f, &nv);
+    double *was = malloc((size_t)nv * sizeof *X);
+    memcpy(was, X, (size_t)nv * sizeof *X);
+    int32_t c = 0;
+    for (int32_t i = 0; i < N; i++)
+        if (fabs(rho[i]) > fabs(rho[c])) c = i;
+    const double to = 0.9 * rho[c];
+    assert_int_equal(rg_fold_drive(f, 1, &c, &to), RG_OK);
+    while (rg_fold_step(f)->outcome == RG_RUNNING) below(rg_fold_get_info(f)->closure, 1e-10);
+    if (rg_fold_get_info(f)->outcome == RG_FOLDED) near(rg_fold_angles(f, NULL)[c], to, 1e-15);
+    assert_memory_equal(rg_fold_flat(f, NULL), was, (size_t)nv * sizeof *X);
+    assert_true(rg_fold_get_info(f)->frame > 4);
+    free(was);
+    rg_fold_destroy(f);
+    rg_pattern_destroy(p);
+}
+
 /* A crease that cannot turn says so, with what holds it. */
 static void a_locked_crease(void **state)
 {
@@ -405,7 +464,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_crease_of_a_miura_ori), cmocka_unit_test(back_through_flat), cmocka_unit_test(targets_pins_and_free_creases),
-        cmocka_unit_test(a_locked_crease), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames),
+        cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames),
         cmocka_unit_test(kept_states), cmocka_unit_test(positions_and_transforms), cmocka_unit_test(recorded),
         cmocka_unit_test(steps_ask_for_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
