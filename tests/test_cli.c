@@ -1027,6 +1027,55 @@ static void an_interrupted_fold_is_written_up_to_there(void **state)
     }
 }
 
+/* Time that is over: what there is is written. A signal is obeyed within one solve, and a second one anywhere. */
+static void time_is_limited(void **state)
+{
+    (void)state;
+    ends(0, run("gen", "miura", "12", "-o", "long.opx"));
+    const ran *r = ends(1, run("fold", "long.opx", "--method", "newton", "--step", "0.001", "--max-seconds", "1.5", "-o", "broken.csv"));
+    assert_non_null(strstr(r->err, "1.5 seconds"));
+    assert_false(is_empty("broken.csv"));
+    ends(0, run("fold", "good.opx", "--max-seconds", "1000", "--max-memory", "4000"));
+    says(ends(3, run("fold", "good.opx", "--max-memory", "1")), "rigami: ", "memory");
+    says(ends(2, run("fold", "good.opx", "--max-seconds", "-1")), "rigami: --max-seconds: ", "-1");
+    ends(0, run("gen", "miura", "24", "-o", "long.opx"));
+    const pid_t pid = start(ARGS("fold", "long.opx", "--solver", "svd", "--frames", "2", "-o", "broken.fold"), &(streams){0});
+    nanosleep(&(struct timespec){2, 0}, NULL); /* by then it is within a solve of many seconds */
+    assert_int_equal(kill(pid, SIGTERM), 0);
+    ends(1, finish(pid));
+    unlink("broken.csv");
+    unlink("broken.fold");
+    assert_int_equal(names("broken."), 0);
+}
+
+/* What is too much is refused, without an end of reading or of memory. */
+static void what_is_too_much_is_refused(void **state)
+{
+    (void)state;
+    if (there("/dev/zero")) says(ends(2, run("info", "/dev/zero")), "rigami: /dev/zero: ", "more than 1024 MB");
+    FILE *f = fopen("crowd.cp", "w");
+    assert_non_null(f);
+    fprintf(f, "1 -1 -1 1 -1\n1 1 -1 1 1\n1 1 1 -1 1\n1 -1 1 -1 -1\n");
+    for (int i = 0; i < 1200; i++) {
+        const double a = 2 * 3.14159265358979323846 * (i + 0.3) / 1200, c = cos(a), s = sin(a), r = 1 / fmax(fabs(c), fabs(s));
+        fprintf(f, "%d 0 0 %.15g %.15g\n", 2 + i % 2, r * c, r * s);
+    }
+    fclose(f);
+    says(ends(2, run("fold", "crowd.cp", "--merge", "1e-6")), "rigami: crowd.cp: 1200 creases meet at (0, 0)", "no more than 1000");
+    assert_non_null(strstr(ends(0, run("info", "crowd.cp", "--merge", "1e-6"))->out, "It cannot be folded here: 1200 creases meet"));
+}
+
+/* One place under two names is one output, and an input is not written over. */
+static void one_place_is_written_once(void **state)
+{
+    (void)state;
+    says(ends(2, run("fold", "good.opx", "-o", "once.fold", "-o", "./once.fold")), "rigami: ./once.fold: ", "twice");
+    says(ends(2, run("fold", "good.opx", "-o", "once/", "-o", ".//once/")), "rigami: .//once/: ", "twice");
+    assert_int_equal(names("once"), 0);
+    says(ends(2, run("convert", "good.opx", "-o", "./good.opx")), "rigami: ./good.opx: ", "is the input");
+    ends(0, run("info", "good.opx"));
+}
+
 /* ------------------------------------------------------------------------------------- others' bad files ---- */
 
 /* What the corpus says of them; facets 0: not said, or to be refused. */
@@ -1147,6 +1196,7 @@ int main(void)
         cmocka_unit_test(the_report_has_what_is_promised),
         cmocka_unit_test(info_as_json_has_what_is_promised),
         cmocka_unit_test(an_interrupted_fold_is_written_up_to_there),
+        cmocka_unit_test(time_is_limited), cmocka_unit_test(what_is_too_much_is_refused), cmocka_unit_test(one_place_is_written_once),
         cmocka_unit_test(bad_files_of_others_are_read_or_refused),
     };
     return cmocka_run_group_tests(tests, begin_all, end_all);

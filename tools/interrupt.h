@@ -27,6 +27,6 @@ int interrupt_came(void);
 int interrupt_time_is_up(void);
 
 /* Seconds that an interrupted fold has for what there is to write: the whole takes less than one. */
-#define INTERRUPT_GRACE 0.7
+#define INTERRUPT_GRACE 0.6
 
 #endif
