@@ -1048,6 +1048,27 @@ static void time_is_limited(void **state)
     assert_int_equal(names("broken."), 0);
 }
 
+/* Memory that is short is told as such, and not as a file that is bad: whatever reads it, and however little there is. */
+static void memory_is_limited(void **state)
+{
+    (void)state;
+    ends(0, run("gen", "miura", "24", "-o", "large.opx"));
+    ends(0, run("convert", "-q", "large.opx", "-o", "large.fold"));
+    const char *const files[] = {"large.opx", "large.fold"};
+    int short_of_it = 0;
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 12; k++) {
+            char megabytes[20];
+            snprintf(megabytes, sizeof megabytes, "%d", 25 + 8 * k);
+            const ran *r = run("info", "-q", files[i], "--max-memory", megabytes);
+            if (r->status == 0) continue;
+            ends(3, r);
+            assert_non_null(strstr(r->err, "memory"));
+            short_of_it++;
+        }
+    assert_true(short_of_it > 0);
+}
+
 /* What is too much is refused, without an end of reading or of memory. */
 static void what_is_too_much_is_refused(void **state)
 {
@@ -1196,7 +1217,7 @@ int main(void)
         cmocka_unit_test(the_report_has_what_is_promised),
         cmocka_unit_test(info_as_json_has_what_is_promised),
         cmocka_unit_test(an_interrupted_fold_is_written_up_to_there),
-        cmocka_unit_test(time_is_limited), cmocka_unit_test(what_is_too_much_is_refused), cmocka_unit_test(one_place_is_written_once),
+        cmocka_unit_test(time_is_limited), cmocka_unit_test(memory_is_limited), cmocka_unit_test(what_is_too_much_is_refused), cmocka_unit_test(one_place_is_written_once),
         cmocka_unit_test(bad_files_of_others_are_read_or_refused),
     };
     return cmocka_run_group_tests(tests, begin_all, end_all);

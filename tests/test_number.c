@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "base/number.h"
+#include "base/text.h"
 #include "near.h"
 
 static void scans(const char *text, size_t used, double value)
@@ -184,6 +185,10 @@ static void a_decimal_comma_changes_nothing(void **state)
         the_longest_number_is_read(state);
         whole_texts(state);
         numbers_come_back(state);
+        rg_text(text, sizeof text, "%.1f", 0.5);
+        assert_string_equal(text, "0.5"); /* what is told people, too */
+        snprintf(text, sizeof text, "%.1f", 0.5);
+        assert_string_equal(text, "0,5"); /* and the caller's is as it was */
     }
     setlocale(LC_ALL, "C");
     snprintf(command, sizeof command, "rm -r %s", folder);
