@@ -32,7 +32,7 @@ enum { ROOM = 1 << 22, ALL = 20, FRAMES = 6 };
 
 static char program[PATH_MAX], folder[] = "/tmp/rigami-faults-XXXXXX";
 static double whole_run; /* seconds that the slowest form takes */
-static int times = 3;    /* moments of a signal, sizes of memory; RIGAMI_FAULTS says how many, ALL in make check-long */
+static int times = 2;    /* moments of a signal, sizes of memory; RIGAMI_FAULTS says how many, ALL in make check-long */
 
 /* Forms; of a folder of frames, one of them is looked at. */
 static const struct form { const char *output, *looked_at; int by_ffmpeg; const char *last; /* its last bytes; NULL: it is no picture of ours */ } forms[] = {

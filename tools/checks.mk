@@ -83,13 +83,17 @@ mutants:
 
 # --------------------------------------------------------------------------------------------------- at length
 
+# The whole table of tests/test_faults.c: 20 moments of each signal, 20 sizes of memory.
+faults-long: build $B/tests/test_faults
+	@RIGAMI_FAULTS=20 RIGAMI=$B/rigami $B/tests/test_faults
+
 # What does not fit into the time that a change can wait for. Hours.
 check-long: check
-	@for part in lint-deep "tsan tsan_tests=all" valgrind-long "fuzz seconds=60" mutants; do \
+	@for part in lint-deep "tsan tsan_tests=all" valgrind-long faults-long "fuzz seconds=60" mutants; do \
 	    echo "== $$part"; $(MAKE) --no-print-directory $(jobs) $$part >build/check.log 2>&1 || \
 	        { cat build/check.log; echo "check-long: $$part FAILED"; exit 1; }; \
 	    grep '^SKIPPED' build/check.log; tail -n 1 build/check.log; \
 	done
 	@echo "check-long: all parts passed"
 
-.PHONY: coverage run-coverage coverage-table tsan run-tsan helgrind valgrind valgrind-long lint lint-deep fuzz fuzz-targets fuzz-smoke mutants check-long
+.PHONY: coverage run-coverage coverage-table tsan run-tsan helgrind valgrind valgrind-long faults-long lint lint-deep fuzz fuzz-targets fuzz-smoke mutants check-long

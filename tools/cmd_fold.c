@@ -183,6 +183,7 @@ int fold_one(const options *o, fold_seen seen, void *ctx)
             say("%s: it ends on a pattern moved by %.2g %% of the sheet, as it does not close as it was drawn; rigami info says where", name,
                 100 * r->moved_at_end);
         if (!stopped && r->contact == RG_CONTACT_CROSSES) say_contact(name, r);
+        if (!stopped && interrupt_came()) say("%s: interrupted, with all of it written", name);
         if (status == ENDS_WELL && (stopped || elsewhere || rolled || interrupt_came() || r->contact == RG_CONTACT_CROSSES)) status = ENDS_SHORT;
         if (seen) seen(ctx, m, status);
     }
