@@ -48,7 +48,9 @@ static rg_vec2 from_middle(const search *s, int32_t v) { return rg_vec2_sub(s->X
 static int nearer(const search *s, int32_t i, rg_vec2 x, double *nearest, int32_t *v)
 {
     if (!(fabs(s->spots[i].along - along(x)) <= *nearest)) return 0;
-    const double distance = rg_vec2_length(rg_vec2_sub(from_middle(s, s->spots[i].v), x));
+    const rg_vec2 off = rg_vec2_sub(from_middle(s, s->spots[i].v), x);
+    if (!(fabs(off.x) <= *nearest && fabs(off.y) <= *nearest)) return 1;
+    const double distance = rg_vec2_length(off);
     if (distance <= *nearest) *nearest = distance, *v = s->spots[i].v;
     return 1;
 }
