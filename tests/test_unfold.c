@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "corpus.h"
 #include "near.h"
 
 #include "counted.h"
@@ -494,7 +495,8 @@ static int pierces(const rg_mesh *m, const rg_vec3 *x, double deep)
     return 0;
 }
 
-static void unfolds(const char *path, double sign)
+/* over: radians that a crease may be past half a turn; deep: of the sheet, that counts as a crossing. */
+static void unfolds(const char *path, double sign, double over, double deep)
 {
     const rg_memory mem = rg_mem_default(NULL);
     const rg_unfold_wish wish = {sign, -1, 0, 5e10, NULL, NULL};
@@ -519,14 +521,14 @@ static void unfolds(const char *path, double sign)
             if (isnan(target) || target == 0) continue;
             sum += rho[i] / (sign * target);
             n++;
-            below(fabs(rho[i]), RG_PI + 1e-6);
+            below(fabs(rho[i]), RG_PI + over);
         }
         near(sum / n, k / 150.0, 1e-3);
         rg_pose_facets(&u.mesh, X, &tree, rho, place);
         rg_pose_vertices(&u.mesh, X, &tree, place, x);
         below(rg_pose_gap(X, &tree, place), 1e-8 * none.size);
         for (int32_t v = 0; v < u.mesh.nv; v++) x[v] = rg_vec3_scale(1 / none.size, x[v]);
-        assert_false(pierces(&u.mesh, x, DEEP));
+        assert_false(pierces(&u.mesh, x, deep));
     }
     for (int32_t v = 0; v < u.mesh.nv; v++) { /* the end is of the pattern given */
         near(X[v].x, u.mesh.X[v].x * none.size, 1e-12 * none.size);
@@ -545,9 +547,79 @@ static void free_motions(void **state)
     for (int k = 0; k < 7; k++) {
         char path[64];
         snprintf(path, sizeof path, "patterns/%s.opx", files[k]);
-        unfolds(path, 1);
+        unfolds(path, 1, 1e-6, DEEP);
     }
-    unfolds("patterns/bird.opx", -1);
+    unfolds("patterns/bird.opx", -1, 1e-6, DEEP);
+}
+
+/* Many of its creases cannot open to first order. */
+static void locked_end(void **state)
+{
+    (void)state;
+    char path[512];
+    unfolds(corpus("foldability/114-brown-4x4-a92.fold", path, sizeof path), 1, 1.1e-4, RG_CONTACT_TOLERANCE);
+}
+
+/* What crosses gets a row that is as far off as it crosses deep, and whose parts are glued. */
+static void crossed_rows(void **state)
+{
+    (void)state;
+    const rg_memory mem = rg_mem_default(NULL);
+    rg_mesh none, m;
+    rg_linkage P;
+    rg_proximity near_;
+    rg_nearest q;
+    rg_plates plates;
+    rg_contact_work look;
+    mesh_of("patterns/frog.opx", &none);
+    assert_int_equal(rg_triangulate_all(&none, &m), RG_OK);
+    for (int32_t v = 0; v < m.nv; v++) m.X[v] = (rg_vec2){m.X[v].x / m.size, m.X[v].y / m.size};
+    m.size = 1;
+    assert_int_equal(rg_linkage_init(&P, &mem, &m), RG_OK);
+    assert_int_equal(rg_proximity_init(&near_, &mem, &m), RG_OK);
+    assert_int_equal(rg_nearest_init(&q, &mem, &P), RG_OK);
+    assert_int_equal(rg_plates_init(&m, &plates), RG_OK);
+    assert_int_equal(rg_contact_work_init(&plates, &look), RG_OK);
+    rg_crossed *c = calloc(1, sizeof *c);
+    double *z = calloc((size_t)P.n, sizeof *z);
+    assert_true(c && z);
+    c->plates = &plates, c->look = &look;
+    rg_linkage_put(&P, z);
+    rg_nearest_clear(&q);
+    assert_int_equal(rg_crossed_add(c, &P, &near_, &q), RG_OK);
+    assert_int_equal(q.count, 0); /* a flat sheet */
+    const int32_t *corner = m.facet_vertex + m.facet_start[0];
+    for (int32_t e = 0; e < m.ne; e++) { /* an edge elsewhere is put through the first facet, by so much */
+        int joined = 0;
+        for (int k = 0; k < 3; k++) joined |= corner[k] == m.edge[e][0] || corner[k] == m.edge[e][1];
+        if (joined) continue;
+        const rg_vec3 middle = rg_vec3_scale(1 / 3.0, rg_vec3_add(P.p[corner[0]], rg_vec3_add(P.p[corner[1]], P.p[corner[2]])));
+        P.p[m.edge[e][0]] = rg_vec3_add(middle, (rg_vec3){0, 0, 0.2});
+        P.p[m.edge[e][1]] = rg_vec3_add(middle, (rg_vec3){0.01, 0, -1e-3});
+        break;
+    }
+    assert_int_equal(rg_crossed_add(c, &P, &near_, &q), RG_OK);
+    assert_true(q.count > 0);
+    for (int32_t k = 0; k < q.count; k++) {
+        const rg_row *row = &q.row[k];
+        double gap = 0;
+        for (int32_t i = 0; i < row->terms; i++) gap += row->weight[i] * rg_vec3_dot(row->n, P.p[row->v[i]]);
+        below(gap, 0);
+        near(gap, row->floor, 1e-9);
+        assert_true(row->soft_b > 0);
+    }
+    int glued = 0;
+    for (size_t i = 0; i < (size_t)m.nv * (size_t)m.nf; i++) glued += (near_.corner[i] & RG_PROXIMITY_GLUED) != 0;
+    for (size_t i = 0; i < (size_t)m.ne * (size_t)m.ne; i++) glued += (near_.edge[i] & RG_PROXIMITY_GLUED) != 0;
+    assert_true(glued > 0);
+    free(c), free(z);
+    rg_contact_work_free(&look);
+    rg_plates_free(&plates);
+    rg_nearest_free(&q);
+    rg_proximity_free(&near_);
+    rg_linkage_free(&P);
+    rg_mesh_free(&m);
+    rg_mesh_free(&none);
 }
 
 /* The check can fail: the frog folds through itself where it is folded straight at its angles. */
@@ -668,7 +740,7 @@ int main(void)
         cmocka_unit_test(many_rows), cmocka_unit_test(again), cmocka_unit_test(all_near),
         cmocka_unit_test(places), cmocka_unit_test(distances),      cmocka_unit_test(meetings),
         cmocka_unit_test(free_motions), cmocka_unit_test(the_check_sees), cmocka_unit_test(no_end),      cmocka_unit_test(same_bits),
-        cmocka_unit_test(without_memory), cmocka_unit_test(stopped),
+        cmocka_unit_test(without_memory), cmocka_unit_test(stopped), cmocka_unit_test(locked_end), cmocka_unit_test(crossed_rows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,6 +11,13 @@ static const double INSIDE = 1e-9, ABOUT_INSIDE = 1e-5;
 /* A weight below is rounding. */
 static const double NOTHING = 1e-7;
 
+/* Rows live while what they are about is nearer than that, in the plane of a crease, and else while facets face each other to 25
+ * degrees. */
+static const double LIVES_INSIDE = 1e-3, LIVES = 2e-4, LIVES_FACING = 0.9;
+
+/* A height (lengths of the sheet) that shows which of two facets is above, and how alike they lie there. */
+static const double SHOWN = 1e-5, ALIKE = 0.9;
+
 /* A triangle cut by three half planes has six corners at most. */
 typedef struct shape { int n; rg_vec2 x[8]; } shape;
 
@@ -389,7 +396,7 @@ rg_status rg_end_init(rg_end *e, const rg_memory *mem, rg_linkage *P, const doub
     if (s == RG_OK) {
         find_lines(&w);
         s = in_plane(&w);
-        rg_sides_finish(&e->sides);
+        rg_sides_finish(&e->sides, e->x);
     }
     rg_mem_free(mem, w.triangle);
     rg_mem_free(mem, w.corner);
@@ -404,6 +411,30 @@ void rg_end_free(rg_end *e)
     void *block[] = {e->z, e->row, e->x};
     for (int i = 0; i < 3; i++) rg_mem_free(&e->mem, block[i]);
     memset(e, 0, sizeof *e);
+}
+
+int rg_end_is_live(const rg_end *e, const rg_end_row *row, const rg_linkage *P)
+{
+    rg_vec3 apart = {0, 0, 0};
+    for (int32_t i = 0; i < row->terms; i++) apart = rg_vec3_axpy(row->weight[i], P->p[row->v[i]], apart);
+    if (!(rg_vec3_length(apart) < (row->kind == RG_END_INSIDE ? LIVES_INSIDE : LIVES))) return 0;
+    return row->kind == RG_END_INSIDE || fabs(e->sides.up[row->frame] * e->sides.up[row->other] *
+                                             rg_vec3_dot(P->place[row->frame].R.c[2], P->place[row->other].R.c[2])) > LIVES_FACING;
+}
+
+int rg_end_is_upset(const rg_end *e, const rg_linkage *P)
+{
+    for (int32_t k = 0; k < e->count;) { /* rows of two facets follow each other */
+        const rg_end_row *first = &e->row[k];
+        double low = INFINITY, high = -INFINITY;
+        for (; k < e->count && e->row[k].kind == first->kind && e->row[k].frame == first->frame && e->row[k].other == first->other; k++) {
+            const double gap = rg_end_gap(&e->row[k], P->place, P->p);
+            low = fmin(low, gap), high = fmax(high, gap);
+        }
+        if (first->kind == RG_END_LAYER && low < -SHOWN && high <= SHOWN &&
+            fabs(rg_vec3_dot(P->place[first->frame].R.c[2], P->place[first->other].R.c[2])) >= ALIKE) return 1;
+    }
+    return 0;
 }
 
 rg_vec3 rg_end_normal(const rg_end_row *row, const rg_place *place)

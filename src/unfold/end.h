@@ -59,6 +59,11 @@ rg_status rg_end_init(rg_end *e, const rg_memory *mem, rg_linkage *P, const doub
                       rg_end_above above, void *ctx);
 void rg_end_free(rg_end *e);
 
+/* Rows are of fixed places, which slide on each other later: they speak as long as what they are about still lies there. */
+int rg_end_is_live(const rg_end *e, const rg_end_row *row, const rg_linkage *P);
+/* Non-zero: where P is put, a facet lies under one that it is over at the end, all over their common place: it has gone round it,
+ * and could come back only through it. */
+int rg_end_is_upset(const rg_end *e, const rg_linkage *P);
 /* n of a row where the linkage is put now, and how far apart it says its parts are. */
 rg_vec3 rg_end_normal(const rg_end_row *row, const rg_place *place);
 double rg_end_gap(const rg_end_row *row, const rg_place *place, const rg_vec3 *p);

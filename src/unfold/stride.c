@@ -14,28 +14,31 @@ static const int32_t PATIENCE = 12;      /* the floor is lowered when so many st
 static const double SLOW = 0.02;         /* bring less than this part of what is left */
 static const double SOFT = 0.3, SOFT_MOST = 1e-3, SOFT_COMPLIANCE = 1e-5; /* 1e-3 is too weak to open, 1e-7 stops the motion */
 static const double HARD_COMPLIANCE = 1e-10; /* of a row, so that rows that contradict each other give a little */
+static const double CLOSING_ROUNDS = 1e-6; /* and of a glued pair, lest layers on each other make a program of each closing */
+static const double NOT_THERE = 1e-4; /* a part that is farther on its wrong side, in a state that does not cross, has gone round */
+static const double THICK = 0.07;
 static const double BELOW_FLOOR = 0.2;   /* what closing may take of a distance that is below the floor */
 static const double NEAR_HALF_TURN = 0.6; /* creases this near to half a turn get their bound as a row */
-static const double OVER_HALF_TURN = 1e-6; /* what rounding and closing may put a crease past it */
+static const double OVER_HALF_TURN = 1e-4; /* what rounding and closing may put a crease past it */
 static const double ADDED_BACK = 0.1, PATTERN_BACK = 0.5; /* what added creases and pattern are wished back by in a step */
 static const double ADDED_SCALE = 3;     /* an added crease bends more readily than a drawn one leaves its wish */
 static const double LEAST_AREA = 0.1;    /* of a facet, of what it was */
 static const double MOST_CORRECTION = 0.7, ALWAYS_CORRECTED = 1e-3; /* of the step: else it went to another branch */
 static const double GAP = 0.1;           /* of its distance, that a pair must keep over a step */
-static const double WRONG_BY = 2e-6;     /* a glued pair may not be farther than that on the wrong side of where it was */
+static const double WRONG_BY = 1e-5;     /* a glued pair may not be farther than that on its wrong side, and go on */
+static const double CROSSED = 6e-5;      /* a step after which facets cross deeper (lengths of the sheet) is none */
 static const double STILL = 1e-7;        /* a step in which no crease turns by more is none */
 static const double CLOSED = 1e-11, HARDLY_OPEN = 1e-8;
 static const int WITH_ROWS = 5, NEWTON = 12; /* frozen rows that can't all hold keep kicking Newton off: rows for some iterations only */
 static const int HALVINGS = 12;
 static const double ARRIVED_FLAT = 0.985, ARRIVED_FOLDED = 0.993;
+static const double TOUCH = 1e-6; /* the same of a pair that has no side: only where there is no distance to go by */
 static const double GLUE = 2e-5, RELEASE = 3e-5, SIDE_RELEASE = 1e-5; /* distances from which a pair is glued, released */
-static const double HARDLY_OPEN_END = 0.04, GROWTH = 0.3, LAGGING = 0.7; /* near the end: steps as a part of how far it is open */
+static const double HARDLY_OPEN_END = 0.08, GROWTH = 0.3, LAGGING = 0.7, OPENS = 1.05; /* near the end: steps as a part of how far it is open */
 static const double SIDE_COUNTS = 1e-3;  /* pairs nearer than that are held by their side in the order */
 
-/* Rows of the end live while what they are about is nearer than that, in the plane of a crease, and else while facets face each
- * other to 25 degrees; what they let go, and push up, as for pairs. */
-static const double LIVES_INSIDE = 1e-3, LIVES = 2e-4, LIVES_FACING = 0.9;
-static const double END_FLOOR = 1e-4, END_BACK = 0.5, END_BACK_MOST = 1e-5, END_ROUNDING = 1e-7;
+/* What rows of the end let go, and push up, as for pairs. */
+static const double END_FLOOR = 1e-4, END_BACK = 0.5, END_BACK_MOST = 1e-5, END_ROUNDING = 1e-6;
 static const double END_INSIDE = 5e-4, END_SOFT_MOST = 1e-4;
 
 void rg_stride_scale(const rg_linkage *P, double give, double *scale)
@@ -100,8 +103,8 @@ static void glue(rg_stride *s)
                 rg_vec3 n;
                 double d;
                 if (*flag || !(rg_proximity_distance(&s->near, kind, i, j, s->P->p, &at) < SIDE_COUNTS)) continue;
-                const int wrong = s->sides && rg_sides_tell(s->sides, s->P, &at, &n, &d) && d < SIDE_RELEASE;
-                if (at.d < GLUE || wrong) *flag |= RG_PROXIMITY_GLUED;
+                const int told = s->sides && rg_sides_tell(s->sides, s->P, &at, &n, &d);
+                if (at.d < (told ? GLUE : TOUCH) || (told && d < SIDE_RELEASE)) *flag |= RG_PROXIMITY_GLUED;
             }
 }
 
@@ -110,8 +113,10 @@ static void release_pair(rg_stride *s, int kind, int32_t i, int32_t j, unsigned 
     rg_close_pair at;
     rg_vec3 n;
     double d;
-    if (!(*flag & RG_PROXIMITY_GLUED) || !(rg_proximity_distance(&s->near, kind, i, j, s->P->p, &at) > RELEASE)) return;
-    if (s->sides && rg_sides_tell(s->sides, s->P, &at, &n, &d) && d < SIDE_RELEASE) return;
+    if (!(*flag & RG_PROXIMITY_GLUED)) return;
+    const double apart = rg_proximity_distance(&s->near, kind, i, j, s->P->p, &at);
+    const int told = s->sides && rg_sides_tell(s->sides, s->P, &at, &n, &d);
+    if (!(apart > (told ? RELEASE : TOUCH)) || (told && d < SIDE_RELEASE)) return;
     *flag &= (unsigned char)~RG_PROXIMITY_GLUED;
 }
 
@@ -144,7 +149,8 @@ rg_status rg_stride_init(rg_stride *s, const rg_memory *mem, rg_linkage *P, cons
     s->wish = rg_mem_array(mem, (size_t)P->n, sizeof *s->wish);
     s->p1 = rg_mem_array(mem, (size_t)P->mesh->nv, sizeof *s->p1);
     s->merit = rg_mem_array(mem, RG_STRIDE_MOST + 1, sizeof *s->merit);
-    rg_status status = s->z && s->z1 && s->wish && s->p1 && s->merit ? RG_OK : RG_ENOMEM;
+    s->went = rg_mem_array(mem, RG_STRIDE_MOST + 1, sizeof *s->went);
+    rg_status status = s->z && s->z1 && s->wish && s->p1 && s->merit && s->went ? RG_OK : RG_ENOMEM;
     if (status == RG_OK) status = rg_proximity_init(&s->near, mem, P->mesh);
     if (status == RG_OK) status = rg_nearest_init(&s->q, mem, P);
     if (status != RG_OK) return status;
@@ -164,8 +170,8 @@ void rg_stride_free(rg_stride *s)
     if (!s->mem.resize) return;
     rg_proximity_free(&s->near);
     rg_nearest_free(&s->q);
-    void *block[] = {s->z, s->z1, s->wish, s->p1, s->merit};
-    for (int i = 0; i < 5; i++) rg_mem_free(&s->mem, block[i]);
+    void *block[] = {s->z, s->z1, s->wish, s->p1, s->merit, s->went};
+    for (int i = 0; i < 6; i++) rg_mem_free(&s->mem, block[i]);
     memset(s, 0, sizeof *s);
 }
 
@@ -200,7 +206,10 @@ static void judge(rg_stride *s)
         return;
     }
     s->merit[s->steps] = merit;
-    if (s->steps - s->since < PATIENCE || merit - s->merit[s->steps - PATIENCE] >= SLOW * fmax(0.02, 1 - merit / 1.3)) return;
+    s->went[s->steps] = s->mean;
+    if (s->steps - s->since < PATIENCE) return;
+    if (s->end && s->mean < HARDLY_OPEN_END && s->mean > OPENS * s->went[s->steps - PATIENCE]) return; /* it grows by parts of itself */
+    if (merit - s->merit[s->steps - PATIENCE] >= SLOW * fmax(0.02, 1 - merit / 1.3)) return;
     if (s->dm < FLOOR_LAST) s->state = RG_STRIDE_STUCK;
     s->dm *= FLOOR_LESS;
     s->since = s->steps;
@@ -226,19 +235,26 @@ static void make_wish(rg_stride *s)
     for (int32_t i = P->N; i < P->n; i++) s->wish[i] = s->pace * -PATTERN_BACK * s->h * s->z[i];
 }
 
+/* The floor of now: where the end has hardly opened, layers can't be as far apart as later. */
+static double floor_of(const rg_stride *s) { return s->end && s->end->keep ? fmin(s->dm, THICK * s->mean) : s->dm; }
+
 static rg_status add_pair_rows(rg_stride *s)
 {
+    const double dm = floor_of(s);
     rg_proximity *near = &s->near;
     rg_status status = rg_proximity_find(near, s->P->p, REACH * MOVE * s->h / DAMPER + 1e-9);
     for (int32_t k = 0; status == RG_OK && k < near->count; k++) {
-        const rg_close_pair *at = &near->pair[k];
+        rg_close_pair *at = &near->pair[k];
+        if (s->sides && at->d < TOUCH) *flag_of(s, at->kind, at->i, at->j) |= RG_PROXIMITY_GLUED; /* no distance to go by */
         const int glued = is_glued(s, at);
         rg_vec3 n = {0, 0, 0};
         double d = at->d;
         for (int i = 0; i < 4; i++) n = rg_vec3_axpy(at->weight[i] / fmax(at->d, 1e-300), s->P->p[at->v[i]], n);
         if (s->sides && (glued || at->d < SIDE_COUNTS)) {
-            const int told = rg_sides_tell(s->sides, s->P, at, &n, &d);
+            const rg_vec3 shortest = n;
+            const int told = rg_sides_tell(s->sides, s->P, at, &n, &d) && d >= -NOT_THERE;
             if (glued && !told) continue;
+            if (!told) n = shortest, d = at->d;
         }
         rg_row *row = rg_nearest_add(&s->q);
         if (!row) return RG_ENOMEM;
@@ -248,32 +264,21 @@ static rg_status add_pair_rows(rg_stride *s)
         row->feature = at->kind == 0 ? at->i : s->P->mesh->nv + at->i;
         row->d = d;
         row->c = HARD_COMPLIANCE;
-        row->b = -DAMPER * fmax(0, d - s->dm);
-        row->floor = d - DAMPER_CLOSING * fmax(0, d - s->dm) - BELOW_FLOOR * fmin(fmax(d, 0), s->dm);
+        row->b = -DAMPER * fmax(0, d - dm);
+        row->floor = d - DAMPER_CLOSING * fmax(0, d - dm) - BELOW_FLOOR * fmin(fmax(d, 0), dm) - (glued ? CLOSING_ROUNDS : 0);
         row->glued = glued ? 1 : 0;
-        if (d < s->dm) row->soft_b = fmin(SOFT * (s->dm - d), SOFT_MOST), row->soft_c = SOFT_COMPLIANCE;
+        if (d < dm) row->soft_b = fmin(SOFT * (dm - d), SOFT_MOST), row->soft_c = SOFT_COMPLIANCE;
     }
     return status;
-}
-
-/* Rows of the end speak while what they are about still lies there: they are of fixed places, which slide on each other later. */
-static int is_live(const rg_stride *s, const rg_end_row *from)
-{
-    const rg_place *place = s->P->place;
-    rg_vec3 apart = {0, 0, 0};
-    for (int32_t i = 0; i < from->terms; i++) apart = rg_vec3_axpy(from->weight[i], s->P->p[from->v[i]], apart);
-    if (!(rg_vec3_length(apart) < (from->kind == RG_END_INSIDE ? LIVES_INSIDE : LIVES))) return 0;
-    const signed char *up = s->end->sides.up;
-    return from->kind == RG_END_INSIDE || fabs(up[from->frame] * up[from->other] *
-                                                rg_vec3_dot(place[from->frame].R.c[2], place[from->other].R.c[2])) > LIVES_FACING;
 }
 
 static rg_status add_end_rows(rg_stride *s)
 {
     for (int32_t k = 0; s->end && s->end->keep && k < s->end->count; k++) {
         const rg_end_row *from = &s->end->row[k];
-        if (!is_live(s, from)) continue;
+        if (!rg_end_is_live(s->end, from, s->P)) continue;
         const double d = rg_end_gap(from, s->P->place, s->P->p);
+        if (d < -NOT_THERE) continue;
         rg_row *row = rg_nearest_add(&s->q);
         if (!row) return RG_ENOMEM;
         row->terms = from->terms;
@@ -281,11 +286,13 @@ static rg_status add_end_rows(rg_stride *s)
         memcpy(row->weight, from->weight, sizeof row->weight);
         row->n = rg_end_normal(from, s->P->place);
         row->c = HARD_COMPLIANCE;
-        row->b = d > 0 ? -DAMPER * fmax(0, d - END_FLOOR) : fmin(-END_BACK * d, END_BACK_MOST);
+        row->b = -DAMPER * fmax(0, d - END_FLOOR);
         row->floor = d > 0 ? (1 - DAMPER_CLOSING) * d : d - END_ROUNDING;
         row->glued = 1;
         if (from->kind == RG_END_INSIDE && d < END_INSIDE)
             row->soft_b = fmin(SOFT * (END_INSIDE - d), END_SOFT_MOST), row->soft_c = SOFT_COMPLIANCE;
+        else if (d < 0)
+            row->soft_b = fmin(-END_BACK * d, END_BACK_MOST), row->soft_c = SOFT_COMPLIANCE;
     }
     return RG_OK;
 }
@@ -299,7 +306,8 @@ static rg_status add_bounds(rg_stride *s)
         if (!row) return RG_ENOMEM;
         row->crease = i;
         row->weight[0] = s->z[i] > 0 ? -1 : 1;
-        row->b = -(RG_PI - rho);
+        row->b = fmin(0, rho - RG_PI);
+        if (rho > RG_PI) row->soft_b = rho - RG_PI, row->soft_c = SOFT_COMPLIANCE; /* one that is locked there can't go back at once */
     }
     return RG_OK;
 }
@@ -318,7 +326,8 @@ static void set_floors(rg_stride *s)
     rg_linkage_positions(s->P, s->z1, s->p1);
     for (int32_t k = 0; k < s->q.count; k++) {
         rg_row *row = &s->q.row[k];
-        row->b = row->crease >= 0 ? -(RG_PI + 1e-9 - fabs(s->z1[row->crease])) : row->floor - gap(row, s->p1);
+        row->b = row->crease >= 0 ? fabs(s->z1[row->crease]) - fmax(RG_PI + OVER_HALF_TURN / 2, fabs(s->z[row->crease]))
+                                  : row->floor - CLOSING_ROUNDS / 10 - gap(row, s->p1);
     }
 }
 
@@ -326,6 +335,7 @@ static void set_floors(rg_stride *s)
 static rg_status close_trial(rg_stride *s, int *closed)
 {
     rg_linkage *P = s->P;
+    double last = INFINITY;
     *closed = 0;
     for (int i = 0; i < WITH_ROWS; i++) {
         const double angle = rg_coupled_assemble(&P->J, s->z1, s->z1 + P->N, NULL);
@@ -333,7 +343,10 @@ static rg_status close_trial(rg_stride *s, int *closed)
         set_floors(s);
         const rg_status status = rg_nearest_solve(&s->q, NULL, P->J.r, 0);
         if (status != RG_OK) return status;
-        if (angle < HARDLY_OPEN && s->q.actives == 0) break;
+        double now = 0;
+        for (int32_t k = 0; k < P->n; k++) now = fmax(now, fabs(s->q.dz[k]) / s->q.scale[k]);
+        if ((angle < HARDLY_OPEN && s->q.actives == 0) || !(now < last)) break; /* rows that can't all hold */
+        last = now;
         for (int32_t k = 0; k < P->n; k++) s->z1[k] += s->q.dz[k];
     }
     *closed = rg_stride_close(P, &s->q, s->z1, CLOSED, NEWTON);
@@ -345,7 +358,9 @@ static int changes_side(const rg_stride *s)
 {
     for (int32_t k = 0; k < s->q.count; k++) {
         const rg_row *row = &s->q.row[k];
-        if (row->glued && !(gap(row, s->p1) >= fmin(gap(row, s->P->p), 0) - WRONG_BY)) return 1;
+        if (!row->glued) continue;
+        const double now = gap(row, s->p1);
+        if (!(now >= -WRONG_BY) && !(now >= gap(row, s->P->p) - WRONG_BY / 10)) return 1;
     }
     return 0;
 }
@@ -363,9 +378,11 @@ static int refuse(rg_stride *s, const double *dz, double f)
     if (!(sqrt(off) <= MOST_CORRECTION * sqrt(step) + ALWAYS_CORRECTED)) return RG_REFUSED_FAR;
     if (!(rg_linkage_least_area(s->P, s->z1 + P->N) >= LEAST_AREA)) return RG_REFUSED_AREA;
     for (int32_t i = 0; i < P->N; i++)
-        if (!(fabs(s->z1[i]) <= RG_PI + OVER_HALF_TURN)) return RG_REFUSED_OVER;
+        if (!(fabs(s->z1[i]) <= fmax(RG_PI + OVER_HALF_TURN, fabs(s->z[i])))) return RG_REFUSED_OVER;
     rg_linkage_positions(s->P, s->z1, s->p1);
     if (changes_side(s)) return RG_REFUSED_SIDE;
+    rg_contact_hit hit;
+    if (s->crossed && rg_contact_deepest(s->crossed->plates, s->p1, CROSSED, s->crossed->look, &hit)) return RG_REFUSED_SIDE;
     return rg_proximity_meet(&s->near, P->p, s->p1, GAP, &s->who) < 1 ? RG_REFUSED_MEETS : -1;
 }
 
@@ -375,7 +392,8 @@ static rg_status find_step(rg_stride *s, double *f)
     rg_linkage *P = s->P;
     rg_nearest *q = &s->q;
     rg_nearest_clear(q);
-    rg_status status = add_pair_rows(s);
+    rg_status status = rg_crossed_add(s->crossed, P, &s->near, q);
+    if (status == RG_OK) status = add_pair_rows(s);
     if (status == RG_OK) status = add_end_rows(s);
     if (status == RG_OK) status = add_bounds(s);
     if (status == RG_OK) status = rg_nearest_solve(q, s->wish, P->J.r, 1);

@@ -1,6 +1,6 @@
 /* stride.h -- one step of a motion in which no two facets pass through each other.
  * Paper    eqs. (10), (14), (15), (19); what section 4 leaves as future work
- * Uses  proximity.h nearest.h sides.h end.h        Used by  landing.c open.c unfold.c
+ * Uses  crossed.h proximity.h nearest.h sides.h end.h        Used by  landing.c open.c unfold.c
  *
  * Each step wishes every crease on towards its target, and takes the nearest step that keeps the sheet closed and every near
  * pair apart: a velocity damper (Faverjon and Tournassoud, 1987) lets a pair close in by a part of its distance only. Below a
@@ -10,6 +10,7 @@
 #ifndef RG_STRIDE_H
 #define RG_STRIDE_H
 
+#include "unfold/crossed.h"
 #include "unfold/end.h"
 #include "unfold/proximity.h"
 #include "unfold/nearest.h"
@@ -27,11 +28,12 @@ typedef struct rg_stride {
     rg_nearest q;
     const rg_sides *sides;  /* borrowed; NULL: the motion does not come from a flat end */
     const rg_end *end;      /* borrowed; NULL: no rows of it */
+    rg_crossed *crossed;    /* borrowed; NULL, as rg_stride_init leaves it: states are not looked at */
     const double *target;   /* borrowed [N] radians, all 0: unfolding; NAN: none */
     double *z, *z1, *wish;  /* [n] */
     rg_vec3 *p1;            /* [nv] */
     double h, dm, pace;     /* part of the largest step; floor; part of the wish that rows let through lately */
-    double *merit;          /* [RG_STRIDE_MOST] how far it was after each step */
+    double *merit, *went;   /* [RG_STRIDE_MOST + 1] how far it was after each step, by judge's measure and in the mean */
     int32_t steps, since;   /* taken; the step at which the floor was lowered last */
     double turn;            /* the most that a crease turns in the step found last */
     double mean, least;     /* progress: mean over driven creases, and of the last of them */

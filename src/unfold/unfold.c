@@ -14,24 +14,31 @@ typedef struct try_ {
 static const try_ TRIES[] = {
     /* part  give hard  margin scaled grow repair    round corners keep apart */
     {{0.03, 0.2, 1e-9, 1e-4, 0, 0, 6}, {0, 0, 0, 0}},
+    {{0.2, 0.2, 1e-9, 0, 1, 1, 0}, {1, 1, 1, 1}},
+    {{0.06, 0.2, 1e-9, 0, 1, 1, 0}, {1, 1, 1, 1}},
+    {{0.1, 0.2, 1e-9, 0, 1, 1, 0}, {0, 0, 0, 0}},
     {{0.03, 0.2, 1e-8, 0, 0, 0, 0}, {1, 1, 0, 1}},
     {{0.03, 0.2, 1e-9, 1e-4, 1, 1, 0}, {0, 0, 0, 0}},
-    {{0.01, 0.2, 1e-8, 0, 1, 0, 0}, {1, 1, 0, 1}},
-    {{0.01, 0.2, 1e-8, 0, 1, 0, 0}, {1, 1, 1, 1}},
     {{0.03, 0.2, 1e-6, 1e-4, 0, 0, 6}, {0, 0, 0, 0}},
 };
-/* An opened state whose layers are farther on the wrong side is not one (lengths of the sheet): half of what counts as a crossing. */
-static const double WRONG = 5e-5;
+/* An opened state whose layers are farther on the wrong side is not one (lengths of the sheet): less than what counts as a crossing. */
+static const double WRONG = 8e-5;
 static const double CLOSED = 1e-9, LEAST_AREA = 0.1;
+/* Places that are looked at between two states: one less. */
+enum { BETWEEN = 4 };
+/* From this progress on the order of layers is to be seen, where it is. */
+static const double NEAR_THE_END = 0.98;
 /* Closing a state that is read off. */
 static const double READ_CLOSED = 1e-13, NEAR_DUE = 1e-6;
 static const int READ_NEWTON = 12, SECANTS = 8;
+/* Going home: from where creases are unfolded by this part, in the mean; less is next to flat; and steps, in radians. */
+static const double NEARLY_HOME = 0.9, NEXT_TO_FLAT = 2 * RG_DEG, HOME_STEP = 6 * RG_DEG, HOME_CLOSED = 1e-11;
 /* What is tried, one after the other: a way of opening, and the number of an order; way -1: forwards. Another order does more than
  * another way. */
 typedef struct step_of_plan { int way; int32_t order; } step_of_plan;
-static const step_of_plan PLAN[] = {{0, 0}, {0, 1}, {-1, 0}, {1, 0}, {0, 2}, {1, 1}, {2, 0}, {0, 3}, {2, 1}, {3, 0}, {1, 2}, {2, 2},
-                                    {4, 0}, {3, 1}, {5, 0}, {1, 3}, {5, 1}, {0, 4}, {1, 4}, {0, 5}, {1, 5}, {0, 6}, {1, 6}, {0, 7}, {1, 7},
-                                    {0, 8}, {1, 8}, {0, 9}, {1, 9}, {0, 10}, {1, 10}, {0, 11}, {1, 11}};
+static const step_of_plan PLAN[] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {-1, 0}, {2, 0}, {3, 0}, {4, 0}, {0, 2}, {1, 2}, {2, 1}, {3, 1},
+                                    {5, 0}, {0, 3}, {1, 3}, {2, 2}, {4, 1}, {5, 1}, {6, 0}, {0, 4}, {1, 4}, {0, 5}, {1, 5}, {0, 6}, {1, 6},
+                                    {0, 7}, {1, 7}, {0, 8}, {1, 8}, {0, 9}, {1, 9}, {0, 10}, {1, 10}, {0, 11}, {1, 11}};
 enum { PLAN_COUNT = sizeof PLAN / sizeof *PLAN };
 /* Folding forwards leaves flat with creases folded by this part. */
 static const int OFF_FLAT_ITERATIONS = 60;
@@ -157,14 +164,26 @@ static int crosses(rg_unfold *u, const rg_vec3 *x)
 
 static void between(rg_unfold *u, int32_t k, double t);
 
-/* Half way between any two states, where frames may be. */
+/* Between any two states, where frames may be. */
 static int crosses_between(rg_unfold *u)
 {
     rg_stride_scale(&u->P, 1, u->q.scale);
+    for (int32_t k = 0; k + 1 < u->count; k++)
+        for (int part = 1; part < BETWEEN; part++) {
+            between(u, k, (double)part / BETWEEN);
+            rg_linkage_put(&u->P, u->scratch);
+            if (crosses(u, u->P.p)) return 1;
+        }
+    return 0;
+}
+
+/* In some state near the end layers are not in its order. */
+static int is_upset(rg_unfold *u, const rg_end *end)
+{
     for (int32_t k = 0; k + 1 < u->count; k++) {
-        between(u, k, 0.5);
-        rg_linkage_put(&u->P, u->scratch);
-        if (crosses(u, u->P.p)) return 1;
+        if (u->progress[k] < NEAR_THE_END) continue;
+        rg_linkage_put(&u->P, u->z + (size_t)k * (size_t)u->P.n);
+        if (rg_end_is_upset(end, &u->P)) return 1;
     }
     return 0;
 }
@@ -183,6 +202,64 @@ static rg_status finish(rg_unfold *u, const double *z)
     return s == RG_OK ? keep(u, u->scratch) : s;
 }
 
+/* The crease that meets crease i at a corner v where no other that is still folded does; -1: it is none, or there are more. */
+static int32_t goes_on_as(const rg_unfold *u, const double *z, int32_t i, int32_t v)
+{
+    int32_t found = -1;
+    for (int32_t k = 0; k < u->P.N; k++) {
+        const int32_t *ends = u->mesh.edge[u->mesh.crease_edge[k]];
+        if (k == i || z[k] == 0 || (ends[0] != v && ends[1] != v)) continue;
+        if (found >= 0) return -1;
+        found = k;
+    }
+    return found;
+}
+
+/* Creases that are next to flat are flat, of the pattern as given; what is left of straight folds is folded evenly. Returns how
+ * far the most of them is. */
+static double tidy(const rg_unfold *u, const double *z, double *out)
+{
+    const int32_t N = u->P.N;
+    double most = 0;
+    memset(out, 0, (size_t)u->P.n * sizeof *out);
+    for (int32_t i = 0; i < N; i++) out[i] = fabs(z[i]) < NEXT_TO_FLAT ? 0 : z[i];
+    for (int32_t i = 0; i < N; i++) {
+        if (out[i] == 0) continue;
+        for (int end = 0; end < 2; end++) {
+            const int32_t k = goes_on_as(u, out, i, u->mesh.edge[u->mesh.crease_edge[i]][end]);
+            if (k >= 0 && fabs(out[k] - out[i]) < NEXT_TO_FLAT && k > i) out[k] = out[i];
+        }
+        most = fmax(most, fabs(out[i]));
+    }
+    return most;
+}
+
+/* Where all but some creases are flat, closure is all but singular, and steps fail: creases that are next to flat are made so, and
+ * the rest goes home straight, as long as it closes and nothing crosses. *home: out. */
+static rg_status go_home(rg_unfold *u, const double *z, int *home)
+{
+    const int32_t n = u->P.n;
+    double *from = rg_mem_array(&u->mem, (size_t)n, sizeof *from);
+    if (!from) return RG_ENOMEM;
+    rg_stride_scale(&u->P, 1, u->q.scale);
+    const int steps = (int)ceil(tidy(u, z, from) / HOME_STEP);
+    rg_status s = RG_OK;
+    *home = 1;
+    for (int k = 0; s == RG_OK && *home && k < steps; k++) {
+        const double left = 1 - (double)k / steps;
+        for (int32_t i = 0; i < n; i++) u->scratch[i] = left * from[i];
+        *home = rg_stride_close(&u->P, &u->q, u->scratch, HOME_CLOSED, READ_NEWTON);
+        for (int32_t i = 0; i < u->P.N; i++) *home &= fabs(u->scratch[i] - left * from[i]) < NEXT_TO_FLAT;
+        if (!*home) break;
+        rg_linkage_put(&u->P, u->scratch);
+        *home = !crosses(u, u->P.p);
+        if (*home) s = keep(u, u->scratch);
+    }
+    rg_mem_free(&u->mem, from);
+    memset(u->scratch, 0, (size_t)n * sizeof *u->scratch);
+    return s == RG_OK && *home ? keep(u, u->scratch) : s;
+}
+
 /* What ends it: the budget, also within one long solve, and who watches. */
 static void watch(rg_stride *s, double budget, const rg_unfold_wish *wish)
 {
@@ -192,29 +269,37 @@ static void watch(rg_stride *s, double budget, const rg_unfold_wish *wish)
     s->q.q.ctx = wish->ctx;
 }
 
-/* Lands from z, then unfolds it: the path from the end to flat. */
-static rg_status walk(rg_unfold *u, const rg_end *end, const double *z, const double *target, double budget,
-                      const rg_unfold_wish *wish, int *through)
+/* From where it was opened back towards the end, state by state, and the end. */
+static rg_status land(rg_unfold *u, const rg_end *end, const double *z, const double *target, double budget, const rg_unfold_wish *wish)
 {
     rg_stride s;
     double left = 1;
-    *through = 0;
-    u->count = 0;
     rg_status status = rg_stride_init(&s, &u->mem, &u->P, &end->sides, end, z, target);
     watch(&s, budget, wish);
+    s.crossed = &u->crossed;
     if (status == RG_OK) status = rg_landing_run(&s, end->z, keep, u, &left);
-    const double landing = s.work + s.q.work + s.q.q.work;
+    u->work += s.work + s.q.work + s.q.q.work;
     rg_stride_free(&s);
-    if (status == RG_OK) {
-        u->landed = u->count ? u->progress[u->count - 1] : progress_of(u, z);
-        status = keep(u, end->z);
-        turn_round(u, 0);
-    }
-    if (status == RG_OK) status = keep(u, z);
+    if (status != RG_OK) return status;
+    u->landed = u->progress[u->count - 1];
+    return keep(u, end->z);
+}
+
+/* Unfolds z: the path from flat to the end. Where z was opened slowly, the way there is kept already, from the end on. */
+static rg_status walk(rg_unfold *u, const rg_end *end, const double *z, const double *target, double budget, int slowly,
+                      const rg_unfold_wish *wish, int *through)
+{
+    rg_stride s;
+    *through = 0;
+    if (!slowly) u->count = 0;
+    rg_status status = rg_stride_init(&s, &u->mem, &u->P, &end->sides, end, z, target);
+    watch(&s, budget, wish);
+    s.crossed = &u->crossed;
+    if (status == RG_OK && u->count < 2) status = keep(u, z);
     u->opened = progress_of(u, z);
-    if (status == RG_OK) status = rg_stride_init(&s, &u->mem, &u->P, &end->sides, end, z, target);
-    watch(&s, budget - landing, wish);
-    while (status == RG_OK && s.state == RG_STRIDE_GOES && !is_stopped(wish, s.mean)) {
+    if (status == RG_OK && slowly) u->landed = u->progress[1];
+    int right = status == RG_OK && !crosses(u, u->P.p);
+    while (status == RG_OK && right && s.state == RG_STRIDE_GOES && !is_stopped(wish, s.mean)) {
         const int32_t steps = s.steps;
         status = rg_stride_take(&s);
         if (status != RG_OK || s.steps == steps) continue;
@@ -225,12 +310,14 @@ static rg_status walk(rg_unfold *u, const rg_end *end, const double *z, const do
     for (int i = 0; i < RG_REFUSALS; i++) u->refused += s.refused[i];
     *through = status == RG_OK && s.state == RG_STRIDE_ARRIVED;
     if (*through) status = finish(u, s.z);
-    u->work += landing + s.work + s.q.work + s.q.q.work;
+    else if (status == RG_OK && s.state != RG_STRIDE_GOES && s.mean > NEARLY_HOME) status = go_home(u, s.z, through);
+    const double spent = s.work + s.q.work + s.q.q.work;
+    u->work += spent;
     rg_stride_free(&s);
-    if (*through && status == RG_OK) {
-        turn_round(u, 0);
-        *through = !crosses_between(u);
-    }
+    if (!*through || status != RG_OK) return status;
+    turn_round(u, 0);
+    if (!slowly) status = land(u, end, z, target, budget - spent, wish);
+    if (status == RG_OK) *through = !is_upset(u, end) && !crosses_between(u);
     return status;
 }
 
@@ -266,6 +353,7 @@ static rg_status forwards(rg_unfold *u, double budget, const rg_unfold_wish *wis
         status = rg_stride_init(&s, &u->mem, &u->P, NULL, NULL, z, target);
         if (status == RG_OK) status = keep(u, z);
         watch(&s, budget, wish);
+    s.crossed = &u->crossed;
         while (status == RG_OK && s.state == RG_STRIDE_GOES && !is_stopped(wish, s.mean)) {
             const int32_t steps = s.steps;
             status = rg_stride_take(&s);
@@ -304,14 +392,16 @@ static rg_status attempt(rg_unfold *u, const try_ *t, double budget, const rg_un
         for (int32_t i = 0; i < u->P.N; i++) target[i] = u->end[i] == 0 ? NAN : 0;
         const double before = u->q.work + u->q.q.work;
         u->q.q.most_work = u->q.q.work + fmax(budget, 1);
-        s = rg_open(&u->P, &end, &t->open, budget, &near, &u->q, z, &opened);
+        u->count = 0;
+        s = keep(u, end.z);
+        if (s == RG_OK) s = rg_open(&u->P, &end, &t->open, budget, &u->crossed, &near, &u->q, z, keep, u, &opened);
         const double spent = u->q.work + u->q.q.work - before;
         u->work += spent;
         budget -= spent;
     }
     rg_proximity_free(&near);
-    if (s == RG_OK && opened.angle <= CLOSED && opened.worst >= -WRONG && rg_linkage_least_area(&u->P, z + u->P.N) >= LEAST_AREA)
-        s = walk(u, &end, z, target, budget, wish, through);
+    if (s == RG_OK && opened.angle <= CLOSED && (t->open.grow || opened.worst >= -WRONG) && rg_linkage_least_area(&u->P, z + u->P.N) >= LEAST_AREA)
+        s = walk(u, &end, z, target, budget, t->open.grow, wish, through);
     rg_end_free(&end);
     rg_mem_free(&u->mem, z);
     rg_mem_free(&u->mem, target);
@@ -366,6 +456,8 @@ rg_status rg_unfold_run(rg_unfold *u, const rg_memory *mem, const rg_mesh *none,
     if (s == RG_OK) s = rg_plates_init(&u->mesh, &u->plates);
     if (s == RG_OK) s = rg_contact_work_init(&u->plates, &u->look);
     if (s != RG_OK) return s;
+    u->crossed.plates = &u->plates;
+    u->crossed.look = &u->look;
     u->end = rg_mem_array(mem, (size_t)u->P.N, sizeof *u->end);
     u->scratch = rg_mem_array(mem, (size_t)u->P.n, sizeof *u->scratch);
     s = u->end && u->scratch ? find_layers(u, wish->sign) : RG_ENOMEM;

@@ -35,6 +35,7 @@ typedef struct rg_unfold {
     rg_nearest q;
     rg_plates plates;      /* to look at states with code that the steps are not made by */
     rg_contact_work look;
+    rg_crossed crossed;
     double *z;             /* [count][n] closed states from flat to the end */
     double *progress;      /* [count] 0 ... 1 */
     size_t z_room, progress_room;
