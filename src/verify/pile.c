@@ -8,8 +8,9 @@ static const double NARROW = 1e-4;
 static const double PLANE = 1e-6;
 /* Radians: creases flat, or at half a turn. */
 static const double THERE = 0.5 * RG_DEG;
-/* Of the sheet's size: in the frame before, facets at least as far apart as this show which is above. */
-static const double APART = 1e-6;
+/* Of the sheet's size: in the frame before, facets at least as far apart as this show which is above. It is a fifth of what counts as
+ * a crossing: layers that lie on each other are not kept apart better than that, and show nothing. */
+static const double APART = 2e-5;
 /* Cosine: and no more tilted against each other. */
 static const double ALIKE = 0.9;
 
