@@ -9,6 +9,10 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The largest turn between two frames at a steady pace, against the mean, that is even enough; and how often it is set right. */
+static const double UNEVEN = 1.1;
+static const int TIMES_SET_RIGHT = 3;
+
 void rg_attempt_free(rg_attempt *t)
 {
     if (!t->mem.resize) return;
@@ -370,6 +374,40 @@ static rg_status read_off(rg_attempt *t, const double *due)
     return z ? RG_OK : RG_ENOMEM;
 }
 
+/* Frames read off tell how fast the path really goes between its nodes: due[t->count] is set right by it. Non-zero: it was off by more
+ * than UNEVEN. */
+static int set_right(const rg_attempt *t, double *due, double *was, double *sum)
+{
+    const size_t N = (size_t)t->mesh.N;
+    const int32_t last = t->count - 1;
+    double most = 0;
+    sum[0] = 0;
+    for (int32_t k = 1; k <= last; k++) {
+        double turned = 0;
+        for (size_t i = 0; i < N; i++) turned = fmax(turned, fabs(t->rho[(size_t)k * N + i] - t->rho[(size_t)(k - 1) * N + i]));
+        most = fmax(most, turned);
+        sum[k] = sum[k - 1] + turned;
+    }
+    if (!(most * last > UNEVEN * sum[last])) return 0;
+    memcpy(was, due, (size_t)t->count * sizeof *due);
+    for (int32_t j = 1, k = 1; j < last; j++) {
+        const double want = sum[last] * j / last;
+        while (k < last && sum[k] < want) k++;
+        due[j] = was[k - 1] + (was[k] - was[k - 1]) * (sum[k] > sum[k - 1] ? (want - sum[k - 1]) / (sum[k] - sum[k - 1]) : 1);
+    }
+    return 1;
+}
+
+static rg_status read_steadily_off(rg_attempt *t, double *due)
+{
+    double *was = rg_mem_array(&t->mem, (size_t)t->count, sizeof *was), *sum = rg_mem_array(&t->mem, (size_t)t->count, sizeof *sum);
+    rg_status s = was && sum ? read_off(t, due) : RG_ENOMEM;
+    for (int n = 0; s == RG_OK && n < TIMES_SET_RIGHT && set_right(t, due, was, sum); n++) s = read_off(t, due);
+    rg_mem_free(&t->mem, was);
+    rg_mem_free(&t->mem, sum);
+    return s;
+}
+
 /* Progress at frames that are even in the largest angle that a crease turns, as `count` states at even progress 0 ... to tell it.
  * due[frames]: out. sum[count]: scratch. */
 static void pace_by_states(const double *rho, size_t N, int32_t count, double to, int32_t frames, double *sum, double *due)
@@ -480,8 +518,12 @@ rg_status rg_attempt_read(rg_attempt *t, const rg_settings *settings)
         }
         if (t->count < frames) due[t->count++] = s1;
         else if (to == 1) due[t->backwards ? 0 : frames - 1] = last; /* the end itself */
-        if (settings->pace == RG_PACE_STEADY && t->count > 1) pace_steadily(t, s0, s1, t->count, due);
-        s = read_off(t, due);
+        if (settings->pace == RG_PACE_STEADY && t->count > 1) {
+            pace_steadily(t, s0, s1, t->count, due);
+            s = read_steadily_off(t, due);
+        } else {
+            s = read_off(t, due);
+        }
     }
     rg_mem_free(&t->mem, due);
     return s;
