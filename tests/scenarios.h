@@ -363,7 +363,7 @@ static inline int go_back(rg_straight *f, int steps, double *mid, cell *c)
         rg_mesh m;
         rg_watch watch = {0};
         rg_diag why = {0, ""};
-        const rg_relaxation stiff = {0, 0, 0};
+        const rg_relaxation stiff = {0};
         double *flat = calloc((size_t)f->mesh.N, sizeof *flat);
         rg_settings s = f->settings;
         s.frames = steps + 1;
