@@ -8,7 +8,7 @@ static const double SOLVE_TOLERANCE = 1e-10;
 static const double FREE_SOLVE_PART = 0.1;
 static const int32_t CORRECTIONS = 8;
 /* The polynomial between nodes must close this much better than asked for. Where the sheet can go one way only its angles
- * are off by closure over the slowest mode, and could be exact: so much better there. */
+ * are off by closure over the slowest mode, and could be exact: so much better there, and between fixed steps, which are that exact. */
 static const double READ_OFF_MARGIN = 0.5, READ_OFF_MARGIN_ONE_WAY = 1e-3;
 static const double ROUNDING = 1e-13;
 /* And steps are planned for this part of that. */
@@ -190,7 +190,7 @@ static double reach(const rg_straight *f, double s)
 
 static double close_enough(const rg_straight *f)
 {
-    return fmax(f->settings.tol * (f->one_way ? READ_OFF_MARGIN_ONE_WAY : READ_OFF_MARGIN), ROUNDING);
+    return fmax(f->settings.tol * (f->one_way || !f->smooth ? READ_OFF_MARGIN_ONE_WAY : READ_OFF_MARGIN), ROUNDING);
 }
 
 /* How much longer a step may be if it makes an error of e, may make one of `most`, and is of that order. */
