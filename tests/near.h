@@ -30,4 +30,12 @@ static inline double noise(unsigned *state)
     return (double)(*state >> 8) / 8388608.0 - 1.0;
 }
 
+/* AddressSanitizer takes terabytes of address space: it cannot be limited there. */
+#if defined(__SANITIZE_ADDRESS__)
+enum { WITH_ASAN = 1 };
+#else
+enum { WITH_ASAN = 0 };
+#endif
+#define NO_LIMIT "SKIPPED: memory cannot be limited under AddressSanitizer\n"
+
 #endif

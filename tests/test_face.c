@@ -270,7 +270,11 @@ static void every_writer_to_a_sink(void **state)
         empty(&p);
     }
     assert_int_equal(rg_motion_write_to(m, ".obj", 1, &sink, NULL, &why), RG_OK);
-    assert_non_null(strstr((char *)memcpy(calloc(p.n + 1, 1), p.byte, p.n), "frame 1,"));
+    char *text = calloc(p.n + 1, 1);
+    assert_non_null(text);
+    memcpy(text, p.byte, p.n);
+    assert_non_null(strstr(text, "frame 1,"));
+    free(text);
     empty(&p);
     static const char *const none[] = {"", ".", "obj", ".xyz", "x.obj", "/tmp/", ".%d.png"};
     for (int k = 0; k < 7; k++) assert_int_equal(rg_motion_write_to(m, none[k], -1, &sink, NULL, &why), RG_EARG);
