@@ -89,7 +89,7 @@ faults-long: build $B/tests/test_faults
 
 # What does not fit into the time that a change can wait for. Hours.
 check-long: check
-	@for part in lint-deep "tsan tsan_tests=all" valgrind-long faults-long "fuzz seconds=60" mutants; do \
+	@for part in debian lint-deep "tsan tsan_tests=all" valgrind-long faults-long "fuzz seconds=60" mutants; do \
 	    echo "== $$part"; $(MAKE) --no-print-directory $(jobs) $$part >build/check.log 2>&1 || \
 	        { cat build/check.log; echo "check-long: $$part FAILED"; exit 1; }; \
 	    grep '^SKIPPED' build/check.log; tail -n 1 build/check.log; \
