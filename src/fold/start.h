@@ -1,5 +1,5 @@
 /* start.h -- leaving the flat state.
- * Paper    section 2: where C is singular        Uses  system.h        Used by  straight.c */
+ * Paper    section 2: where C is singular        Uses  system.h        Used by  steer.c straight.c */
 #ifndef RG_START_H
 #define RG_START_H
 

@@ -1,5 +1,5 @@
 /* straight.h -- straight on: the time loop from flat to folded on the pattern given, one step at a time.
- * Paper    eqs. (10), (14), section 4        Uses  system.h        Used by  run.c attempt.c diagnose.c rest.c
+ * Paper    eqs. (10), (14), section 4        Uses  system.h        Used by  run.c steer.c attempt.c diagnose.c rest.c
  *
  * Creases that no vertex joins are systems of their own, in step frame by frame; one that is held does not hold the others. */
 #ifndef RG_STRAIGHT_H

@@ -1,5 +1,5 @@
 /* tuning.h -- every number that the relaxed stepper and the ladder are set by, once, with its reason.
- * Uses  vec.h        Used by  relax.c system.c attempt.c search.c diagnose.c
+ * Uses  vec.h        Used by  fold, motion
  *
  * Measured on real patterns by many authors, each rung alone; docs/method.md says what they are for. */
 #ifndef RG_TUNING_H

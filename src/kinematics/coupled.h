@@ -1,6 +1,6 @@
 /* coupled.h -- closure of every vertex by fold angles and pattern together, and Kawasaki's theorem by the pattern.
  * Paper    eqs. (7), (8), (11) with the columns of (17) beside them; (16)-(18)        Uses  loop.h freedom.h least.h
- * Used by  orbits.c linkage.c
+ * Used by  orbits.c between.c linkage.c
  *
  * F depends on the sector angles theta as it does on rho: dF/dtheta_i = [A_(i+1) e_z]x F, the normal of that facet, seen from
  * the first. So what rho cannot close, X can:

@@ -1,5 +1,5 @@
 /* freedom.h -- how the vertices of a pattern may move while it is folded.
- * Paper    section 3.3, the vector [dX dY]        Uses  symmetry.h        Used by  adjust.c coupled.c
+ * Paper    section 3.3, the vector [dX dY]        Uses  symmetry.h        Used by  adjust.c coupled.c rectify.c
  *
  * A vertex inside the sheet moves two ways, one on a straight edge of the sheet along that edge, a corner not at all:
  * the outline stays what it is. */

@@ -1,5 +1,5 @@
 /* least.h -- the least step that does what it must: min ||x|| with A x = b, for a sparse A of any pattern.
- * Paper    the backslash of eqs. (15), (19): x = A^T {(A A^T) \ b}        Uses  supernodal.h        Used by  coupled.c
+ * Paper    the backslash of eqs. (15), (19): x = A^T {(A A^T) \ b}        Uses  supernodal.h        Used by  coupled.c rectify.c
  *
  * Conjugate gradients on A A^T, preconditioned by a factor of A A^T + beta I: a few iterations undo the beta. A A^T is
  * singular flat and folded flat; started from zero the iteration stays in its range, and stops where nothing is left to

@@ -1,6 +1,6 @@
 /* supernodal.h -- L L^T = A + beta I for a sparse symmetric A whose pattern stays: the order and the pattern of L are
  * found once, the numbers as often as they change, without an allocation, and always to the same bits.
- * Paper    the backslash of eq. (15)        Uses  symbolic.h        Used by  cholesky.c least.c
+ * Paper    the backslash of eq. (15)        Uses  symbolic.h        Used by  cholesky.c least.c normal.c
  *
  * Columns of L of (nearly) the same pattern lie together in a dense panel, a supernode, so that nearly all of the work is
  * a product of small dense matrices. A library's factorisation does the same; on panels as small as those of a sheet it

@@ -1,5 +1,5 @@
 /* attempt.h -- one try at a motion: the path as far as it came, and frames read off it.
- * Uses  straight.h relax.h        Used by  cuts.c search.c
+ * Uses  straight.h relax.h        Used by  cuts.c ending.c measure.c search.c
  *
  * A path knows nothing of frames. It is found once, as states of rising progress; frames are read off it, as many and where
  * they are asked for. */

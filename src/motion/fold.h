@@ -1,5 +1,5 @@
 /* fold.h -- the handle behind rigami.h's rg_fold: a track of states, and the one that it stands on.
- * Uses  motion.h between.h steer.h        Used by  stepping.c steering.c keeping.c
+ * Uses  motion.h between.h steer.h        Used by  motion, write
  *
  * The track is the motion's frames until somebody steers. Then the states that were passed are kept in a list of its own, whose last leg
  * grows step by step. Motions never change, so clones and snapshots share one. */

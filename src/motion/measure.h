@@ -1,5 +1,5 @@
 /* measure.h -- everything that a report says of frames, from their fold angles and patterns alone.
- * Uses  motion.h loop.h attempt.h        Used by  assemble.c create.c */
+ * Uses  motion.h loop.h attempt.h        Used by  assemble.c create.c keeping.c */
 #ifndef RG_MEASURE_H
 #define RG_MEASURE_H
 

@@ -1,6 +1,6 @@
 /* overlay.h -- two meshes of one sheet, the lines of the coarse one all among those of the fine one: what each vertex and
  * crease of the fine one is to the coarse one.
- * Paper    section 4: transition from one folded state to another        Uses  mesh.h        Used by  states.c */
+ * Paper    section 4: transition from one folded state to another        Uses  mesh.h        Used by  stages.c states.c */
 #ifndef RG_OVERLAY_H
 #define RG_OVERLAY_H
 

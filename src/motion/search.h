@@ -1,5 +1,5 @@
 /* search.h -- what is tried, in which order, until the pattern folds; and which attempt is kept.
- * Paper    sections 3.1 to 3.4        Uses  attempt.h cuts.h race.h        Used by  create.c states.c unfolding.c
+ * Paper    sections 3.1 to 3.4        Uses  attempt.h cuts.h race.h        Used by  chart, motion
  *
  * The ladder: as drawn; triangulated; relaxed, the pattern moving ever more readily, from flat or from the folded end. The
  * lowest rung that folds wins; if none does, what came farthest is kept. Then the retraction: of what folds, the compliance of

@@ -1,5 +1,5 @@
 /* frames.h -- the frames of a motion as pictures, drawn by several threads.
- * Paper    section 4        Uses  render.h lift.h        Used by  film.c */
+ * Paper    section 4        Uses  render.h lift.h        Used by  draw.c film.c */
 #ifndef RG_FRAMES_H
 #define RG_FRAMES_H
 

@@ -1,5 +1,5 @@
 /* print.h -- the colours of samples one by one: a picture printed on the paper, and paper that light goes through.
- * Uses  seen.h samples.h raster.h        Used by  frames.c render.c */
+ * Uses  seen.h samples.h raster.h        Used by  frames.c render.c key.c */
 #ifndef RG_PRINT_H
 #define RG_PRINT_H
 

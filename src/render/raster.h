@@ -1,5 +1,5 @@
 /* raster.h -- which triangle is nearest at each sample, without OpenGL.
- * Uses  gl.h for what a scene is        Used by  canvas.c print.c */
+ * Uses  gl.h for what a scene is        Used by  canvas.c piled.c print.c */
 #ifndef RG_RASTER_H
 #define RG_RASTER_H
 

@@ -1,5 +1,5 @@
 /* samples.h -- from what is seen at each sample of a picture to its pixels: ink along edges, colours, means.
- * Paper    section 4        Used by  ink.c print.c seen.c */
+ * Paper    section 4        Used by  ink.c piled.c print.c seen.c */
 #ifndef RG_SAMPLES_H
 #define RG_SAMPLES_H
 

@@ -1,5 +1,5 @@
 /* seen.h -- the facets of a frame as the camera sees them: where, which side, how bright.
- * Uses  camera.h gl.h        Used by  render.c ink.c print.c */
+ * Uses  camera.h gl.h        Used by  ink.c piled.c print.c render.c */
 #ifndef RG_SEEN_H
 #define RG_SEEN_H
 

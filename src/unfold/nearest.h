@@ -1,5 +1,5 @@
 /* nearest.h -- the nearest step to a wished one that keeps the sheet closed, and rows that say what must not come nearer.
- * Paper    eqs. (14), (15), (19), with inequalities        Uses  places.h interior.h        Used by  end.c stride.c
+ * Paper    eqs. (14), (15), (19), with inequalities        Uses  places.h interior.h        Used by  crossed.c end.c stride.c
  *
  *     min  1/2 |W^-1/2 (dz - wish)|^2 + sum s_i^2 / (2 c_i)
  *     s.t. A dz = -r,   row_i dz + s_i >= b_i

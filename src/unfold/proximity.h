@@ -1,5 +1,5 @@
 /* proximity.h -- which corners are near which triangles, which edges near which, and whether they meet while they move.
- * Uses  contact/near.h        Used by  open.c sides.c stride.c
+ * Uses  contact/near.h        Used by  crossed.c open.c sides.c stride.c
  *
  * Two triangles are as near as a corner of one to the other, or an edge of one to an edge of the other. Left out is what the
  * hinges keep apart: what shares a vertex, and the two facets of a crease.

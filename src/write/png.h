@@ -1,5 +1,5 @@
 /* png.h -- one picture as PNG.
- * Uses  base        Used by  apng.c film.c gltf.c html.c output.c */
+ * Uses  base        Used by  write */
 #ifndef RG_PNG_H
 #define RG_PNG_H
 
