@@ -1,7 +1,7 @@
 #define _GNU_SOURCE /* pipe2 */
 #include "interrupt.h"
-#include "progress.h"
 #include "say.h"
+#include "seconds.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -25,7 +25,7 @@ static int wake[2] = {-1, -1};          /* a byte a signal */
 static int has_watcher;
 enum { READING, HELD, WRITING };         /* ends at once; has its grace; ends at once, but not because it is time */
 static atomic_int phase, time_is_up;
-static _Atomic double grace, time_allowed, end_at; /* end_at: progress_seconds(), 0: never */
+static _Atomic double grace, time_allowed, end_at; /* end_at: seconds_now(), 0: never */
 static _Atomic(const options *) outputs;
 static _Atomic(const char *) doing;
 
@@ -55,7 +55,7 @@ static void end(const char *why)
 /* Milliseconds until that time; -1: for ever. */
 static int until(double time)
 {
-    return !(time > 0) ? -1 : (int)fmin(INT_MAX, fmax(0, ceil(1000 * (time - progress_seconds()))));
+    return !(time > 0) ? -1 : (int)fmin(INT_MAX, fmax(0, ceil(1000 * (time - seconds_now()))));
 }
 
 /* Waits for a signal. AT_ONCE, WITH_GRACE; NOTHING: none came before that time. */
@@ -69,7 +69,7 @@ static int wait_for_signal(double time)
             if (byte != SET_TIME) return byte;
             time = end_at;
         }
-        if (ready == 0 && time > 0 && progress_seconds() >= time) return NOTHING;
+        if (ready == 0 && time > 0 && seconds_now() >= time) return NOTHING;
     }
 }
 
@@ -81,7 +81,7 @@ static void end_in_time(void)
     if (phase == READING) end(why);
     if (phase == WRITING) return;
     time_is_up = 1;
-    if (wait_for_signal(progress_seconds() + fmax(TO_FIND_OUT, PART_TO_FIND_OUT * time_allowed))) end("interrupted");
+    if (wait_for_signal(seconds_now() + fmax(TO_FIND_OUT, PART_TO_FIND_OUT * time_allowed))) end("interrupted");
     if (phase == HELD) end(why); /* else what there is is being written */
 }
 
@@ -90,7 +90,7 @@ static void *watch(void *unused)
     (void)unused;
     int what;
     while ((what = wait_for_signal(end_at)) == NOTHING) end_in_time();
-    if (what == WITH_GRACE) wait_for_signal(progress_seconds() + grace);
+    if (what == WITH_GRACE) wait_for_signal(seconds_now() + grace);
     end("interrupted");
     return NULL;
 }
@@ -169,7 +169,7 @@ void interrupt_doing(const char *what) { doing = what; }
 void interrupt_after(double seconds)
 {
     time_allowed = seconds;
-    end_at = progress_seconds() + seconds;
+    end_at = seconds_now() + seconds;
     if (has_watcher && write(wake[1], &(char){SET_TIME}, 1) < 0) has_watcher = 0;
 }
 

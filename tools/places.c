@@ -1,6 +1,7 @@
 #include "places.h"
 #include "interrupt.h"
 #include "say.h"
+#include "seconds.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -116,7 +117,7 @@ static const char *name_of(const char *operand)
 /* All outputs are tried, whatever becomes of one; the report comes last, as it tells how long they took. */
 int places_write(const options *o, const rg_motion *m, progress *bar)
 {
-    const double from = progress_seconds();
+    const double from = seconds_now();
     rg_diag why = {0, ""};
     rg_status s;
     int status = ENDS_WELL;
@@ -133,7 +134,7 @@ int places_write(const options *o, const rg_motion *m, progress *bar)
     interrupt_doing(o->report);
     if (!o->report) return status;
     why = (rg_diag){0, ""};
-    s = rg_report_write(m, progress_seconds() - from, peak_bytes(), o->report, &why);
+    s = rg_report_write(m, seconds_now() - from, peak_bytes(), o->report, &why);
     if (s != RG_OK) say_status(s, NULL, &why), status = ENDS_UNWRITTEN;
     interrupt_doing(NULL);
     return status;

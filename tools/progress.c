@@ -1,27 +1,20 @@
 #include "progress.h"
 #include "interrupt.h"
+#include "seconds.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 enum { BAR = 40 };
 static const double BETWEEN_DRAWINGS = 0.1; /* seconds */
 static const double BEFORE_GUESSING = 1;    /* seconds of a run before the rest is guessed from it */
 
-double progress_seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 void progress_init(progress *p, int wanted)
 {
     const char *terminal = getenv("TERM");
-    *p = (progress){.shown = wanted, .began = progress_seconds()};
+    *p = (progress){.shown = wanted, .began = seconds_now()};
     if (wanted < 0) p->shown = isatty(STDERR_FILENO) && terminal && strcmp(terminal, "dumb") != 0;
 }
 
@@ -46,7 +39,7 @@ int progress_show(void *ctx, double part)
 {
     progress *p = ctx;
     if (p->shown && part >= 0 && part <= 1) {
-        const double now = progress_seconds();
+        const double now = seconds_now();
         p->tries += part < p->last; /* from flat again */
         p->last = part;
         if (part > p->reached) p->reached = part;

@@ -19,7 +19,5 @@ int progress_show(void *ctx, double part);
 /* What is going on instead of folding. */
 void progress_say(progress *p, const char *doing, const char *what);
 void progress_erase(progress *p);
-/* A clock that nobody sets. */
-double progress_seconds(void);
 
 #endif
