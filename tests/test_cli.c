@@ -1,11 +1,11 @@
 /* The command line from outside: how it ends, what it says and where, what it leaves behind. $RIGAMI is the program. */
 #include "corpus.h"
+#include "folder.h"
 #include "near.h"
 #include "rigami.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <ftw.h>
 #include <jansson.h>
 #include <limits.h>
 #include <dirent.h>
@@ -1179,17 +1179,11 @@ static int begin_all(void **state)
     return 0;
 }
 
-static int remove_one(const char *path, const struct stat *is, int kind, struct FTW *at)
-{
-    (void)is, (void)kind, (void)at;
-    return remove(path);
-}
-
 static int end_all(void **state)
 {
     (void)state;
     if (!is_in_folder) return 0;
-    return chdir("/") || nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    return folder_remove(folder);
 }
 
 int main(void)

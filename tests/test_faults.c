@@ -12,7 +12,6 @@
 
 #include <dirent.h>
 #include <fcntl.h>
-#include <ftw.h>
 #include <limits.h>
 #include <math.h>
 #include <signal.h>
@@ -26,6 +25,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "folder.h"
 #include "near.h"
 
 enum { ROOM = 1 << 22, ALL = 20, FRAMES = 6 };
@@ -382,17 +382,11 @@ static int begin_all(void **state)
     return system(command) == 0 ? 0 : -1;
 }
 
-static int remove_one(const char *path, const struct stat *is, int kind, struct FTW *at)
-{
-    (void)is, (void)kind, (void)at;
-    return remove(path);
-}
-
 static int end_all(void **state)
 {
     (void)state;
     if (!is_in_folder) return 0;
-    return chdir("/") || nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    return folder_remove(folder);
 }
 
 int main(void)
