@@ -108,6 +108,13 @@ static void lines_without_length_are_no_pattern(void **state)
     assert_non_null(strstr(why.text, "no line that has a length"));
 }
 
+/* The readers had different limits: what one of them took, FOLD could be written with and not read. */
+static void coordinates_have_one_limit(void **state)
+{
+    (void)state;
+    is_refused("large.cp", "a coordinate of 1e+154 is too large to compute with");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -116,6 +123,7 @@ int main(void)
         cmocka_unit_test(numbers_of_vertices_are_within),
         cmocka_unit_test(a_number_is_no_pattern),
         cmocka_unit_test(lines_without_length_are_no_pattern),
+        cmocka_unit_test(coordinates_have_one_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -445,6 +445,76 @@ static void files_are_whole_or_not_there(void **state)
 }
 
 /* Memory that runs short at any request: RG_ENOMEM, no leak, and what was there before is there still. */
+/* What was read is written so that it can be read again, into every format; or it is refused before anything is written. */
+static int reads_again(const char *given)
+{
+    char in[200];
+    snprintf(in, sizeof in, "%s", given);
+    static const char *const outs[] = {"again.opx", "again.cp", "again.fold", "again.svg", "again.dxf"};
+    const rg_reading s = rg_reading_default();
+    int written = 0;
+    for (int i = 0; i < 5; i++) {
+        rg_diag why = {0, ""};
+        const char *out = at(outs[i]);
+        remove(out);
+        const rg_status status = rg_convert(in, out, RG_FORMAT_AUTO, &s, NULL, NULL, &why);
+        if (status != RG_OK) {
+            assert_int_equal(status, RG_EFORMAT);
+            assert_true(why.text[0]);
+            assert_int_not_equal(access(out, F_OK), 0);
+            continue;
+        }
+        rg_lines l = read_lines(out, 0);
+        assert_true(l.count > 0);
+        rg_lines_free(&l);
+        written++;
+    }
+    return written;
+}
+
+/* Each could be written in some format that did not take it back: a number that FOLD's reader finds too large, characters that are none in
+ * XML, two names of one key of which FOLD knows the newer, a title that looks like another format's key, nothing to draw at all. */
+static void what_is_written_can_be_read(void **state)
+{
+    (void)state;
+    assert_int_equal(reads_again(write_text("large.cp", "2 0 0 1e101 1\n3 0 1 2 3\n")), 0);
+    assert_int_equal(reads_again(write_text("largest.cp", "2 0 0 1e100 1\n3 0 -1e100 2 3\n1 5 5 6 5\n")), 5);
+    assert_int_equal(reads_again(write_text("small.cp", "2 0 0 1e-300 1e-300\n3 0 -1e-300 2e-300 0\n")), 4); /* no faces are looked for in it */
+    assert_int_equal(reads_again(write_text("none.cp", "2 0 0 NaN 1\n")), 0);
+    static const char *const more[] = {
+        "\"file_title\":\"\xEF\xBF\xBE and \xEF\xBF\xBF\",\"file_description\":\"\\u0001\\uffff\\u007f\\r\"",
+        "\"edges_lengths\":[1,1,1],\"edges_length\":[1,1,1]",
+        "\"file_title\":\"lineSegments\",\"x:lineSegments\":3",
+    };
+    for (int i = 0; i < 3; i++) {
+        char text[600];
+        snprintf(text, sizeof text, "{\"vertices_coords\":[[0,0],[1,0],[0,1]],\"edges_vertices\":[[0,1],[1,2],[2,0]],\"edges_assignment\":[\"B\",\"B\",\"B\"],%s}", more[i]);
+        assert_int_equal(reads_again(write_text("more.fold", text)), 5);
+    }
+}
+
+/* XML readers take no text of more than ten million bytes. What is cut is cut between two characters, and told. */
+static void long_texts_are_cut(void **state)
+{
+    (void)state;
+    static const char head[] = "{\"vertices_coords\":[[0,0],[1,0],[0,1]],\"edges_vertices\":[[0,1],[1,2],[2,0]],\"edges_assignment\":[\"B\",\"B\",\"B\"],"
+                               "\"file_description\":\"";
+    const size_t bytes = 12000000, n = strlen(head);
+    char *text = malloc(n + bytes + 3);
+    assert_non_null(text);
+    strcpy(text, head);
+    for (size_t i = 0; i < bytes; i += 3) memcpy(text + n + i, "\xE6\x8A\x98", 3); /* 1,000,000 is in the midst of one */
+    strcpy(text + n + bytes, "\"}");
+    const char *in = write_text("long.fold", text);
+    free(text);
+    const told t = convert(in, at("long.opx"), NULL);
+    assert_true(heard(&t, "a text is cut after 999999 bytes"));
+    rg_lines l = read_lines(at("long.opx"), 0);
+    assert_int_equal(strlen(l.memo), 999999);
+    rg_lines_free(&l);
+    assert_int_equal(reads_again(in), 5);
+}
+
 static void memory_runs_short(void **state)
 {
     (void)state;
@@ -477,6 +547,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(formats_keep_what_they_can), cmocka_unit_test(losses_are_told), cmocka_unit_test(a_chain_of_all_formats),
         cmocka_unit_test(faces), cmocka_unit_test(extras), cmocka_unit_test(gaps), cmocka_unit_test(files_are_whole_or_not_there),
-        cmocka_unit_test(memory_runs_short)};
+        cmocka_unit_test(what_is_written_can_be_read),
+        cmocka_unit_test(long_texts_are_cut), cmocka_unit_test(memory_runs_short)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -69,9 +69,9 @@ fuzz:
 	@$(setup) check
 	@sh tools/fuzz can || exit 0; \
 	 $(MAKE) --no-print-directory $(jobs) config=fuzz CC=clang fuzz-targets && sh tools/fuzz build/fuzz-clang $(or $(seconds),600) $(target)
-# As long as a change can wait for.
+# As much as a change can wait for, and the same each time.
 fuzz-smoke:
-	@$(MAKE) --no-print-directory fuzz seconds=5
+	@$(MAKE) --no-print-directory fuzz seconds=smoke
 
 # --------------------------------------------------------------------------------------------------- mutants
 

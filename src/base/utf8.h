@@ -17,4 +17,12 @@ static inline size_t rg_utf8_character(const unsigned char *s)
     return overlong || surrogate || beyond ? 0 : n;
 }
 
+/* Whether XML 1.0 can hold that character, of so many bytes. */
+static inline int rg_utf8_in_xml(const unsigned char *s, size_t n)
+{
+    const int is_control = n == 1 && s[0] < 0x20 && s[0] != '\t' && s[0] != '\n' && s[0] != '\r';
+    const int is_none = n == 3 && s[0] == 0xef && s[1] == 0xbf && s[2] >= 0xbe; /* U+FFFE, U+FFFF */
+    return n > 0 && !is_control && !is_none;
+}
+
 #endif

@@ -193,7 +193,7 @@ static void escaped(const char *s, FILE *out)
         const size_t n = rg_utf8_character((const unsigned char *)s);
         if (first == '&') fputs("&amp;", out);
         else if (first == '<') fputs("&lt;", out);
-        else if (n == 0 || first < 0x20) fputc('?', out);
+        else if (first < 0x20 || !rg_utf8_in_xml((const unsigned char *)s, n)) fputc('?', out);
         else fwrite(s, 1, n, out);
         s += n ? n : 1;
     }

@@ -318,7 +318,8 @@ static int is_written(rg_format f)
 static rg_status pass_on(rg_lines *l, rg_format format, const rg_reading *r, const rg_dest *to, rg_warning warn, void *ctx, rg_diag *why)
 {
     rg_status s = r->progress && r->progress(r->progress_ctx, LINES_READ) ? rg_fail(RG_ECANCELLED, why, 0, "%s", rg_status_text(RG_ECANCELLED))
-                                                                          : write(l, format, r, to, why);
+                  : l->count == 0 ? rg_fail(RG_EFORMAT, why, 0, "there are no lines") /* most formats have no such file */
+                                  : write(l, format, r, to, why);
     if (s == RG_ENOMEM) rg_fail(s, why, 0, "out of memory");
     for (int32_t i = 0; warn && s != RG_ECANCELLED && i < l->warnings; i++) warn(ctx, &l->warning[i]);
     rg_lines_free(l);

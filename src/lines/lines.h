@@ -14,6 +14,11 @@
 #define RG_UNASSIGNED 'U'
 #define RG_CUT 'C' /* where the folded model is cut, no part of the pattern; a cut in the paper is a border inside it */
 
+/* Coordinates are no larger than this, whatever the format: areas and volumes of them still are finite. */
+#define RG_LARGEST_COORDINATE 1e100
+/* Bytes of a title, a memo and the like, which are cut there: libxml2 takes ten times as many, and no more. */
+enum { RG_MOST_TEXT = 1000000 };
+
 typedef struct rg_line {
     rg_vec2 a, b;      /* y up */
     double target;     /* wished final fold angle, radians; NAN: by assignment; infinite: none, the crease is free */

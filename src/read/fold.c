@@ -16,8 +16,8 @@ enum { MOST_ELEMENTS = INT32_MAX / 16, MOST_INHERITED = 100, MOST_FRAMES_TRIED =
 /* Coordinates in space lie in a plane if they are off it by less than this part of their size: single precision does
  * so. */
 static const double FLATNESS = 1e-6;
-/* Areas and volumes of such coordinates still are finite. */
-static const double LARGEST = 1e100;
+/* Of a product of two lengths of a face, in its area. */
+static const double ROUNDED = 1e-15;
 /* Fold angles of which the largest is that near to pi are in radians, as old files of Origami Simulator have them. */
 static const double RADIANS = 1e-4;
 /* Degrees that a fold angle of half a turn may be off after arithmetic in single precision. */
@@ -133,7 +133,7 @@ static rg_status coordinates(reader *r)
         for (size_t k = 0; good && k < n; k++) good = rg_value_number(rg_value_at(row, k), &x[k]);
         if (!good) return bad(r, "vertices_coords[%d]: not two or three numbers", (int)i);
         for (int k = 0; k < 3; k++)
-            if (!(fabs(x[k]) <= LARGEST))
+            if (!(fabs(x[k]) <= RG_LARGEST_COORDINATE))
                 return bad(r, "vertices_coords[%d]: %g is too large to compute with", (int)i, x[k]);
         r->space[i] = (rg_vec3){x[0], x[1], x[2]};
     }
@@ -297,12 +297,17 @@ static int by_ends(const void *a, const void *b)
     return p->face < q->face ? -1 : p->face > q->face;
 }
 
+/* 0 where it is no more than rounding: a face that narrow is no way round. */
 static double area(const reader *r, int32_t f)
 {
     const int32_t *v = r->face_vertex + r->face_start[f], n = r->face_start[f + 1] - r->face_start[f];
-    double twice = 0;
+    double twice = 0, far = 0;
     for (int32_t k = 1; k + 1 < n; k++) twice += rg_vec2_turn(r->X[v[0]], r->X[v[k]], r->X[v[k + 1]]);
-    return twice / 2;
+    for (int32_t k = 1; k < n; k++) {
+        const rg_vec2 d = rg_vec2_sub(r->X[v[k]], r->X[v[0]]);
+        far = fmax(far, rg_vec2_dot(d, d));
+    }
+    return fabs(twice) <= ROUNDED * far * n ? 0 : twice / 2;
 }
 
 /* The sides of all faces, sorted by their ends, and which way the faces run. *turn: out, +1 or -1; 0: there are none. */

@@ -98,11 +98,21 @@ static int is_cp(text t)
     return l.s == l.end;
 }
 
+/* Some object of JSON has this key, given with its quotes. */
+static int has_key(text t, const char *key)
+{
+    for (t = skip_to(t, key); t.s < t.end; t = skip_to(t, key)) {
+        t.s += strlen(key);
+        if (begins(skip_blanks(t), ":")) return 1;
+    }
+    return 0;
+}
+
 /* What the first bytes say; RG_FORMAT_AUTO: nothing. */
 static rg_format by_content(text t)
 {
     t = skip_blanks(t);
-    if (begins(t, "{")) return skip_to(t, "\"lineSegments\"").s < t.end ? RG_FORMAT_ORI : RG_FORMAT_FOLD;
+    if (begins(t, "{")) return has_key(t, "\"lineSegments\"") && !has_key(t, "\"vertices_coords\"") ? RG_FORMAT_ORI : RG_FORMAT_FOLD;
     if (begins(t, "<")) {
         const text root = find_root(t);
         return named(root, "java") ? RG_FORMAT_OPX : named(root, "svg") ? RG_FORMAT_SVG : RG_FORMAT_AUTO;
@@ -159,6 +169,33 @@ rg_status rg_read_format(const void *bytes, size_t size, const char *path, const
     return rg_fail(RG_EFORMAT, why, 1, "not a crease pattern that is known: ORIPA's .opx, .cp, .fold, .svg, .dxf or .ori");
 }
 
+/* What can be computed with, and written in any format. */
+static rg_status check_coordinates(const rg_lines *l, rg_diag *why)
+{
+    for (int32_t i = 0; i < l->count; i++) {
+        const rg_line *q = &l->line[i];
+        const double x[4] = {q->a.x, q->a.y, q->b.x, q->b.y};
+        for (int k = 0; k < 4; k++)
+            if (!(fabs(x[k]) <= RG_LARGEST_COORDINATE)) return rg_fail(RG_EFORMAT, why, q->where, "a coordinate of %g is too large to compute with", x[k]);
+    }
+    return RG_OK;
+}
+
+/* Texts that could not be read again once they were written: cut, between two characters. */
+static rg_status cut_texts(rg_lines *l)
+{
+    char *const said[] = {l->title, l->author, l->editor, l->reference, l->memo};
+    for (int i = 0; i < 5; i++) {
+        if (!said[i] || strlen(said[i]) <= RG_MOST_TEXT) continue;
+        size_t end = RG_MOST_TEXT;
+        while (end > 0 && ((unsigned char)said[i][end] & 0xc0) == 0x80) end--;
+        said[i][end] = 0;
+        const rg_status s = rg_lines_warn(l, 0, "a text is cut after %d bytes", (int)end);
+        if (s != RG_OK) return s;
+    }
+    return RG_OK;
+}
+
 rg_status rg_read_bytes(const void *bytes, size_t size, const char *path, const rg_reading *s, int keep, rg_lines *out,
                         rg_diag *why)
 {
@@ -180,10 +217,14 @@ rg_status rg_read_bytes(const void *bytes, size_t size, const char *path, const 
     case RG_FORMAT_ORI: status = rg_ori_read(bytes, size, &mem, out, why); break;
     default: return rg_fail(RG_EARG, why, 0, "there is no such format");
     }
+    if (status != RG_OK) return status == RG_ENOMEM ? rg_fail(status, why, 0, "out of memory") : status;
+    status = check_coordinates(out, why);
+    if (status == RG_OK) status = cut_texts(out);
     if (status == RG_OK) status = rg_kinds_warn_unused(s, out);
     if (status == RG_OK && s->unit > 0) out->metres = s->unit;
     if (status == RG_OK && s->flip && format != RG_FORMAT_FOLD) out->y_down = !out->y_down;
-    if (status == RG_ENOMEM) return rg_fail(status, why, 0, "out of memory");
+    if (status == RG_ENOMEM) rg_fail(status, why, 0, "out of memory");
+    if (status != RG_OK) rg_lines_free(out);
     for (int32_t i = 0; status == RG_OK && s->flip && format != RG_FORMAT_FOLD && i < out->count; i++) {
         out->line[i].a.y = -out->line[i].a.y;
         out->line[i].b.y = -out->line[i].b.y;

@@ -88,7 +88,8 @@ int32_t rg_fold_put_rest(rg_json *j, const rg_value *frame, const rg_fold_sheet 
     for (const void *k = NULL; (k = rg_value_next(frame, k));) {
         const char *key = rg_value_key(k);
         if (among(key, ours)) continue;
-        if (!holds(s, key, rg_value_under(k))) lost++;
+        const int is_old = strcmp(key, "edges_lengths") == 0 && rg_value_get(frame, "edges_length"); /* it has the new one too */
+        if (is_old || !holds(s, key, rg_value_under(k))) lost++;
         else put(j, strcmp(key, "edges_lengths") == 0 ? "edges_length" : key, rg_value_under(k), 0); /* its name in 1.0 */
     }
     return lost;

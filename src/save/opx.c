@@ -142,6 +142,7 @@ static void text(writer *w, const rg_memory *mem, const char *s, size_t n)
     for (char *c = copy; *c;) {
         const size_t bytes = rg_utf8_character((unsigned char *)c);
         if (bytes == 0) *c = '?';
+        else if (!rg_utf8_in_xml((unsigned char *)c, bytes)) memcpy(c, "\xEF\xBF\xBD", bytes); /* of three bytes: there are no others here */
         c += bytes ? bytes : 1;
     }
     check(w, xmlTextWriterWriteString(w->xml, BAD_CAST copy));

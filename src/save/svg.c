@@ -25,7 +25,7 @@ static void say(FILE *out, const char *before, const char *text, const char *aft
     fputs(before, out);
     for (const unsigned char *s = (const unsigned char *)text; *s;) {
         const size_t n = rg_utf8_character(s);
-        if (n == 0 || (*s < 0x20 && *s != '\t' && *s != '\n')) fputs("\xEF\xBF\xBD", out);
+        if (!rg_utf8_in_xml(s, n) || *s == '\r') fputs("\xEF\xBF\xBD", out);
         else if (*s == '&') fputs("&amp;", out);
         else if (*s == '<') fputs("&lt;", out);
         else if (*s == '>') fputs("&gt;", out);

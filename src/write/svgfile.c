@@ -17,7 +17,7 @@ static void escaped(const char *text, FILE *out)
         if (*s == '&') fputs("&amp;", out);
         else if (*s == '<') fputs("&lt;", out);
         else if (*s == '>') fputs("&gt;", out);
-        else if (n == 0 || (*s < 0x20 && *s != '\n' && *s != '\t')) fputc('?', out);
+        else if (!rg_utf8_in_xml(s, n) || *s == '\r') fputc('?', out);
         else fwrite(s, 1, n, out);
         s += n ? n : 1;
     }
