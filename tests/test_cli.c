@@ -288,7 +288,66 @@ static void states_in_frames(void **state)
         near(last, 100, 1e-9);
     }
     says(ends(2, run("fold", "door.fold", "--frame", "2-1")), "rigami: --frame: ", "2-1");
+    /* So are those of a motion: frames that say where the sheet is folded to, too. A state that is flat is one. */
+    ends(0, run("fold", "good.opx", "-q", "--frames", "4", "-o", "door.fold"));
+    ends(0, run("fold", "door.fold", "--frame", "all", "--frames", "7", "-q", "-o", "door.csv", "-o", "again.fold"));
+    static char text[ROOM];
+    double first, last;
+    assert_int_equal(sscanf(strchr(slurp("door.csv", text), '\n'), "\n0,0,%lf,%*[^\n]\n%*[^\n]\n%*[^\n]\n%*[^\n]\n%*[^\n]\n%*[^\n]\n6,100,%lf", &first, &last), 2);
+    near(first, 0, 0);
+    near(fabs(last), 180, 1e-9);
     unlink("door.csv");
+    unlink("again.fold");
+}
+
+/* Numbers of a table are those that one means, without the rounding of what computed them. */
+static void tables_are_tidy(void **state)
+{
+    (void)state;
+    static const char *const angles[] = {"1", "30.1", "120.7", "179"};
+    static const char *const halves[] = {"0.5", "15.05", "60.35", "89.5"};
+    for (int i = 0; i < 4; i++) {
+        static char text[ROOM];
+        char file[400], row[40];
+        snprintf(file, sizeof file, "{\"vertices_coords\":[[0,0],[3,0],[3,2],[0,2]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0],[0,2]],"
+                 "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"V\"],\"edges_foldAngle\":[0,0,0,0,%s]}", angles[i]);
+        write_file("tidy.fold", file);
+        ends(0, run("fold", "tidy.fold", "--frames", "3", "-q", "-o", "tidy.csv"));
+        snprintf(row, sizeof row, "\n1,50,%s\n2,100,%s\n", halves[i], angles[i]);
+        assert_non_null(strstr(slurp("tidy.csv", text), row));
+    }
+    unlink("tidy.csv");
+}
+
+/* What moves nothing is not told as folded; a drawing whose creases are all lost is no success. */
+static void what_does_not_move_is_told(void **state)
+{
+    (void)state;
+    const char *const border = "1 0 0 8 0\n1 8 0 8 6\n1 8 6 0 6\n1 0 6 0 0\n";
+    char text[200];
+    write_file("still.cp", border);
+    assert_non_null(strstr(ends(0, run("fold", "still.cp"))->out, "nothing to fold, as there is no crease"));
+    snprintf(text, sizeof text, "%s2 1 0 5 0\n", border); /* a crease on the border */
+    write_file("still.cp", text);
+    assert_non_null(strstr(ends(1, run("fold", "still.cp"))->err, "nothing is folded: no crease is left to fold"));
+    write_file("still.svg", "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 8 6'><rect width='8' height='6' stroke='#000'/>"
+               "<path d='M0 0 8 6' stroke='#f0f'/></svg>");
+    assert_non_null(strstr(ends(0, run("fold", "still.svg", "--line", "#ff00ff=unassigned"))->out, "nothing moves, as no crease says"));
+    write_file("still.svg", "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 8 6'><rect width='8' height='6' stroke='#000'/>"
+               "<path d='M0 0 8 6' stroke='red' opacity='0'/></svg>");
+    assert_non_null(strstr(ends(0, run("fold", "still.svg"))->out, "--no-targets"));
+    assert_non_null(strstr(ends(0, run("info", "still.svg"))->out, "Nothing will move"));
+    assert_non_null(strstr(ends(0, run("fold", "still.svg", "--no-targets"))->out, "folded, 100.0 %"));
+    /* An end near a corner: the tolerance that is named joins it there, and leaves the paper's other corners. */
+    write_file("still.svg", "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 8 8'><rect width='8' height='8' stroke='#000'/>"
+               "<path d='M.03 .03 8 8' stroke='red'/></svg>");
+    double line, corner, merge;
+    const char *told = strstr(ends(1, run("fold", "still.svg"))->err, "the next line is");
+    assert_true(told && sscanf(told, "the next line is %lf away, a corner %lf; --merge %lf joins", &line, &corner, &merge) == 3);
+    near(corner, 0.03 * sqrt(2), 0.001);
+    snprintf(text, sizeof text, "%g", merge);
+    const ran *r = ends(0, run("fold", "still.svg", "--merge", text));
+    assert_string_equal(r->err, "");
 }
 
 /* A motion is drawn again from its file: what is drawn is the same, and nothing is folded. */
@@ -1191,7 +1250,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_pattern_folds),
         cmocka_unit_test(a_fold_that_stops_short_is_written_and_explained),
-        cmocka_unit_test(the_verdict_comes_first), cmocka_unit_test(states_in_frames), cmocka_unit_test(what_was_meant), cmocka_unit_test(a_motion_is_drawn_again),
+        cmocka_unit_test(the_verdict_comes_first), cmocka_unit_test(states_in_frames), cmocka_unit_test(tables_are_tidy), cmocka_unit_test(what_does_not_move_is_told),
+        cmocka_unit_test(what_was_meant), cmocka_unit_test(a_motion_is_drawn_again),
         cmocka_unit_test(a_batch),
         cmocka_unit_test(creases_may_roll_so_far),
         cmocka_unit_test(wrong_usage_is_refused),

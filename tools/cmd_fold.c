@@ -61,6 +61,19 @@ static void tell_stages(const rg_report *r)
     }
 }
 
+/* Why no crease is to go anywhere; NULL: one is. */
+static const char *unmoved(const rg_motion *m)
+{
+    rg_crease c;
+    int aimed = 0, count = 0;
+    for (; rg_motion_crease(m, count, &c) == RG_OK; count++) {
+        if (!isnan(c.target) && c.target != 0) return NULL;
+        aimed |= !isnan(c.target) && !c.added;
+    }
+    if (count == 0) return "nothing to fold, as there is no crease in it";
+    return aimed ? "nothing moves, as every fold angle of the file is 0; --no-targets folds it flat" : "nothing moves, as no crease says which way it folds";
+}
+
 /* The first line says what came of it, the second what was written. */
 static void summarize(const options *o, const char *name, const rg_motion *m)
 {
@@ -71,7 +84,9 @@ static void summarize(const options *o, const char *name, const rg_motion *m)
     char staged[40];
     snprintf(staged, sizeof staged, "folded in %d stages", (int)r->stages);
     const char *what = r->outcome == RG_RESTS ? "rests, as undriven creases leave its end open" : r->contact == RG_CONTACT_CROSSES ? "folded, passing through itself" : r->stages > 0 ? staged : "folded";
-    printf("%s: %s, %.1f %%%s; %d frames in %.2f s\n", name, what, r->folded_percent, moved, (int)r->frame_count, r->seconds_total);
+    const char *still = r->states == 0 ? unmoved(m) : NULL;
+    if (still) printf("%s: %s; %d frames\n", name, still, (int)r->frame_count);
+    else printf("%s: %s, %.1f %%%s; %d frames in %.2f s\n", name, what, r->folded_percent, moved, (int)r->frame_count, r->seconds_total);
     verdict_files(o, "  written   ", files, sizeof files);
     if (files[0]) puts(files);
     summarize_stages(r);

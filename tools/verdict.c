@@ -69,7 +69,7 @@ static void because(const options *o, const rg_pattern *p, const rg_report *r, c
         next[0] = 0;
     } else if (r->pattern->creases == 0 && r->pattern->lost_creases > 0) {
         snprintf(why, TEXT, "%s", r->reason);
-        snprintf(next, TEXT, "draw them up to the lines that they should meet, or join them with --merge as the warnings say");
+        snprintf(next, TEXT, "draw them up to the lines that they should meet, or join them with the --merge that a warning names");
     } else if (u) {
         char text[240];
         rg_unfoldable_text(p, u, text);
@@ -91,11 +91,43 @@ static void because(const options *o, const rg_pattern *p, const rg_report *r, c
     }
 }
 
+/* The crease that ends farthest on the other side of flat than it should; -1: none does. *far: out, radians. */
+static int32_t wrong_way(const rg_motion *m, rg_crease *worst, double *far)
+{
+    const rg_report *r = rg_motion_report(m);
+    const double *rho = rg_motion_angles(m, r->frame_count - 1);
+    int32_t found = -1;
+    rg_crease c;
+    *far = 0;
+    for (int32_t i = 0; rg_motion_crease(m, i, &c) == RG_OK; i++) {
+        const double side = rho[i] * c.target * r->folded_percent;
+        if (isnan(c.target) || !(side < 0) || !(fabs(rho[i]) > *far)) continue;
+        found = i, *far = fabs(rho[i]), *worst = c;
+    }
+    return found;
+}
+
+/* As far as was asked for, and yet not as was asked for. */
+static int say_wrong_way(const char *name, const rg_motion *m)
+{
+    const rg_report *r = rg_motion_report(m);
+    const double degrees = 180 / 3.14159265358979323846;
+    rg_crease c;
+    double far;
+    if (r->wrong_side_creases == 0 || wrong_way(m, &c, &far) < 0) return 0;
+    say("%s: gets to %.1f %% only with %d crease%s folded the wrong way, the most the one from (%.6g, %.6g) to (%.6g, %.6g), a %s, by %.2g degrees. "
+        "Next: change its direction or that of its neighbours, or try --effort thorough",
+        name, r->folded_percent, (int)r->wrong_side_creases, r->wrong_side_creases == 1 ? "" : "s", c.at[0][0], c.at[0][1], c.at[1][0], c.at[1][1],
+        c.target < 0 ? "mountain" : "valley", far * degrees);
+    return 1;
+}
+
 void verdict_say(const options *o, const char *name, const rg_pattern *p, const rg_motion *m)
 {
     const rg_report *r = rg_motion_report(m);
     char why[TEXT] = "", next[TEXT] = "";
     because(o, p, r, why, next);
+    if (fabs(o->settings.to) < 1 && strncmp(r->reason, "as far as was asked for", 23) == 0 && say_wrong_way(name, m)) return;
     if (r->pattern->creases == 0) say("%s: nothing is folded: %s%s%s", name, why, next[0] ? ". Next: " : "", next);
     else say("%s: stopped at %.1f %% folded: %s%s%s", name, r->folded_percent, why, next[0] ? ". Next: " : "", next);
 }

@@ -291,3 +291,10 @@ double rg_number_degrees(double radians)
     const double degree = RG_DEG, exact = radians / degree, rounded = round(exact * DECIMALS) / DECIMALS;
     return rounded * degree == radians ? rounded : exact;
 }
+
+/* A 1e-11 part of a degree is 2e-13 radians: far below what any frame is closed to, far above what sums are off by. */
+double rg_number_tidy(double value)
+{
+    const double decimals = 1e11;
+    return round(value * decimals) / decimals;
+}

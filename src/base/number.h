@@ -16,6 +16,9 @@ int rg_number_whole(const char *s, size_t n, long *value);
 /* Degrees of an angle in radians: the round number where that is the one that was read, such as 60 and not 59.99999999999999. */
 double rg_number_degrees(double radians);
 
+/* Degrees or percent for people to read: without the rounding of whatever computed them. */
+double rg_number_tidy(double value);
+
 enum { RG_NUMBER_ROOM = 40 };
 /* The shortest text that reads back as the same number; -0 is written as 0. Returns `text`. */
 const char *rg_number_print(char text[RG_NUMBER_ROOM], double value);

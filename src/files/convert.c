@@ -4,6 +4,7 @@
 #include "base/status.h"
 #include "pattern/faces.h"
 #include "pattern/planar.h"
+#include "pattern/source.h"
 #include "read/read.h"
 #include "read/value.h"
 #include "save/cp.h"
@@ -60,15 +61,15 @@ typedef struct plane {
     rg_faces faces;
     rg_fold_sheet sheet;
     rg_vec2 *X;
-    int32_t *E, *face_start, *face_vertex, *face_edge;
+    int32_t *E, *face_start, *face_vertex, *face_edge, *vertex_source, *edge_source;
     char *letter;
     double *angle, area;
 } plane;
 
 static void free_plane(plane *p, const rg_memory *mem)
 {
-    void *block[] = {p->X, p->E, p->face_start, p->face_vertex, p->face_edge, p->letter, p->angle};
-    for (int i = 0; i < 7; i++) rg_mem_free(mem, block[i]);
+    void *block[] = {p->X, p->E, p->face_start, p->face_vertex, p->face_edge, p->letter, p->angle, p->vertex_source, p->edge_source};
+    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(mem, block[i]);
     rg_graph_free(&p->g);
     rg_star_free(&p->star);
     rg_faces_free(&p->faces);
@@ -168,6 +169,22 @@ static rg_status number(plane *p, const rg_lines *l)
     rg_mem_free(mem, old);
     rg_mem_free(mem, taken);
     return s;
+}
+
+/* Where they have other numbers than in the file that was read: which those are. */
+static rg_status find_sources(plane *p, const rg_lines *l)
+{
+    const rg_memory *mem = &l->mem;
+    if (!l->vertex) return RG_OK;
+    if (!p->sheet.same_vertices) {
+        if (!(p->vertex_source = rg_mem_array(mem, (size_t)p->g.nv, sizeof *p->vertex_source))) return RG_ENOMEM;
+        rg_source_vertices(&p->g, l, p->vertex_source);
+    }
+    if (!p->sheet.same_edges && rg_value_count(rg_value_get(l->frame, "edges_vertices")) > 0) {
+        if (!(p->edge_source = rg_mem_array(mem, (size_t)p->g.ne, sizeof *p->edge_source))) return RG_ENOMEM;
+        for (int32_t e = 0; e < p->g.ne; e++) p->edge_source[e] = p->g.E[e].line;
+    }
+    return RG_OK;
 }
 
 typedef struct named { int32_t low, high, e; } named;
@@ -275,18 +292,20 @@ static rg_status write_fold(rg_lines *l, const rg_reading *settings, const rg_de
     memset(&p, 0, sizeof p);
     const int32_t lines = l->count;
     rg_status s = draw(l, settings, &p.g, &gaps, why);
+    if (s == RG_OK) s = rg_source_sort(&p.g, l);
     if (s == RG_OK) s = rg_star_init(&p.star, &l->mem, p.g.nv, p.g.ne, p.g.X, p.g.E);
     if (s == RG_OK) s = rg_faces_init(&p.faces, &l->mem, p.g.nv, p.g.ne, p.g.X, p.g.E, p.star.start, p.star.edge);
     if (s == RG_OK) s = find_faces(&p, &l->mem);
     if (s == RG_OK) s = letter_edges(&p, &l->mem);
     if (s == RG_OK) s = number(&p, l);
+    if (s == RG_OK) s = find_sources(&p, l);
     if (s == RG_OK) s = number_faces(&p, l);
     if (s == RG_OK && p.g.ne == 0) s = rg_fail(RG_EFORMAT, why, 0, "there is no line that has a length");
     if (s == RG_OK && p.g.ne < lines)
         s = rg_lines_warn(l, 0, "%d lines that lie on others, or have no length, are left out", (int)(lines - p.g.ne));
     rg_fold_sheet *f = &p.sheet;
     *f = (rg_fold_sheet){p.g.nv, p.g.ne, gaps ? 0 : f->nf, p.X, p.E, p.letter, p.angle, p.face_start, p.face_vertex, p.face_edge,
-                         f->same_vertices, f->same_edges, f->same_faces && !gaps};
+                         p.vertex_source, p.edge_source, f->same_vertices, f->same_edges, f->same_faces && !gaps};
     if (s == RG_OK) s = rg_fold_write(l, f, to, &lost, why);
     if (s == RG_OK && lost) s = rg_lines_warn(l, 0, "%d keys of the file no longer hold and are left out", (int)lost);
     free_plane(&p, &l->mem);

@@ -198,7 +198,9 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *given, rg_pro
     if (s == RG_OK && !watch.cancelled) s = explain(m, p);
     if (s == RG_OK && r->pattern->creases == 0 && r->pattern->lost_creases > 0) {
         r->outcome = RG_STOPPED;
-        rg_text(r->reason, sizeof r->reason, "no crease is left to fold: all %d that are drawn end short of the next line, or lie on the border",
+        const int one = r->pattern->lost_creases == 1;
+        rg_text(r->reason, sizeof r->reason, one ? "no crease is left to fold: the only one drawn ends short of the next line, or lies on the border"
+                                                 : "no crease is left to fold: all %d that are drawn end short of the next line, or lie on the border",
                  (int)r->pattern->lost_creases);
     }
     rg_mesh_free(&none);

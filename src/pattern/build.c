@@ -58,6 +58,7 @@ int32_t rg_pattern_warnings(const rg_pattern *p, const rg_diag **list)
 static void count(struct rg_pattern *p)
 {
     rg_pattern_info *info = &p->info;
+    int32_t unseen = 0;
     for (int32_t v = 0; v < p->nv; v++) info->interior_vertices += !p->rim[v];
     for (int32_t e = 0; e < p->ne; e++) {
         const char a = p->E[e].assignment;
@@ -69,6 +70,10 @@ static void count(struct rg_pattern *p)
         info->flat += a == RG_FLAT;
         info->cuts += a == RG_CUT;
     }
+    /* Of a drawing whose every crease lies on the border, or has no length, none is loose. */
+    for (int32_t i = 0; info->creases == 0 && info->lost_creases == 0 && info->sheets <= 1 && i < p->lines.count; i++)
+        unseen += p->lines.line[i].assignment != RG_BORDER && p->lines.line[i].assignment != RG_FLAT;
+    info->lost_creases += unseen;
     info->degrees_of_freedom = info->creases - 3 * info->interior_vertices;
     info->title = p->lines.title ? p->lines.title : "";
     info->author = p->lines.author ? p->lines.author : "";

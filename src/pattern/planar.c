@@ -407,18 +407,36 @@ static double nearest_line(const rg_graph *g, int32_t own, rg_vec2 x)
     return nearest;
 }
 
+/* How far the nearest vertex is that is no end of the line `own`; INFINITY: there is none. */
+static double nearest_vertex(const rg_graph *g, int32_t own, rg_vec2 x)
+{
+    double nearest = INFINITY;
+    for (int32_t v = 0; v < g->nv; v++)
+        if (v != g->E[own].v[0] && v != g->E[own].v[1]) nearest = fmin(nearest, hypot(x.x - g->X[v].x, x.y - g->X[v].y));
+    return nearest;
+}
+
 /* What would have joined a loose end: the tolerance, rounded up to two digits; more than SENSIBLE joins what is no gap. */
 static const double SENSIBLE = 0.02;
+/* A vertex that is hardly farther than the nearest line is what the end was meant to meet: joined to the line beside it, both would be
+ * one vertex, somewhere between them. */
+static const double HARDLY_FARTHER = 2;
 
 static rg_status warn_loose(const rg_graph *g, rg_lines *lines, int32_t e, int32_t v, int is_end)
 {
     const rg_vec2 at = rg_lines_own(lines, g->X[v], g->size);
-    const double far = is_end ? nearest_line(g, e, g->X[v]) : INFINITY, part = far / g->size;
+    const double line = is_end ? nearest_line(g, e, g->X[v]) : INFINITY, vertex = is_end ? nearest_vertex(g, e, g->X[v]) : INFINITY;
+    const int is_vertex = vertex <= HARDLY_FARTHER * line;
+    const double far = is_vertex ? vertex : line, part = far / g->size;
     if (!(part <= SENSIBLE))
         return rg_lines_warn(lines, g->E[e].where, "a loose end at (%.6g, %.6g) is left out", at.x, at.y);
     const double digit = pow(10, floor(log10(part)) - 1);
+    const double merge = ceil(part / digit * (1 + 1e-9)) * digit;
+    if (is_vertex)
+        return rg_lines_warn(lines, g->E[e].where, "a loose end at (%.6g, %.6g) is left out: the next line is %.2g away, a corner %.2g; --merge %.2g joins them",
+                             at.x, at.y, line, far, merge);
     return rg_lines_warn(lines, g->E[e].where, "a loose end at (%.6g, %.6g) is left out: the next line is %.2g away; --merge %.2g joins them", at.x,
-                         at.y, far, ceil(part / digit * (1 + 1e-9)) * digit);
+                         at.y, far, merge);
 }
 
 /* Edges that end in the middle of a facet, or outside the sheet, from their free ends inwards. `sum[v]` adds up the

@@ -12,8 +12,7 @@ static int32_t end_at(const rg_lines *l, int32_t line, rg_vec2 x, double tol)
     return l->vertex[2 * line + !(a <= b)];
 }
 
-/* of[nv]: out; of several the lowest. */
-static void find_vertices(const rg_graph *g, const rg_lines *l, int32_t *of)
+void rg_source_vertices(const rg_graph *g, const rg_lines *l, int32_t *of)
 {
     const double tol = 2 * g->merged_max + 1e-12 * g->size;
     for (int32_t v = 0; v < g->nv; v++) of[v] = -1;
@@ -42,7 +41,7 @@ rg_status rg_source_sort(rg_graph *g, const rg_lines *lines)
     rg_vec2 *X = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *X);
     const rg_status s = of && at && X ? RG_OK : RG_ENOMEM;
     if (s == RG_OK) {
-        find_vertices(g, lines, of);
+        rg_source_vertices(g, lines, of);
         for (int32_t v = 0; v < g->nv; v++) at[v] = (place){of[v], v};
         qsort(at, (size_t)g->nv, sizeof *at, by_number);
         memcpy(X, g->X, (size_t)g->nv * sizeof *X);
@@ -63,7 +62,7 @@ rg_status rg_source_init(rg_source *s, const rg_graph *g, rg_lines *lines)
     s->edge = rg_mem_array(&g->mem, (size_t)g->ne, sizeof *s->edge);
     s->where = rg_mem_array(&g->mem, (size_t)g->ne, sizeof *s->where);
     if (!s->vertex || !s->edge || !s->where) return RG_ENOMEM;
-    find_vertices(g, lines, s->vertex);
+    rg_source_vertices(g, lines, s->vertex);
     for (int32_t e = 0; e < g->ne; e++) s->edge[e] = g->E[e].line, s->where[e] = g->E[e].where;
     s->lines = lines->count;
     s->y_down = lines->y_down;

@@ -272,9 +272,10 @@ static rg_status segment(reader *r, const entity *e, rg_vec3 a, rg_vec3 b, char 
     return RG_OK;
 }
 
-static rg_status curve(const reader *r, slice name, int32_t where)
+static rg_status curved(const reader *r, const entity *e, const char *what, int32_t where)
 {
-    return rg_fail(RG_EFORMAT, r->why, where, "%.*s: a curve, where paper folds along straight lines only", show(name), name.s);
+    return rg_fail(RG_EFORMAT, r->why, where, "%.*s: a %s, where paper folds along straight lines only; --line %.*s=none leaves out what is on its layer",
+                   show(e->name), e->name.s, what, show(e->layer), e->layer.s);
 }
 
 /* The side of a polyline from its last corner. */
@@ -282,7 +283,7 @@ static rg_status side(reader *r, entity *e, rg_vec3 x)
 {
     if (e->bulge == 0 || e->on_sheet || is_hidden(r, e)) return e->bulge == 0 ? segment(r, e, e->last, x, 0) : RG_OK;
     if (cannot_fold(r, e)) return tell(&r->curves, e->where), RG_OK;
-    return rg_fail(RG_EFORMAT, r->why, e->bulge_line, "%.*s: a bulge, where paper folds along straight lines only", show(e->name), e->name.s);
+    return curved(r, e, "bulge", e->bulge_line);
 }
 
 /* A corner of a polyline is complete; `bulge`: of the side after it. */
@@ -466,7 +467,7 @@ static rg_status old_polyline(reader *r, entity *e)
     e->elevation = e->z[0];
     e->rows = e->corner[0], e->columns = e->corner[1];
     const int bends = (e->flags & (FITTED | SPLINE)) != 0;
-    if (s == RG_OK && bends && !is_hidden(r, e) && !cannot_fold(r, e)) return curve(r, e->name, e->where);
+    if (s == RG_OK && bends && !is_hidden(r, e) && !cannot_fold(r, e)) return curved(r, e, "curve", e->where);
     if (bends) tell(&r->curves, e->where);
     e->bulge = 0;
     while (s == RG_OK && (s = next(r)) == RG_OK && is(r->value, "VERTEX")) {
@@ -648,7 +649,7 @@ static rg_status read_curve(reader *r, entity *e, int is_ring)
     inherit(r, e);
     if (s != RG_OK || e->on_sheet || is_hidden(r, e)) return s;
     const int harmless = is_ring ? kind_of(r, e, &kind) != RG_BORDER : cannot_fold(r, e);
-    if (!harmless) return curve(r, e->name, e->where);
+    if (!harmless) return curved(r, e, "curve", e->where);
     tell(&r->curves, e->where);
     return RG_OK;
 }

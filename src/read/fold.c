@@ -42,6 +42,7 @@ typedef struct reader {
     double *angle; /* degrees, NAN: none */
     int32_t *face_start, *face_vertex;
     side *side;
+    int is_state;  /* a frame that says how the sheet of another is folded */
     int is_folded; /* not flat, or turned over: why says which */
 } reader;
 
@@ -385,9 +386,10 @@ static char guess(const reader *r, int32_t e)
 
 static int can_fold(char letter) { return letter == RG_MOUNTAIN || letter == RG_VALLEY || letter == RG_UNASSIGNED; }
 
-/* Angles that are all 0 are those of the flat sheet and no wish. */
+/* Angles that are all 0 are those of the flat sheet and no wish, unless a state of the sheet was asked for. */
 static int has_targets(const reader *r)
 {
+    if (r->is_state && r->angle) return r->s->targets;
     for (int32_t e = 0; r->s->targets && r->angle && e < r->ne; e++)
         if (fabs(r->angle[e]) > 0 && can_fold(r->letter[e])) return 1;
     return 0;
@@ -416,7 +418,7 @@ static rg_status add_lines(reader *r, int turn)
         double angle = targets && can_fold(letter) ? r->angle[e] : NAN;
         if (letter == 'J') letter = RG_FLAT;
         if (letter == 'C') letter = RG_BORDER;
-        if (letter == RG_UNASSIGNED && angle == 0) angle = NAN;
+        if (letter == RG_UNASSIGNED && angle == 0 && !r->is_state) angle = NAN;
         if ((letter == RG_MOUNTAIN && angle > 0) || (letter == RG_VALLEY && angle < 0)) {
             if (!contrary++) first = e;
             angle = -angle;
@@ -532,8 +534,21 @@ static reader *last_part(reader *r)
     return r;
 }
 
-/* A frame with what it inherits, in r->frame. */
-static rg_status resolve(reader *r, int64_t number)
+/* What of a frame says how the sheet is folded, whatever else it says of where that brings it; NULL: no memory. */
+static rg_value *state_of(const rg_value *frame)
+{
+    static const char *const keys[] = {"edges_foldAngle", "edges_foldAngles", "edges_assignment", "frame_title", "frame_description"};
+    rg_value *one = rg_value_overlay(NULL, frame);
+    for (const void *k = NULL; one && (k = rg_value_next(frame, k));) {
+        size_t i = 0;
+        while (i < sizeof keys / sizeof *keys && strcmp(keys[i], rg_value_key(k)) != 0) i++;
+        if (i == sizeof keys / sizeof *keys) rg_value_drop(one, rg_value_key(k));
+    }
+    return one;
+}
+
+/* A frame with what it inherits, in r->frame; as_state: on the drawing of the one that it inherits from in the end. */
+static rg_status resolve(reader *r, int64_t number, int as_state)
 {
     const size_t frames = rg_value_count(rg_value_get(r->root, "file_frames"));
     for (int64_t at = number;;) {
@@ -548,7 +563,11 @@ static rg_status resolve(reader *r, int64_t number)
         if (parent && !rg_value_integer(parent, &at)) return bad(last_part(r), "frame_parent: no frame number");
     }
     for (int32_t i = r->parts - 1; i >= 0; i--) {
-        rg_value *over = rg_value_overlay(r->frame, frame_at(r, r->part[i]));
+        const rg_value *one = frame_at(r, r->part[i]);
+        rg_value *state = as_state && i < r->parts - 1 ? state_of(one) : NULL;
+        if (as_state && i < r->parts - 1 && !state) return RG_ENOMEM;
+        rg_value *over = rg_value_overlay(r->frame, state ? state : one);
+        rg_value_free(state);
         if (!over) return RG_ENOMEM;
         rg_value_free(r->frame);
         r->frame = over;
@@ -560,6 +579,13 @@ static int has_drawing(const reader *r)
 {
     const rg_value *edges = rg_value_get(r->frame, "edges_vertices"), *faces = rg_value_get(r->frame, "faces_vertices");
     return rg_value_count(rg_value_get(r->frame, "vertices_coords")) > 0 && rg_value_count(edges) + rg_value_count(faces) > 0;
+}
+
+/* Whether the frame that was asked for says by itself how far each crease is folded. */
+static int is_state(const reader *r, int32_t asked)
+{
+    const rg_value *one = asked > 0 ? frame_at(r, asked) : NULL;
+    return rg_value_get(one, "edges_foldAngle") || rg_value_get(one, "edges_foldAngles");
 }
 
 static rg_status read_frame(reader *r)
@@ -602,9 +628,16 @@ static rg_status choose(reader *r)
     rg_status s = RG_OK, failed = RG_OK;
     for (int64_t i = from; i <= to; i++) {
         forget(r);
-        s = resolve(r, i);
+        s = resolve(r, i, 0);
+        r->is_state = is_state(r, asked);
         if (s == RG_OK && (asked >= 0 || has_drawing(r) || from == to)) s = read_frame(r);
         else if (s == RG_OK) s = bad(r, "no vertices_coords, or no edges_vertices and no faces_vertices");
+        if (s == RG_EFORMAT && r->is_folded && r->is_state && r->parts > 1) { /* where it is folded to, beside its angles */
+            forget(r);
+            s = resolve(r, i, 1);
+            r->is_state = 1;
+            if (s == RG_OK) s = read_frame(r);
+        }
         if (s == RG_OK || s == RG_ENOMEM || (!r->is_folded && r->frame && has_drawing(r))) return s;
         if (failed == RG_OK && r->why) first = *r->why;
         failed = s;

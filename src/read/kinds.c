@@ -138,7 +138,8 @@ char rg_kinds_of_name(const char *name, size_t n)
 {
     static const struct { const char *word; char assignment; } words[] = {
         {"mountain", RG_MOUNTAIN}, {"valley", RG_VALLEY}, {"unassigned", RG_UNASSIGNED}, {"aux", RG_FLAT},
-        {"facet", RG_FLAT}, {"flat", RG_FLAT}, {"cut", RG_BORDER}, {"border", RG_BORDER}, {"boundary", RG_BORDER},
+        {"facet", RG_FLAT}, {"flat", RG_FLAT}, {"construction", RG_FLAT}, {"guide", RG_FLAT}, {"annotation", RG_FLAT},
+        {"dimension", RG_FLAT}, {"notes", RG_FLAT}, {"defpoints", RG_FLAT}, {"cut", RG_BORDER}, {"border", RG_BORDER}, {"boundary", RG_BORDER},
         {"contour", RG_BORDER}, {"outline", RG_BORDER}};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         const size_t word = strlen(words[i].word);

@@ -250,7 +250,7 @@ static char letter_of(const char *s)
 {
     static const char letters[] = "BMVFUCJ";
     const char c = *s >= 'a' && *s <= 'z' ? (char)(*s - 'a' + 'A') : *s;
-    if (!c || s[1] || !strchr(letters, c)) return 0;
+    if (!c || s[1] || !strchr(letters, c)) return rg_kinds_of_name(s, strlen(s)); /* the word */
     return c == 'C' ? RG_BORDER : c == 'J' ? RG_FLAT : c;
 }
 

@@ -80,7 +80,7 @@ static int holds(const rg_fold_sheet *s, const char *key, const rg_value *v)
 static const char *const OURS[] = {"file_spec", "file_creator", "file_author", "file_title", "file_description",
     "frame_classes", "frame_attributes", "frame_parent", "frame_inherit", "vertices_coords", "edges_vertices",
     "edges_assignment", "edges_foldAngle", "edges_foldAngles", "edges_faces", "faces_vertices", "faces_edges",
-    "rigami:editor", "rigami:reference", NULL};
+    "rigami:editor", "rigami:reference", "rigami:vertices_source", "rigami:edges_source", NULL};
 
 int32_t rg_fold_put_rest(rg_json *j, const rg_value *frame, const rg_fold_sheet *s, const char *const *ours)
 {
@@ -93,6 +93,16 @@ int32_t rg_fold_put_rest(rg_json *j, const rg_value *frame, const rg_fold_sheet 
         else put(j, strcmp(key, "edges_lengths") == 0 ? "edges_length" : key, rg_value_under(k), 0); /* its name in 1.0 */
     }
     return lost;
+}
+
+void rg_fold_put_source(rg_json *j, const char *key, const int32_t *source, int32_t known, int32_t n)
+{
+    rg_json_open_line(j, key, '[');
+    for (int32_t i = 0; i < n; i++) {
+        if (i < known && source[i] >= 0) rg_json_integer(j, NULL, source[i]);
+        else rg_json_string(j, NULL, NULL);
+    }
+    rg_json_close(j);
 }
 
 /* ------------------------------------------------------------------------------------------------- the pattern ---- */
@@ -179,6 +189,8 @@ rg_status rg_fold_write(const rg_lines *l, const rg_fold_sheet *sheet, const rg_
     if (sheet->nf > 0) s = put_faces(&j, l, sheet);
     if (l->metres > 0 && rg_unit_name(l->metres) && !rg_value_get(l->frame, "frame_unit"))
         rg_json_string(&j, "frame_unit", rg_unit_name(l->metres));
+    if (sheet->vertex_source) rg_fold_put_source(&j, "rigami:vertices_source", sheet->vertex_source, sheet->nv, sheet->nv);
+    if (sheet->edge_source) rg_fold_put_source(&j, "rigami:edges_source", sheet->edge_source, sheet->ne, sheet->ne);
     *lost = rg_fold_put_rest(&j, l->frame, sheet, OURS);
     rg_json_close(&j);
     if (s == RG_OK) return rg_file_commit(&f, why);

@@ -23,8 +23,8 @@ rg_status rg_csv_write(const rg_motion *m, int32_t frame, const rg_picture *p, F
     for (int32_t k = 0; k < m->report.frame_count; k++) {
         const double *rho = rg_motion_angles(m, k);
         char text[RG_NUMBER_ROOM];
-        fprintf(out, "%d,%s", (int)k, rg_number_print(text, m->frame[k].percent));
-        for (int32_t i = 0; i < N; i++) fprintf(out, ",%s", rg_number_print(text, rg_number_degrees(rho[i])));
+        fprintf(out, "%d,%s", (int)k, rg_number_print(text, rg_number_tidy(m->frame[k].percent)));
+        for (int32_t i = 0; i < N; i++) fprintf(out, ",%s", rg_number_print(text, rg_number_tidy(rg_number_degrees(rho[i]))));
         fputc('\n', out);
     }
     return RG_OK;

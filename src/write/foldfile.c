@@ -108,16 +108,10 @@ static int same_numbers(const int32_t *source, int32_t known, int32_t n, size_t 
     return same;
 }
 
-/* Their numbers in the file, where those are others; null: it has no such one. */
+/* Their numbers in the file, where those are others. */
 static void sources(rg_json *j, const char *key, const int32_t *source, int32_t known, int32_t n, size_t there)
 {
-    if (!source || same_numbers(source, known, n, there)) return;
-    rg_json_open_line(j, key, '[');
-    for (int32_t i = 0; i < n; i++) {
-        if (i < known && source[i] >= 0) rg_json_integer(j, NULL, source[i]);
-        else rg_json_string(j, NULL, NULL);
-    }
-    rg_json_close(j);
+    if (source && !same_numbers(source, known, n, there)) rg_fold_put_source(j, key, source, known, n);
 }
 
 /* What else the file that was read says, and which of its vertices, edges and faces ours are. */
@@ -160,7 +154,7 @@ static void one_frame(rg_json *j, const rg_motion *m, int32_t k, const rg_vec3 *
     rg_json_bool(j, "frame_inherit", 1);
     strings(j, "frame_classes", "foldedForm", NULL);
     strings(j, "frame_attributes", "3D", "orientable");
-    rg_json_number(j, "rigami:percent", m->frame[k].percent);
+    rg_json_number(j, "rigami:percent", rg_number_tidy(m->frame[k].percent));
     rg_json_number(j, "rigami:closure_residual", m->frame[k].closure_residual);
     coords3(j, x, mesh->nv);
     rg_json_open_line(j, "edges_foldAngle", '[');

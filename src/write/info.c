@@ -429,6 +429,14 @@ static rg_status mobility(const rg_pattern *p, int32_t *ways)
     return status;
 }
 
+/* Whether the file asks of every crease that it stays flat. */
+static int is_still(const rg_pattern *p)
+{
+    for (int32_t e = 0; e < p->ne; e++)
+        if (p->E[e].assignment != RG_BORDER && p->E[e].target != 0) return 0;
+    return p->info.creases > 0;
+}
+
 /* The verdict, and what to do next. */
 static void verdict(const rg_pattern *p, const rg_layers *l, FILE *out)
 {
@@ -445,7 +453,8 @@ static void verdict(const rg_pattern *p, const rg_layers *l, FILE *out)
         rg_text_to(out, "It cannot be folded here: %s.\n", text);
     } else if (i->creases == 0 && i->lost_creases > 0) {
         rg_text_to(out, "There is no crease to fold: all that are drawn (%d) are left out.\n", (int)i->lost_creases);
-        rg_text_to(out, "Next: draw them up to the lines that they should meet, or join them with --merge; the warnings say by how much.\n");
+        rg_text_to(out, p->lines.warnings ? "Next: draw them up to the lines that they should meet, or join them with --merge; the warnings say by how much.\n"
+                                          : "Next: draw them across the sheet: they lie on its border.\n");
     } else if (i->creases == 0) {
         rg_text_to(out, "There is no crease to fold.\n");
     } else if (u) {
@@ -463,6 +472,9 @@ static void verdict(const rg_pattern *p, const rg_layers *l, FILE *out)
     } else if (i->mountains + i->valleys == 0) {
         rg_text_to(out, "No crease says which way it folds: nothing will move.\n");
         rg_text_to(out, "Next: draw mountains and valleys%s.\n", p->lines.traits ? ", or say with --line which lines they are" : "");
+    } else if (is_still(p)) {
+        rg_text_to(out, "Nothing will move: every fold angle of the file is 0.\n");
+        rg_text_to(out, "Next: fold with --no-targets, which folds it flat.\n");
     } else if (i->closed_vertices) {
         rg_text_to(out, "Each vertex folds flat by itself, but %d closed %s lock rigid facets: it needs creases added, or moved on the way.\n",
                 (int)i->closed_vertices, plural(i->closed_vertices, "vertex", "vertices"));

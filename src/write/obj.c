@@ -43,7 +43,7 @@ rg_status rg_obj_write(const rg_motion *m, int32_t frame, const rg_picture *p, F
     rg_status s = x ? rg_motion_place(m, frame, x) : RG_ENOMEM;
     if (s == RG_OK) {
         fprintf(out, "# rigami %s: frame %d, folded %s percent\n", RG_VERSION, (int)frame,
-                rg_number_print(percent, m->frame[frame].percent));
+                rg_number_print(percent, rg_number_tidy(m->frame[frame].percent)));
         fputs("o sheet\n", out);
         vertices(x, m->mesh.nv, out);
         facets(&m->mesh, out);
