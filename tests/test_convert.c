@@ -368,6 +368,16 @@ static void extras(void **state)
     assert_non_null(strstr(now, "\"second\""));
     assert_null(strstr(now, "file_frames"));
     assert_null(strstr(now, "frame_inherit"));
+    assert_null(strstr(now, "_source"));
+    free(now);
+    /* Two of its vertices are one, one is on no line, and two lines cross: which number each had. */
+    write_text("e.fold", "{\"vertices_coords\":[[9,9],[0,0],[4,0],[4,4],[0,4],[0,0]],\"edges_vertices\":[[2,4],[5,2],[2,3],[3,4],[4,1],[1,3]],"
+               "\"edges_assignment\":[\"V\",\"B\",\"B\",\"B\",\"B\",\"M\"]}");
+    convert(at("e.fold"), at("e2.fold"), NULL);
+    now = load(at("e2.fold"));
+    assert_non_null(strstr(now, "\"vertices_coords\": [\n  [0, 0],\n  [4, 0],\n  [4, 4],\n  [0, 4],\n  [2, 2]"));
+    assert_non_null(strstr(now, "\"rigami:vertices_source\": [1, 2, 3, 4, null]"));
+    assert_non_null(strstr(now, "\"rigami:edges_source\": [0, 0, 1, 2, 3, 4, 5, 5]"));
     free(now);
 }
 
