@@ -59,6 +59,8 @@ static rg_status check_settings(const rg_settings *s, rg_diag *why)
         !is_among(s->pace, RG_PACE_STEADY))
         return rg_fail(RG_EARG, why, 0, "a setting is none of its kind");
     if (s->threads < 0) return rg_fail(RG_EARG, why, 0, "there cannot be less than no threads");
+    if (s->layer_order < -1) return rg_fail(RG_EARG, why, 0, "orders of layers are counted from 0");
+    if (s->fixed_facet < -1) return rg_fail(RG_EARG, why, 0, "facets are counted from 0");
     return RG_OK;
 }
 
@@ -89,9 +91,10 @@ rg_status rg_reading_take(const rg_reading *given, rg_reading *out, rg_diag *why
     rg_reading mine = usual_reading();
     const rg_status s = given ? rg_take(&mine, sizeof mine, given, given->size, sizeof mine, why) : RG_OK;
     if (s != RG_OK) return s;
-    if (!(mine.merge >= 0 && mine.merge < MOST_MERGED)) return rg_fail(RG_EARG, why, 0, "the merge tolerance is not between 0 and %g of the sheet", MOST_MERGED);
+    if (!(mine.merge >= 0 && mine.merge <= MOST_MERGED)) return rg_fail(RG_EARG, why, 0, "the merge tolerance is not between 0 and %g of the sheet", MOST_MERGED);
     if (!is_among(mine.format, RG_FORMAT_ORI)) return rg_fail(RG_EARG, why, 0, "there is no such format");
     if (mine.kinds < 0 || (mine.kinds > 0 && !mine.kind)) return rg_fail(RG_EARG, why, 0, "kinds of lines that are not there");
+    if (mine.file_frame < -1) return rg_fail(RG_EARG, why, 0, "frames of a file are counted from 0");
     if (mine.sheet < 0) return rg_fail(RG_EARG, why, 0, "sheets are counted from 1");
     if (!(mine.unit >= 0 && mine.unit <= 1e9)) return rg_fail(RG_EARG, why, 0, "a unit is a length in metres, 0 where it is not known");
     *out = mine;

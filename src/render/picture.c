@@ -40,6 +40,8 @@ void rg_picture_init(rg_picture *p, size_t size)
     rg_give(p, size, &usual, sizeof usual);
 }
 
+static int is_among(int value, int last) { return value >= 0 && value <= last; }
+
 rg_status rg_picture_check(const rg_picture *p, rg_diag *why)
 {
     if (p->width < 1 || p->height < 1 || p->width > RG_MAX_PICTURE || p->height > RG_MAX_PICTURE)
@@ -61,6 +63,8 @@ rg_status rg_picture_check(const rg_picture *p, rg_diag *why)
         return rg_fail(RG_EARG, why, 0, "an end that is held for %g seconds: it may be 0 to %g", p->hold, LONGEST_HOLD);
     if (!(p->thickness >= 0 && p->thickness <= MOST_THICKNESS))
         return rg_fail(RG_EARG, why, 0, "paper %g thick: it may be 0 to %g", p->thickness, MOST_THICKNESS);
+    if (!is_among(p->lines, RG_LINES_EDGES) || !is_among(p->colour, RG_COLOUR_LAYER) || !is_among(p->loop, RG_LOOP_ONCE))
+        return rg_fail(RG_EARG, why, 0, "a setting of the picture is none of its kind");
     return RG_OK;
 }
 
