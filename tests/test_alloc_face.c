@@ -14,12 +14,14 @@
 #include "near.h"
 #include "rigami.h"
 
-/* Where a call asks more often than this, only so many places are tried, spread over all. */
-enum { MOST_PLACES = 150 };
+#include <unistd.h>
+
+/* Where a call asks more often than this, only so many places are tried, spread over all; fewer where it takes a second. */
+enum { MOST_PLACES = 150, MOST_OF_SLOW = 15 };
 
 typedef rg_status call(const rg_memory *mem, counted *c);
 
-static void refuse_everywhere(call *f, const char *name)
+static void refuse_at(call *f, const char *name, long most)
 {
     counted all = {1000000000, 0, 0};
     const rg_memory with_all = {counted_resize, &all};
@@ -27,7 +29,7 @@ static void refuse_everywhere(call *f, const char *name)
     if (plain != RG_OK) fail_msg("%s, with all memory: %s", name, rg_status_text(plain));
     assert_int_equal(all.out, 0);
     assert_true(all.asked > 0);
-    const long stride = all.asked > MOST_PLACES ? all.asked / MOST_PLACES : 1;
+    const long stride = all.asked > most ? all.asked / most : 1;
     for (long k = 0; k < all.asked; k += stride) {
         counted c = {k, 0, 0};
         const rg_memory mem = {counted_resize, &c};
@@ -35,6 +37,8 @@ static void refuse_everywhere(call *f, const char *name)
         if (s != RG_ENOMEM || c.out != 0) fail_msg("%s: request %ld of %ld refused: %s, %ld blocks left", name, k, all.asked, rg_status_text(s), (long)c.out);
     }
 }
+
+static void refuse_everywhere(call *f, const char *name) { refuse_at(f, name, MOST_PLACES); }
 
 /* With memory of its own. */
 static rg_pattern *generated(const char *kind, int32_t n)
@@ -196,6 +200,239 @@ static rg_status sinks(const rg_memory *mem, counted *c)
     return status;
 }
 
+/* ---------------------------------------------------------------------------------------- of what is there already ---- */
+
+/* What is made first has all the memory there is; then as much as `c` had. */
+static long unlimited(counted *c)
+{
+    const long left = c->left;
+    c->left = 1000000000;
+    return left;
+}
+
+static void limited(counted *c, long left)
+{
+    c->left = left;
+    c->asked = 0;
+}
+
+static rg_pattern *generated_with(const rg_memory *mem, const char *kind, int32_t n)
+{
+    rg_reading r = rg_reading_default();
+    rg_pattern *p = NULL;
+    r.memory = mem;
+    assert_int_equal(rg_generate_pattern(kind, n, 0, 0, &r, &p, NULL), RG_OK);
+    return p;
+}
+
+static rg_motion *motion_with(const rg_memory *mem, const rg_pattern *p)
+{
+    rg_settings s = settings_with(mem);
+    rg_motion *m = NULL;
+    s.frames = 3;
+    assert_int_equal(rg_motion_create(p, &s, NULL, NULL, &m, NULL), RG_OK);
+    return m;
+}
+
+static rg_status patterns_compared_and_aimed(const rg_memory *mem, counted *c)
+{
+    const long left = unlimited(c);
+    rg_pattern *p = generated_with(mem, "miura", 3), *q = generated_with(mem, "miura", 3);
+    const rg_plane *plane = rg_pattern_get_plane(p);
+    int32_t crease = 0;
+    while (plane->assignment[crease] == 'B') crease++;
+    limited(c, left);
+    rg_status status = rg_pattern_same_sheet(p, q, NULL);
+    if (status == RG_OK) status = rg_pattern_set_target(p, crease, 0.5);
+    if (status == RG_OK) status = rg_pattern_pin(p, crease);
+    rg_pattern_destroy(q);
+    rg_pattern_destroy(p);
+    return status;
+}
+
+/* Half folded, then folded. */
+static rg_status states_of_a_sheet(const rg_memory *mem, counted *c)
+{
+    const long left = unlimited(c);
+    rg_settings s = settings_with(mem);
+    rg_pattern *state[2] = {generated("preliminary", 0), generated("preliminary", 0)};
+    rg_motion *m = NULL;
+    rg_plane plane = *rg_pattern_get_plane(state[0]);
+    for (int32_t e = 0; e < plane.edges; e++)
+        if (plane.assignment[e] != 'B') assert_int_equal(rg_pattern_set_target(state[0], e, plane.target[e]), RG_OK);
+    limited(c, left);
+    const rg_status status = rg_motion_create_states((const rg_pattern *const *)state, 2, &s, NULL, NULL, &m, NULL);
+    assert_int_equal(m != NULL, status == RG_OK);
+    rg_motion_destroy(m);
+    for (int k = 0; k < 2; k++) rg_pattern_destroy(state[k]);
+    return status;
+}
+
+static rg_status ways_to_go(const rg_memory *mem, counted *c)
+{
+    const long left = unlimited(c);
+    rg_pattern *p = generated("miura", 3);
+    rg_motion *m = motion_with(mem, p);
+    int32_t ways = -1;
+    limited(c, left);
+    const rg_status status = rg_motion_mobility(m, 1, &ways);
+    assert_int_equal(ways, status == RG_OK ? 1 : -1);
+    rg_motion_destroy(m);
+    rg_pattern_destroy(p);
+    return status;
+}
+
+typedef struct pot { char *byte; size_t n; } pot;
+
+static int pour(void *ctx, const void *bytes, size_t n)
+{
+    pot *p = ctx;
+    p->byte = realloc(p->byte, p->n + n + 1);
+    memcpy(p->byte + p->n, bytes, n);
+    p->byte[p->n += n] = 0;
+    return 0;
+}
+
+/* A written motion's bytes, of memory that is not counted; also in a file. */
+static pot written_motion(char path[64])
+{
+    pot text = {NULL, 0};
+    const rg_sink sink = {pour, &text};
+    rg_pattern *p = generated("miura", 2);
+    rg_motion *m = motion_with(NULL, p);
+    assert_int_equal(rg_motion_write_to(m, ".fold", -1, &sink, NULL, NULL), RG_OK);
+    strcpy(path, "/tmp/rigami-alloc-XXXXXX");
+    const int fd = mkstemp(path);
+    assert_true(fd >= 0 && write(fd, text.byte, text.n) == (ssize_t)text.n && close(fd) == 0);
+    rg_motion_destroy(m);
+    rg_pattern_destroy(p);
+    return text;
+}
+
+static rg_status motions_read_again(const rg_memory *mem, counted *c)
+{
+    const long left = unlimited(c);
+    char path[64];
+    pot text = written_motion(path);
+    rg_reading r = rg_reading_default();
+    rg_motion *m = NULL;
+    r.memory = mem;
+    limited(c, left);
+    const rg_status status = rg_motion_read(path, &r, &m, NULL);
+    assert_int_equal(m != NULL, status == RG_OK);
+    rg_motion_destroy(m);
+    unlink(path);
+    free(text.byte);
+    return status;
+}
+
+static rg_status certificates(const rg_memory *mem, counted *c)
+{
+    const long left = unlimited(c);
+    char path[64];
+    pot text = written_motion(path);
+    rg_certificate *a = NULL, *b = NULL;
+    size_t n = 0;
+    const rg_sink sink = {drop, &n};
+    rg_pattern *p = generated_with(mem, "miura", 2);
+    limited(c, left);
+    rg_status status = rg_certificate_create(path, p, mem, &a, NULL);
+    if (status == RG_OK) status = rg_certificate_parse(text.byte, text.n, p, mem, &b, NULL);
+    for (int json = 0; status == RG_OK && json < 2; json++) {
+        status = rg_certificate_write_to(a, json, &sink, NULL);
+        if (status == RG_OK) status = rg_certificate_write(b, json, path, NULL);
+    }
+    rg_certificate_destroy(a);
+    rg_certificate_destroy(b);
+    rg_pattern_destroy(p);
+    unlink(path);
+    free(text.byte);
+    return status;
+}
+
+static rg_status conversions(const rg_memory *mem, counted *c)
+{
+    static const rg_format formats[] = {RG_FORMAT_OPX, RG_FORMAT_CP, RG_FORMAT_FOLD, RG_FORMAT_SVG, RG_FORMAT_DXF};
+    const long left = unlimited(c);
+    pot text = {NULL, 0};
+    const rg_sink in = {pour, &text};
+    size_t n = 0;
+    const rg_sink out = {drop, &n};
+    rg_reading r = rg_reading_default();
+    char path[] = "/tmp/rigami-alloc-XXXXXX";
+    const int fd = mkstemp(path);
+    assert_true(fd >= 0 && close(fd) == 0);
+    assert_int_equal(rg_generate_to("miura", 2, 0, 0, &in, NULL), RG_OK);
+    r.memory = mem;
+    limited(c, left);
+    rg_status status = RG_OK;
+    for (int k = 0; status == RG_OK && k < 5; k++) status = rg_convert_to(text.byte, text.n, formats[k], &out, &r, NULL, NULL, NULL);
+    if (status == RG_OK) status = rg_convert("patterns/fish.opx", path, RG_FORMAT_CP, &r, NULL, NULL, NULL);
+    unlink(path);
+    free(text.byte);
+    return status;
+}
+
+static rg_status what_is_known_to_files(const rg_memory *mem, counted *c)
+{
+    const long left = unlimited(c);
+    rg_pattern *p = generated_with(mem, "miura", 2);
+    char path[] = "/tmp/rigami-alloc-XXXXXX";
+    const int fd = mkstemp(path);
+    assert_true(fd >= 0 && close(fd) == 0);
+    limited(c, left);
+    rg_status status = rg_info_write(p, path, NULL);
+    if (status == RG_OK) status = rg_info_text(p, 1, path, NULL);
+    unlink(path);
+    rg_pattern_destroy(p);
+    return status;
+}
+
+/* Both say RG_EABSENT on a machine that cannot draw. */
+static rg_status single_pictures(const rg_memory *mem, counted *c)
+{
+    const long left = unlimited(c);
+    static unsigned char rgb[3 * 32 * 24];
+    rg_settings s = settings_with(mem);
+    rg_pattern *p = generated("fish", 0);
+    rg_picture picture = rg_picture_default();
+    rg_fold *f = NULL;
+    picture.width = 32, picture.height = 24;
+    assert_int_equal(rg_fold_create(p, &s, NULL, NULL, &f, NULL), RG_OK);
+    limited(c, left);
+    rg_status status = rg_motion_draw(rg_fold_motion(f), 2, &picture, rgb, NULL);
+    if (status == RG_OK) status = rg_fold_draw(f, &picture, rgb, NULL);
+    rg_fold_destroy(f);
+    rg_pattern_destroy(p);
+    return status;
+}
+
+static rg_status charts(const rg_memory *mem, counted *c)
+{
+    static const char *const forms[] = {".csv", ".svg", ".md"};
+    const long left = unlimited(c);
+    rg_settings s = settings_with(mem);
+    rg_pattern *p = generated("miura", 2);
+    rg_chart *chart = NULL;
+    size_t n = 0;
+    const rg_sink sink = {drop, &n};
+    char folder[] = "/tmp/rigami-alloc-XXXXXX", path[sizeof folder + 6];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/c.csv", folder);
+    s.frames = 3;
+    s.to = 0.3;
+    limited(c, left);
+    rg_status status = rg_chart_create(p, &s, NULL, NULL, &chart, NULL);
+    assert_int_equal(chart != NULL, status == RG_OK);
+    for (int k = 0; status == RG_OK && k < 3; k++) status = rg_chart_write_to(chart, "t", forms[k], &sink, NULL);
+    if (status == RG_OK) status = rg_chart_write(chart, "t", path, NULL);
+    rg_chart_destroy(chart);
+    unlink(path);
+    assert_int_equal(rmdir(folder), 0);
+    rg_pattern_destroy(p);
+    return status;
+}
+
 static void each_of_them(void **state)
 {
     (void)state;
@@ -205,6 +442,19 @@ static void each_of_them(void **state)
     refuse_everywhere(steered_fold, "rg_fold_drive");
     refuse_everywhere(driven_motion, "rg_motion_create_driven");
     refuse_everywhere(sinks, "sinks");
+    refuse_everywhere(patterns_compared_and_aimed, "rg_pattern_same_sheet");
+    refuse_everywhere(states_of_a_sheet, "rg_motion_create_states");
+    refuse_everywhere(motions_read_again, "rg_motion_read");
+    refuse_everywhere(certificates, "rg_certificate_create");
+    refuse_everywhere(conversions, "rg_convert");
+    refuse_everywhere(what_is_known_to_files, "rg_info_write");
+    refuse_at(charts, "rg_chart_create", MOST_OF_SLOW);
+    counted all = {1000000000, 0, 0};
+    const rg_memory mem = {counted_resize, &all};
+    if (ways_to_go(&mem, &all) == RG_EABSENT) print_message("SKIPPED: rg_motion_mobility: built with GPL=0\n");
+    else refuse_everywhere(ways_to_go, "rg_motion_mobility");
+    if (single_pictures(&mem, &all) == RG_EABSENT) print_message("SKIPPED: rg_motion_draw: nothing to draw with\n");
+    else refuse_everywhere(single_pictures, "rg_motion_draw");
 }
 
 int main(void)

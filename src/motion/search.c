@@ -282,7 +282,7 @@ static rg_status climb(rg_search *q, ladder *l, rg_diag *why)
             keep(q, l, best);
         }
     } else {
-        *why = l->why;
+        if (why) *why = l->why;
     }
     for (int32_t j = 0; j < l->jobs; j++) rg_attempt_free(&l->attempt[j]);
     rg_mem_free(&mem, l->attempt);
@@ -344,7 +344,7 @@ static rg_status retry(retries *R, int32_t *taken, rg_diag *why)
         const int counts = R->t[k].mem.resize && (k == 0 || R->is_chain == (*taken == 0));
         if (R->status[k] != RG_OK && s == RG_OK && (k == 0 || R->is_chain == (*taken == 0))) {
             s = R->status[k];
-            *why = R->why[k];
+            if (why) *why = R->why[k];
         }
         if (counts && s == RG_OK) {
             note(q, R->r->name, R->r->backwards, R->how[k].compliance, R->l->group[q->group].order, &R->t[k]);
