@@ -49,8 +49,7 @@ core_libs := -lcamd -lsuitesparseconfig -lpthread -lm
 libs     := $(shell pkg-config --libs $(pkgs) 2>/dev/null) -lgif -ldl $(core_libs)
 ifeq ($(GPL),1)
 cppflags += -DRG_GPL=1
-# GSL's own BLAS, and not one that CHOLMOD may bring: the sums of that depend on the machine. So it is kept though nothing of ours calls it.
-libs     := -lspqr -lcholmod -lgsl -Wl,--push-state,--no-as-needed -lgslcblas -Wl,--pop-state $(libs)
+libs     := -lgsl -lgslcblas $(libs)
 endif
 ifeq ($(WERROR),1)
 cflags   += -Werror
@@ -89,7 +88,7 @@ bench := tests/bench/speed.c $(filter-out tests/bench/speed.c,$(sort $(wildcard 
 lib_o := $(src:%.c=$B/%.o)
 # The core: the rooms that know neither files nor pictures, and of them no part that a GPL library does. The same objects but for those.
 above  := read save generate verify files render write chart
-gpl    := src/linalg/rank.c src/linalg/qr.c
+gpl    := src/linalg/rank.c
 core   := $(filter-out $(above:%=src/%/%),$(src))
 core_o := $(patsubst %.c,$B/%.o,$(filter-out $(gpl),$(core))) $(gpl:%.c=$B/core/%.o)
 cmd_o := $(cmd:%.c=$B/%.o)
@@ -163,10 +162,13 @@ $B/rigami: $(cmd_o) $B/librigami.a
 	$(call say,link,$@)
 	$Q$(link) -o $@ $^ $(libs) $(LDLIBS)
 
+# What tests and times are compared with.
+oracles := $(if $(filter 1,$(GPL)),-lspqr -lcholmod -lgsl -lgslcblas)
+
 # Tests see the library's inside, so they link the archive.
 $B/tests/test_%: $B/tests/test_%.o $B/librigami.a
 	$(call say,link,$@)
-	$Q$(link) -o $@ $(filter %.o %.a,$^) -lcmocka $(if $(filter 1,$(GPL)),-lgsl -lgslcblas) $(libs) $(LDLIBS)
+	$Q$(link) -o $@ $(filter %.o %.a,$^) -lcmocka $(oracles) $(libs) $(LDLIBS)
 
 $B/tests/stability: $B/tests/stability.o $B/librigami.a
 	$(call say,link,$@)
@@ -174,7 +176,7 @@ $B/tests/stability: $B/tests/stability.o $B/librigami.a
 
 $B/tests/bench/%: $B/tests/bench/%.o $B/librigami.a
 	$(call say,link,$@)
-	$Q$(link) -o $@ $^ $(libs) $(LDLIBS)
+	$Q$(link) -o $@ $^ $(oracles) $(libs) $(LDLIBS)
 
 # What the embedder sees: the examples know nothing but rigami.h.
 $B/docs/examples/%: $B/docs/examples/%.o $B/librigami.a

@@ -556,7 +556,7 @@ RG_API rg_status rg_motion_crease(const rg_motion *m, int32_t crease, rg_crease 
 RG_API int32_t rg_motion_crease_between(const rg_motion *m, int32_t v, int32_t w);
 RG_API int32_t rg_motion_crease_at(const rg_motion *m, const double x[2]);
 /* How many ways the sheet could go from a frame to first order: creases less the rank of C, where N - 3M is only a guess (3.2).
- * In flat and flat-folded frames more than it really can. RG_EARG: no such frame; RG_EABSENT: a build without SPQR; RG_ENOMEM. */
+ * In flat and flat-folded frames more than it really can. RG_EARG: no such frame; RG_ENOMEM. */
 RG_API rg_status rg_motion_mobility(const rg_motion *m, int32_t frame, int32_t *ways);
 /* The pattern of a frame, [vertices]: rg_sheet.flat unless creases were adjusted (3.3); borrowed; NULL: no such frame. */
 RG_API const double (*rg_motion_flat(const rg_motion *m, int32_t frame))[2];

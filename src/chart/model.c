@@ -18,7 +18,6 @@ rg_status rg_model_fold(rg_model *o, const rg_mesh *m, const rg_settings *s, int
     if (status == RG_OK) status = rg_run_make(&o->run, m, s, &way, NULL, &kept, why);
     if (status == RG_OK) status = rg_run_time(&o->run, m, s, PATIENCE, why);
     if (status == RG_OK) status = rg_mobility(m, NULL, kept.rho + (size_t)(kept.count / 2) * (size_t)m->N, &o->ways);
-    if (status == RG_EABSENT) status = RG_OK;
     for (int32_t k = 0; status == RG_OK && k < kept.count; k++)
         for (int32_t i = 0; i < m->N; i++) {
             const double rho = kept.rho[(size_t)k * (size_t)m->N + (size_t)i];

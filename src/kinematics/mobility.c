@@ -21,7 +21,7 @@ rg_status rg_mobility(const rg_mesh *m, const rg_vec2 *X, const double *rho, int
     rg_constraint K = {0};
     rg_scale S = {0};
     int32_t rank;
-    rg_status s = rg_qr_built() ? rg_constraint_init(&K, &m->mem, m) : RG_EABSENT;
+    rg_status s = rg_constraint_init(&K, &m->mem, m);
     if (s == RG_OK && X) s = set_pattern(&K, m, X);
     if (s == RG_OK) s = rg_scale_init(&S, &m->mem, &K.C);
     if (s == RG_OK) {

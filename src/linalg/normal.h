@@ -1,6 +1,6 @@
 /* normal.h -- L L^T = D + the sum of w_i a_i^T a_i over sparse rows a_i: the order and the pattern of L are found once, and serve
  * for as long as the rows that come and go fit into it; the weights change all the time.
- * Uses  supernodal.h rows.h        Used by  unfold/interior.c */
+ * Uses  supernodal.h rows.h        Used by  qr.c, unfold/interior.c */
 #ifndef RG_NORMAL_H
 #define RG_NORMAL_H
 

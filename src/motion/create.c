@@ -63,7 +63,7 @@ static rg_status explain(rg_motion *m, const rg_pattern *p)
     const double x = r->blocking_at[0][0], y = r->blocking_at[0][1];
     int32_t creases = 0, closed = 0, locked, at_limit, ways;
     const rg_status s = rg_motion_mobility(m, r->frame_count - 1, &ways);
-    if (s != RG_OK && s != RG_EABSENT) return s;
+    if (s != RG_OK) return s;
     for (int32_t i = 0; i < m->mesh.N - m->mesh.added; i++) {
         const int32_t *end = m->mesh.edge[m->mesh.crease_edge[i]];
         creases += end[0] == r->blocking_vertices[0] || end[1] == r->blocking_vertices[0];
@@ -75,8 +75,7 @@ static rg_status explain(rg_motion *m, const rg_pattern *p)
                        : m->settings.adjust == 0                      ? "adjusting creases may help"
                                                                       : "nothing known helps";
     size_t used = strlen(r->reason);
-    if (s == RG_OK)
-        used += (size_t)rg_text(r->reason + used, sizeof r->reason - used, "; ways the sheet could go to first order: %d", (int)ways);
+    used += (size_t)rg_text(r->reason + used, sizeof r->reason - used, "; ways the sheet could go to first order: %d", (int)ways);
     rg_text(r->reason + used, sizeof r->reason - used,
              "; held most at (%.6g, %.6g), a %svertex of %d creases (%d free); creases of the sheet locked flat: %d, at half a turn: %d; %s", x, y,
              closed ? "closed " : "", (int)creases, (int)(creases > 3 ? creases - 3 : 0), (int)locked, (int)at_limit, help);

@@ -421,10 +421,7 @@ static rg_status mobility(const rg_pattern *p, int32_t *ways)
     s.adjust = 0;
     rg_status status = rg_motion_create(p, &s, NULL, NULL, &m, NULL);
     if (status != RG_OK) return status == RG_ENOMEM ? status : RG_OK;
-    if (rg_motion_report(m)->outcome == RG_FOLDED) {
-        status = rg_motion_mobility(m, 1, ways);
-        if (status == RG_EABSENT) *ways = -1, status = RG_OK;
-    }
+    if (rg_motion_report(m)->outcome == RG_FOLDED) status = rg_motion_mobility(m, 1, ways);
     rg_motion_destroy(m);
     return status;
 }

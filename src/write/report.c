@@ -33,13 +33,6 @@ void rg_report_pattern(rg_json *j, const rg_pattern_info *info)
     rg_json_string(j, "author", info->author);
 }
 
-/* null: not known in this build. */
-static void mobility(rg_json *j, const char *key, int32_t ways)
-{
-    if (ways >= 0) rg_json_integer(j, key, ways);
-    else rg_json_number(j, key, NAN);
-}
-
 static void model(rg_json *j, const rg_motion *m, int32_t ways)
 {
     const rg_report *r = &m->report;
@@ -48,7 +41,7 @@ static void model(rg_json *j, const rg_motion *m, int32_t ways)
     rg_json_integer(j, "unknowns", r->unknowns);
     rg_json_integer(j, "constraints", r->constraints);
     rg_json_integer(j, "components", r->components);
-    mobility(j, "mobility", ways);
+    rg_json_integer(j, "mobility", ways);
     rg_json_string(j, "triangulation", r->triangulation);
     rg_json_string(j, "why_triangulated", r->why_triangulated);
     rg_json_close(j);
@@ -130,7 +123,7 @@ static void result(rg_json *j, const rg_motion *m, int32_t ways)
     rg_json_integer(j, "wrong_side_creases", r->wrong_side_creases);
     rg_json_number(j, "max_wrong_side_deg", r->max_wrong_side_deg);
     rg_json_integer(j, "wrong_side_frames", r->wrong_side_frames);
-    mobility(j, "mobility_at_end", ways);
+    rg_json_integer(j, "mobility_at_end", ways);
     blocking(j, r);
     rg_json_string(j, "layers", r->layers);
     rg_json_string(j, "layer_orders", r->layer_orders && *r->layer_orders ? r->layer_orders : NULL);
@@ -238,7 +231,7 @@ static rg_status write(const rg_motion *m, double seconds_writing, double peak_b
     rg_file out;
     rg_status s = rg_motion_mobility(m, r->frame_count / 2, &half_way);
     if (s == RG_OK) s = rg_motion_mobility(m, r->frame_count - 1, &at_end);
-    if (s == RG_ENOMEM) return rg_fail(s, why, 0, "out of memory for the report");
+    if (s != RG_OK) return rg_fail(s, why, 0, "out of memory for the report");
     s = rg_file_begin_to(&out, &m->mem, to, why);
     if (s != RG_OK) return s;
     rg_json_begin(&j, out.stream);
