@@ -806,6 +806,26 @@ static void examples_are_made(void **state)
     assert_true(json_integer_value(json_object_get(many, "creases")) > json_integer_value(json_object_get(few, "creases")));
     json_decref(few);
     json_decref(many);
+    /* In a size and a unit, in any format: the sheet's longer side, or that of a part. A Miura-ori's rhombs have the side asked for, a
+     * waterbomb's units the width. */
+    const struct { const char *kind, *option, *length, *file; double size, metres; } sized[] = {
+        {"bird", "--size", "150mm", "sized.fold", 150, 1e-3}, {"hypar", "--size", "8.5in", "sized.svg", 8.5, 0.0254},
+        {"crane", "--size", "0.25m", "sized.dxf", 0.25, 1}, {"miura", "--size", "37.5", "sized.cp", 37.5, 0},
+        {"waterbomb", "--cell", "2.5cm", "sized.fold", 15, 0.01}, {"hypar", "--cell", "3", "sized.opx", 48, 0}};
+    for (size_t i = 0; i < sizeof sized / sizeof *sized; i++) {
+        ends(0, run("gen", sized[i].kind, sized[i].option, sized[i].length, "-o", sized[i].file));
+        json_t *info = json_loads(ends(0, run("info", "--json", sized[i].file, "-q"))->out, 0, NULL);
+        near(json_number_value(json_object_get(info, "size")), sized[i].size, 1e-6 * sized[i].size);
+        near(json_number_value(json_object_get(info, "unit_metres")), sized[i].metres, 1e-9);
+        json_decref(info);
+        unlink(sized[i].file);
+    }
+    says(ends(0, run("gen", "miura", "--size", "3in", "-o", "sized.opx")), "rigami: sized.opx: warning: ", "unit");
+    says(ends(2, run("gen", "bird", "--cell", "3", "-o", "sized.opx")), "rigami: gen: ", "parts");
+    says(ends(2, run("gen", "miura", "--cell", "3", "--size", "4", "-o", "sized.opx")), "rigami: gen: ", "one of the two");
+    says(ends(2, run("gen", "miura", "--size", "3furlong", "-o", "sized.opx")), "rigami: --size: ", "3furlong");
+    says(ends(2, run("gen", "miura", "--size", "0", "-o", "sized.opx")), "rigami: --size: ", "0");
+    unlink("sized.opx");
 }
 
 static void patterns_are_converted(void **state)
@@ -838,7 +858,7 @@ static void patterns_are_converted(void **state)
     says(ends(2, run("convert", "good.opx", "-o", "lost.cp", "--as", "pdf")), "rigami: --as: ", "pdf");
     says(ends(2, run("convert", "missing.opx", "-o", "lost.cp")), "rigami: missing.opx: ", strerror(ENOENT));
     says(ends(3, run("convert", "good.opx", "-o", "nowhere/lost.cp")), "rigami: nowhere/lost.cp", strerror(ENOENT));
-    says(ends(2, run("gen", "miura", "-o", "lost.cp")), "rigami: ", "convert");
+    says(ends(2, run("gen", "miura", "-o", "lost.pdf")), "rigami: gen: lost.pdf: ", ".fold");
     assert_int_equal(names("lost."), 0);
 }
 

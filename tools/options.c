@@ -13,7 +13,7 @@
 #define DEG (3.14159265358979323846 / 180)
 
 /* How the value of an option is read, and where to. */
-typedef enum kind { SWITCH, WHOLE, REAL, ABOVE, CHOICE, TEXT, OUTPUT, KIND, FORM, PART, JOIN, FRAMES, SIZE, CAMERA, ADJUST, COLOURS, LINES, AIM } kind;
+typedef enum kind { SWITCH, WHOLE, REAL, ABOVE, CHOICE, TEXT, OUTPUT, KIND, FORM, PART, JOIN, FRAMES, SIZE, CAMERA, ADJUST, COLOURS, LINES, AIM, LENGTH } kind;
 
 typedef struct rule {
     int commands;            /* FOR_... */
@@ -147,7 +147,9 @@ static const rule rules[] = {
      "judge each motion as rigami verify does, from DIR/NAME.fold, which is written"},
     {FOR_BATCH, "fresh", 0, NULL, SWITCH, AT(fresh), 1, 0, 1, NULL, "do not go on from what DIR has"},
     {FOR_INFO | FOR_VERIFY, "json", 0, NULL, SWITCH, AT(json), 1, 0, 1, NULL, "print one JSON object instead of text"},
-    {FOR_GEN, "angle", 0, "DEG", ABOVE, AT(angle), 0, 180, DEG, NULL, "the kind's angle, degrees (its own)"},
+    {FOR_GEN, "angle", 0, "DEG", ABOVE, AT(example.angle), 0, 180, DEG, NULL, "the kind's angle, degrees (its own)"},
+    {FOR_GEN, "size", 0, "LENGTH", LENGTH, AT(example.side), 0, 1e9, 1, NULL, "the sheet's longer side, such as 150mm or 8.5in; without a unit the file says none (400)"},
+    {FOR_GEN, "cell", 0, "LENGTH", LENGTH, AT(example.cell), 0, 1e9, 1, NULL, "instead: the side of one part, see below"},
     {EVERY, "max-seconds", 0, "SEC", REAL, AT(seconds), 0.001, 1e9, 1, NULL,
      "end after so long, as if interrupted: what there is then is written (any)"},
     {EVERY, "max-memory", 0, "MB", REAL, AT(megabytes), 1, 1e9, 1, NULL, "do with so much address space (any)"},
@@ -308,6 +310,18 @@ static int set_lines(const rule *r, const char *text, rg_picture *p)
     return refuse(r, text, "creases, edges or none, and maybe a width from 0.1 to 10, such as edges,1.5");
 }
 
+/* A number and, if any, the name of a unit. */
+static int set_length(const rule *r, const char *text, options *o, double *to)
+{
+    const char *end;
+    double *unit = r->at == AT(example.side) ? &o->side_unit : &o->cell_unit;
+    if (!number(text, to, &end) || !(*to > r->low && *to <= r->high)) return refuse(r, text, "a length such as 150, 150mm or 8.5in");
+    *unit = 0;
+    for (int i = 1; *end && units[i]; i++)
+        if (strcmp(units[i], end) == 0) *unit = metres[i];
+    return *end && *unit == 0 ? refuse(r, text, "a length in mm, cm, m, in or pt, such as 150mm") : ENDS_WELL;
+}
+
 static int set_adjust(const rule *r, const char *text, rg_settings *s)
 {
     double v = strcmp(text, "auto") == 0 ? RG_ADJUST_AUTO : 0;
@@ -385,6 +399,7 @@ static int set(options *o, const rule *r, const char *text)
     case CAMERA: return set_camera(r, text, &o->picture);
     case ADJUST: return set_adjust(r, text, &o->settings);
     case COLOURS: return set_colours(r, text, to);
+    case LENGTH: return set_length(r, text, o, to);
     case LINES: return set_lines(r, text, &o->picture);
     default: return set_number(r, text, to);
     }
@@ -517,7 +532,7 @@ int options_parse(options *o, const command *c, int argc, char **argv)
 {
     struct option longs[RULES + 1];
     char shorts[3 * RULES + 3];
-    *o = (options){.settings = rg_settings_default(), .reading = rg_reading_default(), .picture = rg_picture_default(), .progress = -1, .pace = -1, .max_roll = INFINITY,
+    *o = (options){.settings = rg_settings_default(), .reading = rg_reading_default(), .picture = rg_picture_default(), .example = rg_example_default(), .progress = -1, .pace = -1, .max_roll = INFINITY,
                    .effort = RG_EFFORT_NORMAL};
     o->operand = calloc((size_t)argc + 1, sizeof *o->operand);
     o->output = calloc((size_t)argc + 1, sizeof *o->output);

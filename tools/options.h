@@ -17,7 +17,8 @@ typedef struct options {
     rg_settings settings;
     rg_reading reading;
     rg_picture picture;
-    double angle; /* of gen, radians; 0: the kind's own */
+    rg_example example; /* of gen */
+    double side_unit, cell_unit; /* the units that its lengths were said in, metres; 0: none */
     const char **operand, **output, **kind, **form; /* kind: of --line; form: of --write */
     int operands, outputs;
     frame_range *range;                                   /* of --frame: states in one file; one frame alone is in `settings` too */

@@ -43,15 +43,17 @@ static const command commands[] = {
      "for joining ends. Exit status: 0 when it was written; 2 when IN cannot be read; 3 when OUT\n"
      "cannot be written.\n",
      cmd_convert},
-    {"gen", FOR_GEN, "KIND [N [M]] -o OUT", 1, 3, "Writes an example crease pattern as .opx, of N by M parts.",
-     "What N, M and --angle are, with their usual values:\n"
-     "  miura      N columns, M rows of rhombs (8); their acute angle, 10 to 85 degrees (60)\n"
-     "  waterbomb  N by M units (6); between a diagonal and the rows, 30 to 80 degrees (45)\n"
-     "  yoshimura  N triangles in each of M rows (6); at their bases, 5 to 60 degrees (30)\n"
-     "  kresling   N sides (6), M storeys; between base and diagonal, 5 to 90 degrees\n"
-     "  hypar      N squares in each other (8); boxpleat: a grid of N by N (16); resch: N by M (3)\n"
+    {"gen", FOR_GEN, "KIND [N [M]] -o OUT", 1, 3, "Writes an example crease pattern of N by M parts, as .opx, .cp, .fold, .svg or .dxf.",
+     "What N, M, --angle and --cell are, with their usual values:\n"
+     "  miura      N columns, M rows of rhombs (8); their acute angle, 10 to 85 degrees (60); a side of one\n"
+     "  waterbomb  N by M units (6); between a diagonal and the rows, 30 to 80 degrees (45); a unit's width\n"
+     "  yoshimura  N triangles in each of M rows (6); at their bases, 5 to 60 degrees (30); a base\n"
+     "  kresling   N sides (6), M storeys; between base and diagonal, 5 to 90 degrees; a side\n"
+     "  hypar      N squares in each other (8); from one to the next\n"
+     "  boxpleat   a grid of N by N (16); its step\n"
+     "  resch      N by M (3) large triangles; a side of a small one\n"
      "  random     N by N rhombs (8), M the seed\n"
-     "The sheet's longer side is 400; rigami fold --unit says what 1 is.\n",
+     "Without --size and --cell the sheet's longer side is 400. A unit is said in .fold, .svg and .dxf.\n",
      cmd_gen},
     {"draw", FOR_DRAW, "MOTION.fold -o OUT [-o OUT]...", 1, 1, "Draws a motion that was written before, without folding.",
      "MOTION is a FOLD file with a flat crease pattern and frames that have vertices_coords: what rigami fold\n"

@@ -1,3 +1,4 @@
+#include "files/convert.h"
 #include "base/memory.h"
 #include "base/number.h"
 #include "base/settings.h"
@@ -333,8 +334,14 @@ static int is_written(rg_format f)
     return f == RG_FORMAT_OPX || f == RG_FORMAT_CP || f == RG_FORMAT_FOLD || f == RG_FORMAT_SVG || f == RG_FORMAT_DXF;
 }
 
-/* Of lines that were read, which are freed. */
-static rg_status pass_on(rg_lines *l, rg_format format, const rg_reading *r, const rg_dest *to, rg_warning warn, void *ctx, rg_diag *why)
+rg_status rg_convert_check(rg_format f, const char *out, rg_diag *why)
+{
+    if (is_written(f)) return RG_OK;
+    return rg_fail(RG_EARG, why, 0, strcmp(out, "-") == 0 ? "%s: standard output has no name to tell the format by"
+                                                          : "%s: crease patterns are written as .opx, .cp, .fold, .svg or .dxf", out);
+}
+
+rg_status rg_convert_lines(rg_lines *l, rg_format format, const rg_reading *r, const rg_dest *to, rg_warning warn, void *ctx, rg_diag *why)
 {
     rg_status s = r->progress && r->progress(r->progress_ctx, LINES_READ) ? rg_fail(RG_ECANCELLED, why, 0, "%s", rg_status_text(RG_ECANCELLED))
                   : l->count == 0 ? rg_fail(RG_EFORMAT, why, 0, "there are no lines") /* most formats have no such file */
@@ -353,11 +360,9 @@ rg_status rg_convert(const char *in, const char *out, rg_format to, const rg_rea
     rg_status s = rg_reading_take(given, &r, why);
     if (s != RG_OK) return s;
     if (to == RG_FORMAT_AUTO) to = rg_read_extension(out);
-    if (!is_written(to))
-        return rg_fail(RG_EARG, why, 0, strcmp(out, "-") == 0 ? "%s: standard output has no name to tell the format by"
-                                                              : "%s: crease patterns are written as .opx, .cp, .fold, .svg or .dxf", out);
+    if ((s = rg_convert_check(to, out, why)) != RG_OK) return s;
     s = rg_read_file(in, &r, to == RG_FORMAT_FOLD, &l, why);
-    return s == RG_OK ? pass_on(&l, to, &r, &(rg_dest){out, NULL}, warn, ctx, why) : s;
+    return s == RG_OK ? rg_convert_lines(&l, to, &r, &(rg_dest){out, NULL}, warn, ctx, why) : s;
 }
 
 rg_status rg_convert_to(const void *bytes, size_t size, rg_format to, const rg_sink *sink, const rg_reading *given, rg_warning warn, void *ctx,
@@ -368,5 +373,5 @@ rg_status rg_convert_to(const void *bytes, size_t size, rg_format to, const rg_s
     rg_status s = rg_reading_take(given, &r, why);
     if (s == RG_OK && !is_written(to)) s = rg_fail(RG_EARG, why, 0, "crease patterns are written as .opx, .cp, .fold, .svg or .dxf");
     if (s == RG_OK) s = rg_read_bytes(bytes, size, NULL, &r, to == RG_FORMAT_FOLD, &l, why);
-    return s == RG_OK ? pass_on(&l, to, &r, &(rg_dest){NULL, sink}, warn, ctx, why) : s;
+    return s == RG_OK ? rg_convert_lines(&l, to, &r, &(rg_dest){NULL, sink}, warn, ctx, why) : s;
 }

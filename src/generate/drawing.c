@@ -18,7 +18,7 @@ static rg_vec2 fitted(rg_vec2 p, rg_vec2 centre, double scale)
     return (rg_vec2){(p.x - centre.x) * scale, -((centre.y - p.y) * scale)};
 }
 
-void rg_drawing_fit(rg_sketch *d)
+void rg_drawing_fit(rg_sketch *d, double side, double cell)
 {
     rg_vec2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
     for (int32_t i = 0; i < d->lines->count; i++) {
@@ -27,7 +27,7 @@ void rg_drawing_fit(rg_sketch *d)
         high = (rg_vec2){fmax(high.x, fmax(l->a.x, l->b.x)), fmax(high.y, fmax(l->a.y, l->b.y))};
     }
     const rg_vec2 centre = {(low.x + high.x) / 2, (low.y + high.y) / 2};
-    const double scale = SHEET / fmax(high.x - low.x, high.y - low.y);
+    const double scale = cell > 0 ? cell : (side > 0 ? side : SHEET) / fmax(high.x - low.x, high.y - low.y);
     for (int32_t i = 0; i < d->lines->count; i++) {
         rg_line *l = &d->lines->line[i];
         l->a = fitted(l->a, centre, scale);

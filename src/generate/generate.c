@@ -17,28 +17,29 @@ typedef struct kind {
     void (*draw)(rg_sketch *d);
     range n, m;               /* m.usual = 0: as n */
     double from, to, usual;   /* angle, degrees; to = 0: it takes none; usual = 0: the kind's own choice */
+    double part;              /* how long the side of a part is drawn; 0: its parts are of many sizes */
 } kind;
 
 static const kind kinds[] = {
-    {"miura", "Miura-ori", rg_miura_draw, {2, LARGEST, 1, 8}, {2, LARGEST, 1, 0}, 10, 85, 60},
-    {"waterbomb", "Waterbomb tessellation", rg_waterbomb_draw, {1, LARGEST, 1, 6}, {1, LARGEST, 1, 0}, 30, 80, 45},
-    {"hypar", "Pleated hypar", rg_hypar_draw, {2, LARGEST, 1, 8}, {0}, 0, 0, 0},
-    {"boxpleat", "Box pleats", rg_boxpleat_draw, {4, LARGEST, 2, 16}, {0}, 0, 0, 0},
-    {"yoshimura", "Yoshimura pattern", rg_yoshimura_draw, {1, LARGEST, 1, 6}, {2, LARGEST, 1, 0}, 5, 60, 30},
-    {"resch", "Resch's triangles", rg_resch_draw, {1, LARGEST, 1, 3}, {1, LARGEST, 1, 0}, 0, 0, 0},
-    {"kresling", "Kresling pattern", rg_kresling_draw, {4, LARGEST, 1, 6}, {1, LARGEST, 1, 0}, 5, 90, 0},
-    {"random", "Random Miura-ori", rg_random_draw, {2, LARGEST, 1, 8}, {1, SEEDS, 1, 0}, 0, 0, 0},
-    {"preliminary", "Preliminary fold", rg_preliminary_draw, {0}, {0}, 0, 0, 0},
-    {"waterbomb-base", "Waterbomb base", rg_waterbomb_base_draw, {0}, {0}, 0, 0, 0},
-    {"fish", "Fish base", rg_fish_draw, {0}, {0}, 0, 0, 0},
-    {"bird", "Bird base", rg_bird_draw, {0}, {0}, 0, 0, 0},
-    {"frog", "Frog base", rg_frog_draw, {0}, {0}, 0, 0, 0},
-    {"four-crane", "Four-crane base", rg_four_crane_draw, {0}, {0}, 0, 0, 0},
-    {"open-sink", "Waterbomb base, open sink", rg_open_sink_draw, {0}, {0}, 0, 0, 0},
-    {"crane", "Crane", rg_crane_draw, {0}, {0}, 0, 0, 0},
-    {"tatou", "Tatou", rg_tatou_draw, {0}, {0}, 0, 0, 0},
-    {"closed-split", "Closed vertices that splitting frees", rg_closed_split_draw, {0}, {0}, 0, 0, 0},
-    {"closed-adjust", "Closed vertices that adjusting frees", rg_closed_adjust_draw, {0}, {0}, 0, 0, 0},
+    {"miura", "Miura-ori", rg_miura_draw, {2, LARGEST, 1, 8}, {2, LARGEST, 1, 0}, 10, 85, 60, 1},
+    {"waterbomb", "Waterbomb tessellation", rg_waterbomb_draw, {1, LARGEST, 1, 6}, {1, LARGEST, 1, 0}, 30, 80, 45, 2},
+    {"hypar", "Pleated hypar", rg_hypar_draw, {2, LARGEST, 1, 8}, {0}, 0, 0, 0, 1},
+    {"boxpleat", "Box pleats", rg_boxpleat_draw, {4, LARGEST, 2, 16}, {0}, 0, 0, 0, 1},
+    {"yoshimura", "Yoshimura pattern", rg_yoshimura_draw, {1, LARGEST, 1, 6}, {2, LARGEST, 1, 0}, 5, 60, 30, 1},
+    {"resch", "Resch's triangles", rg_resch_draw, {1, LARGEST, 1, 3}, {1, LARGEST, 1, 0}, 0, 0, 0, 1},
+    {"kresling", "Kresling pattern", rg_kresling_draw, {4, LARGEST, 1, 6}, {1, LARGEST, 1, 0}, 5, 90, 0, 1},
+    {"random", "Random Miura-ori", rg_random_draw, {2, LARGEST, 1, 8}, {1, SEEDS, 1, 0}, 0, 0, 0, 0},
+    {"preliminary", "Preliminary fold", rg_preliminary_draw, {0}, {0}, 0, 0, 0, 0},
+    {"waterbomb-base", "Waterbomb base", rg_waterbomb_base_draw, {0}, {0}, 0, 0, 0, 0},
+    {"fish", "Fish base", rg_fish_draw, {0}, {0}, 0, 0, 0, 0},
+    {"bird", "Bird base", rg_bird_draw, {0}, {0}, 0, 0, 0, 0},
+    {"frog", "Frog base", rg_frog_draw, {0}, {0}, 0, 0, 0, 0},
+    {"four-crane", "Four-crane base", rg_four_crane_draw, {0}, {0}, 0, 0, 0, 0},
+    {"open-sink", "Waterbomb base, open sink", rg_open_sink_draw, {0}, {0}, 0, 0, 0, 0},
+    {"crane", "Crane", rg_crane_draw, {0}, {0}, 0, 0, 0, 0},
+    {"tatou", "Tatou", rg_tatou_draw, {0}, {0}, 0, 0, 0, 0},
+    {"closed-split", "Closed vertices that splitting frees", rg_closed_split_draw, {0}, {0}, 0, 0, 0, 0},
+    {"closed-adjust", "Closed vertices that adjusting frees", rg_closed_adjust_draw, {0}, {0}, 0, 0, 0, 0},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -89,9 +90,10 @@ static rg_status set_title(rg_lines *l, const kind *k, int32_t n, int32_t m)
     return l->title ? RG_OK : RG_ENOMEM;
 }
 
-rg_status rg_generate_lines(const char *name, int32_t n, int32_t m, double angle, const rg_memory *mem, rg_lines *out,
-                            rg_diag *why)
+rg_status rg_generate_example(const char *name, const rg_example *e, const rg_memory *mem, rg_lines *out, rg_diag *why)
 {
+    int32_t n = e->n, m = e->m;
+    double angle = e->angle;
     rg_lines_init(out, mem);
     const kind *k = find(name);
     if (!k) return rg_fail(RG_EARG, why, 0, "there is no kind \"%.40s\"", name);
@@ -100,13 +102,20 @@ rg_status rg_generate_lines(const char *name, int32_t n, int32_t m, double angle
     if (s == RG_OK) s = check_number(name, 'M', &k->m, &m, why);
     if (s == RG_OK) s = check_angle(k, &angle, why);
     if (s != RG_OK) return s;
+    if (e->cell > 0 && k->part == 0) return rg_fail(RG_EARG, why, 0, "%s has no parts of one size: say how large the sheet is", name);
     rg_sketch d = {.lines = out, .n = n, .m = m, .angle = angle};
     k->draw(&d);
-    rg_drawing_fit(&d);
+    rg_drawing_fit(&d, e->side, k->part > 0 ? e->cell / k->part : 0);
+    out->metres = e->unit;
     s = d.status == RG_OK ? set_title(out, k, n, m) : d.status;
     if (s == RG_OK) return RG_OK;
     rg_lines_free(out);
     return rg_fail(s, why, 0, "out of memory");
+}
+
+rg_status rg_generate_lines(const char *name, int32_t n, int32_t m, double angle, const rg_memory *mem, rg_lines *out, rg_diag *why)
+{
+    return rg_generate_example(name, &(rg_example){.n = n, .m = m, .angle = angle}, mem, out, why);
 }
 
 static rg_status generate(const char *name, int32_t n, int32_t m, double angle, const rg_dest *to, rg_diag *why)

@@ -1,0 +1,44 @@
+#include "base/memory.h"
+#include "base/settings.h"
+#include "base/status.h"
+#include "files/convert.h"
+#include "generate/generate.h"
+#include "read/read.h"
+
+#include <string.h>
+
+static rg_example usual_example(void) { return (rg_example){.size = sizeof(rg_example)}; }
+
+void rg_example_init(rg_example *e, size_t size)
+{
+    const rg_example usual = usual_example();
+    rg_give(e, size, &usual, sizeof usual);
+}
+
+static rg_status take(const rg_example *given, rg_example *out, rg_diag *why)
+{
+    rg_example mine = usual_example();
+    const rg_status s = given ? rg_take(&mine, sizeof mine, given, given->size, sizeof mine, why) : RG_OK;
+    if (s != RG_OK) return s;
+    if (!(mine.side >= 0 && mine.side <= 1e9) || !(mine.cell >= 0 && mine.cell <= 1e9) || !(mine.unit >= 0 && mine.unit <= 1e9))
+        return rg_fail(RG_EARG, why, 0, "a length is above 0 and at most 1e9");
+    if (mine.side > 0 && mine.cell > 0) return rg_fail(RG_EARG, why, 0, "either the sheet's side or that of a part can be asked for");
+    *out = mine;
+    return RG_OK;
+}
+
+rg_status rg_example_write(const char *kind, const rg_example *given, const char *path, rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(NULL);
+    const rg_reading r = rg_reading_default();
+    rg_example e;
+    rg_lines lines;
+    rg_status s = take(given, &e, why);
+    if (s != RG_OK) return s;
+    if (e.format == RG_FORMAT_AUTO) e.format = rg_read_extension(path);
+    const char *slash = strrchr(path, '/');
+    if (e.format == RG_FORMAT_AUTO && !strchr(slash ? slash : path, '.')) e.format = RG_FORMAT_OPX;
+    s = rg_convert_check(e.format, path, why);
+    if (s == RG_OK) s = rg_generate_example(kind, &e, &mem, &lines, why);
+    return s == RG_OK ? rg_convert_lines(&lines, e.format, &r, &(rg_dest){path, NULL}, NULL, NULL, why) : s;
+}
