@@ -258,6 +258,7 @@ tutorial: all
 	@sh tools/check_tutorial $B/rigami
 
 header:
+	@! grep -n '.\{121\}' include/rigami.h
 	@clang -x c++ -std=c++11 -Wall -Wextra -Wpedantic -Werror -Iinclude -fsyntax-only tests/header.cpp
 	@clang -x c++ -std=c++17 -Wall -Wextra -Wpedantic -Werror -Iinclude -fsyntax-only tests/header.cpp
 	@echo "rigami.h is C++ too"

@@ -129,7 +129,6 @@ static int32_t rank_by_spqr(const rg_sparse *B)
     cholmod_l_finish(&cc);
     return (int32_t)rank;
 }
-#endif
 
 static rg_motion *motion_of(const char *kind, int32_t n, rg_triangulation triangulate)
 {
@@ -147,6 +146,7 @@ static rg_motion *motion_of(const char *kind, int32_t n, rg_triangulation triang
     rg_pattern_destroy(p);
     return m;
 }
+#endif
 
 /* Flat, on the way, folded flat; plates that go one way though they have more equations than creases, sheets cut up, some that stop. */
 static void folded_sheets_have_the_rank_that_spqr_finds(void **state)
