@@ -659,11 +659,11 @@ RG_API const rg_step_info *rg_fold_get_info(const rg_fold *f);
 RG_API const rg_step_info *rg_fold_step(rg_fold *f);
 RG_API const rg_step_info *rg_fold_step_back(rg_fold *f);
 /* To the state where progress is so much, 0 ... 100, or as far as the track goes. A state of the track is met to the
- * bit; between two, the state near their chord that closes. The first call allocates. RG_EARG: no such percent;
- * RG_ENOMEM. */
+ * bit; between two it is read off the path that the frames were read off, where that is kept, or off a polynomial
+ * through the states about it, and closed. The first call allocates. RG_EARG: no such percent; RG_ENOMEM. */
 RG_API rg_status rg_fold_go_to(rg_fold *f, double percent);
-/* To the nearest state of the track where that crease has that angle, looked for forwards first. RG_EARG: there is
- * none. */
+/* To the nearest state of the track where that crease has that angle, radians, looked for forwards first. RG_EARG:
+ * there is none. */
 RG_API rg_status rg_fold_go_to_angle(rg_fold *f, int32_t crease, double radians);
 
 /* ---- steering. What is set here changes what comes after the present state, and forgets the rest of the track.

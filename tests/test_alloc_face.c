@@ -40,6 +40,20 @@ static void refuse_at(call *f, const char *name, long most)
 
 static void refuse_everywhere(call *f, const char *name) { refuse_at(f, name, MOST_PLACES); }
 
+/* What is made first has all the memory there is; then as much as `c` had. */
+static long unlimited(counted *c)
+{
+    const long left = c->left;
+    c->left = 1000000000;
+    return left;
+}
+
+static void limited(counted *c, long left)
+{
+    c->left = left;
+    c->asked = 0;
+}
+
 /* With memory of its own. */
 static rg_pattern *generated(const char *kind, int32_t n)
 {
@@ -117,6 +131,25 @@ static rg_status moved_fold(const rg_memory *mem, counted *c)
     rg_snapshot_destroy(kept);
     rg_fold_destroy(g);
     rg_fold_destroy(f);
+    return status;
+}
+
+/* Between frames of a motion that was relaxed, and by an angle. */
+static rg_status read_off_a_path(const rg_memory *mem, counted *c)
+{
+    const long left = unlimited(c);
+    rg_settings s = settings_with(mem);
+    rg_pattern *p = generated("closed-split", 0);
+    rg_fold *f = NULL, *g = NULL;
+    assert_int_equal(rg_fold_create(p, &s, NULL, NULL, &f, NULL), RG_OK);
+    const double angle = (rg_motion_angles(rg_fold_motion(f), 2)[0] + rg_motion_angles(rg_fold_motion(f), 3)[0]) / 2;
+    limited(c, left);
+    rg_status status = rg_fold_clone(f, &g);
+    if (status == RG_OK) status = rg_fold_go_to(f, 37);
+    if (status == RG_OK) status = rg_fold_go_to_angle(g, 0, angle);
+    rg_fold_destroy(f);
+    rg_fold_destroy(g);
+    rg_pattern_destroy(p);
     return status;
 }
 
@@ -201,20 +234,6 @@ static rg_status sinks(const rg_memory *mem, counted *c)
 }
 
 /* ---------------------------------------------------------------------------------------- of what is there already ---- */
-
-/* What is made first has all the memory there is; then as much as `c` had. */
-static long unlimited(counted *c)
-{
-    const long left = c->left;
-    c->left = 1000000000;
-    return left;
-}
-
-static void limited(counted *c, long left)
-{
-    c->left = left;
-    c->asked = 0;
-}
 
 static rg_pattern *generated_with(const rg_memory *mem, const char *kind, int32_t n)
 {
@@ -461,6 +480,7 @@ static void each_of_them(void **state)
     refuse_everywhere(from_arrays, "rg_pattern_create");
     refuse_everywhere(generated_at_once, "rg_generate_pattern");
     refuse_everywhere(moved_fold, "rg_fold_create");
+    refuse_everywhere(read_off_a_path, "rg_fold_go_to");
     refuse_everywhere(steered_fold, "rg_fold_drive");
     refuse_everywhere(driven_motion, "rg_motion_create_driven");
     refuse_everywhere(sinks, "sinks");

@@ -310,6 +310,35 @@ static void between_frames(void **state)
     }
 }
 
+/* Where frames are does not matter between them: 37 % is what a motion with a frame there has, off the same path to the bit, where that knows
+ * of progress as it is counted here, to rounding where it has to be looked for, and where it went straight on as near as its frames tell. */
+static void frames_do_not_matter(void **state)
+{
+    (void)state;
+    static const struct { const char *kind; double off; } of[] = {{"tatou", 0}, {"closed-split", 0}, {"closed-adjust", 1e-10}, {"frog", 1e-9},
+                                                                    {"miura", 1e-12}, {"bird", 1e-11}, {"fish", 1e-8}, {"hypar", 1e-11}};
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
+        rg_settings s = rg_settings_default();
+        rg_pattern *p = generated(of[k].kind, 0);
+        rg_fold *f[2] = {NULL, NULL};
+        s.contact = RG_CONTACT_REPORT;
+        for (int i = 0; i < 2; i++) {
+            s.frames = i ? 101 : 60;
+            assert_int_equal(rg_fold_create(p, &s, NULL, NULL, &f[i], NULL), RG_OK);
+        }
+        for (int percent = 11; percent < 60; percent += 13) {
+            int32_t N;
+            for (int i = 0; i < 2; i++) assert_int_equal(rg_fold_go_to(f[i], percent), RG_OK);
+            assert_int_equal(rg_fold_get_info(f[0])->frame, -1);
+            if (of[k].off == 0) assert_int_equal(rg_fold_get_info(f[1])->frame, percent);
+            const double *a = rg_fold_angles(f[0], &N), *b = rg_fold_angles(f[1], &N);
+            for (int32_t i = 0; i < N; i++) near(a[i], b[i], of[k].off);
+        }
+        for (int i = 0; i < 2; i++) rg_fold_destroy(f[i]);
+        rg_pattern_destroy(p);
+    }
+}
+
 static double *angles(const rg_fold *f, size_t *bytes)
 {
     int32_t N;
@@ -464,7 +493,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_crease_of_a_miura_ori), cmocka_unit_test(back_through_flat), cmocka_unit_test(targets_pins_and_free_creases),
-        cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames),
+        cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames), cmocka_unit_test(frames_do_not_matter),
         cmocka_unit_test(kept_states), cmocka_unit_test(positions_and_transforms), cmocka_unit_test(recorded),
         cmocka_unit_test(steps_ask_for_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,8 +19,8 @@ void rg_attempt_free(rg_attempt *t)
     if (t->relax) rg_relax_free(t->relax);
     if (t->symmetry) rg_symmetry_free(t->symmetry);
     rg_mesh_free(&t->mesh);
-    void *block[] = {t->relax, t->symmetry, t->target, t->from, t->rho, t->flat, t->vertex, t->crease};
-    for (int i = 0; i < 8; i++) rg_mem_free(&t->mem, block[i]);
+    void *block[] = {t->relax, t->symmetry, t->target, t->from, t->rho, t->flat, t->due, t->vertex, t->crease};
+    for (int i = 0; i < 9; i++) rg_mem_free(&t->mem, block[i]);
     memset(t, 0, sizeof *t);
 }
 
@@ -493,7 +493,8 @@ void rg_attempt_forget_frames(rg_attempt *t)
     if (!t->relax) return;
     rg_mem_free(&t->mem, t->rho);
     rg_mem_free(&t->mem, t->flat);
-    t->rho = NULL, t->flat = NULL, t->count = 0;
+    rg_mem_free(&t->mem, t->due);
+    t->rho = t->due = NULL, t->flat = NULL, t->count = 0;
 }
 
 rg_status rg_attempt_read(rg_attempt *t, const rg_settings *settings)
@@ -505,7 +506,7 @@ rg_status rg_attempt_read(rg_attempt *t, const rg_settings *settings)
     if (!F || t->rho) return RG_OK;
     const double to = fabs(settings->to), last = F->node_s[F->nodes - 1];
     const double s0 = t->backwards ? 1 : 0, s1 = t->backwards ? 1 - to : t->outcome == RG_FOLDED ? fmin(last, to) : last;
-    double *due = rg_mem_array(&t->mem, (size_t)frames + 1, sizeof *due);
+    double *const due = t->due = rg_mem_array(&t->mem, (size_t)frames + 1, sizeof *due);
     t->rho = rg_mem_array(&t->mem, ((size_t)frames + 1) * (size_t)t->mesh.N, sizeof *t->rho);
     if (F->U > 0) t->flat = rg_mem_array(&t->mem, ((size_t)frames + 1) * (size_t)t->mesh.nv, sizeof *t->flat);
     rg_status s = due && t->rho && (t->flat || F->U == 0) ? RG_OK : RG_ENOMEM;
@@ -525,6 +526,5 @@ rg_status rg_attempt_read(rg_attempt *t, const rg_settings *settings)
             s = read_off(t, due);
         }
     }
-    rg_mem_free(&t->mem, due);
     return s;
 }

@@ -32,6 +32,7 @@ typedef struct rg_attempt {
     double *rho;              /* [count][mesh.N] frames; NULL: not read off yet */
     rg_vec2 *flat;            /* [count][mesh.nv] the pattern of each; NULL: that of the mesh */
     int32_t count;
+    double *due;              /* [count] progress of the path at each of them; NULL: they were not read off it */
     int is_read;              /* its frames were read off as they were found, evenly as is due, and cannot be again */
     rg_outcome outcome;
     char reason[200];

@@ -82,8 +82,8 @@ static rg_status explain(rg_motion *m, const rg_pattern *p)
     return RG_OK;
 }
 
-/* What the kept try has, becomes the motion's. */
-static rg_status adopt(rg_motion *m, rg_search *c)
+/* What the kept try has, becomes the motion's; its path, where it can be read off again, that of who asks for it (NULL: nobody). */
+static rg_status adopt(rg_motion *m, rg_search *c, rg_attempt *path)
 {
     rg_report *r = &m->report;
     rg_attempt *t = &c->best;
@@ -101,7 +101,11 @@ static rg_status adopt(rg_motion *m, rg_search *c)
     r->seconds_of_winning_try = t->cost.seconds;
     memset(&t->mesh, 0, sizeof t->mesh);
     t->target = t->from = t->rho = NULL, t->flat = NULL, t->vertex = t->crease = NULL;
-    rg_attempt_free(t); /* the path itself is not kept */
+    if (path && t->due) {
+        *path = *t;
+        memset(t, 0, sizeof *t);
+    }
+    rg_attempt_free(t);
 
     r->triangulation = c->triangulation;
     r->why_triangulated = c->why_triangulated;
@@ -157,8 +161,8 @@ static rg_status adopt_stages(rg_motion *m, rg_stages *q)
     return m->stages.vertex ? rg_source_follow(&m->source, m->mesh.nv, m->stages.vertex, m->mesh.ne, m->stages.edge) : RG_OK;
 }
 
-rg_status rg_motion_create(const rg_pattern *p, const rg_settings *given, rg_progress progress, void *ctx,
-                           rg_motion **motion, rg_diag *why)
+rg_status rg_motion_with_path(const rg_pattern *p, const rg_settings *given, rg_progress progress, void *ctx, rg_motion **motion,
+                              rg_attempt *path, rg_diag *why)
 {
     const double begun = rg_seconds();
     rg_settings mine, *const settings = &mine;
@@ -183,7 +187,7 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *given, rg_pro
     if (s == RG_OK) s = rg_unfolding_wanted(&search, &none, settings, &watch, &wanted, why);
     if (s == RG_OK && wanted) s = without_contact(&search, &stages, &none, settings, &watch, why);
     if (s == RG_OK) s = rg_attempt_read(&search.best, settings);
-    if (s == RG_OK) s = adopt(m, &search);
+    if (s == RG_OK) s = adopt(m, &search, path);
     if (s == RG_OK) s = adopt_stages(m, &stages);
     rg_motion_free_stages(&stages);
     if (s == RG_OK) rg_motion_lend(m);
@@ -204,12 +208,18 @@ rg_status rg_motion_create(const rg_pattern *p, const rg_settings *given, rg_pro
     }
     rg_mesh_free(&none);
     if (s != RG_OK) {
+        if (path) rg_attempt_free(path);
         rg_motion_destroy(m);
         return s == RG_ENOMEM ? rg_fail(s, why, 0, "out of memory") : s;
     }
     r->seconds_total = rg_seconds() - begun;
     *motion = m;
     return RG_OK;
+}
+
+rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_progress progress, void *ctx, rg_motion **motion, rg_diag *why)
+{
+    return rg_motion_with_path(p, settings, progress, ctx, motion, NULL, why);
 }
 
 /* ------------------------------------------------------------------------------------------ flat, to be steered ---- */

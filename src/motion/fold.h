@@ -1,17 +1,21 @@
 /* fold.h -- the handle behind rigami.h's rg_fold: a track of states, and the one that it stands on.
- * Uses  motion.h between.h steer.h        Used by  motion, write
+ * Uses  attempt.h between.h steer.h        Used by  motion, write
  *
  * The track is the motion's frames until somebody steers. Then the states that were passed are kept in a list of its own, whose last leg
  * grows step by step. Motions never change, so clones and snapshots share one. */
 #ifndef RG_FOLD_H
 #define RG_FOLD_H
 
+#include "motion/attempt.h"
 #include "motion/between.h"
-#include "motion/motion.h"
+
+#include <pthread.h>
 #include <stdatomic.h>
 
 typedef struct rg_shared {
     rg_motion *motion; /* owned by the last who lets go */
+    rg_attempt path;   /* what it was read off; due NULL: no path that can be read again */
+    pthread_mutex_t reading; /* reading works within the path */
     atomic_int holders;
 } rg_shared;
 
@@ -48,6 +52,8 @@ struct rg_fold {
     rg_place *place;    /* [nf] */
     rg_vec3 *x;         /* [nv] */
     double *theta;      /* [corners] scratch */
+    double *read;       /* [relax.n] what was read off the path; NULL: nothing yet */
+    double *guess;      /* [N] scratch; NULL: none yet */
     double closure, progress;
     int64_t solves, iterations; /* of the engines, before the present call */
     rg_step_info info;
@@ -76,6 +82,9 @@ rg_status rg_fold_make_steer(rg_fold *f);
 /* Sector angles of the present pattern, in f->theta. */
 const double *rg_fold_theta(rg_fold *f);
 
+/* As rg_motion_create. path: out, what can be read off again, its mesh that of the motion, to be freed before it; NULL: not asked for. */
+rg_status rg_motion_with_path(const rg_pattern *p, const rg_settings *s, rg_progress progress, void *ctx, rg_motion **motion,
+                              rg_attempt *path, rg_diag *why);
 /* Flat paper and nothing else, to be steered: facets as drawn, or all cut. */
 rg_status rg_motion_unfolded(const rg_pattern *p, const rg_settings *s, rg_motion **motion, rg_diag *why);
 

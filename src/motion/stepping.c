@@ -8,8 +8,8 @@
 
 #include <string.h>
 
-/* Progress between two states is met to this. */
-static const double SAME_PLACE = 1e-13;
+/* Progress between two states is met to this, or an angle; what is off by more, at a leap of the path, is not it. */
+static const double SAME_PLACE = 1e-13, NOT_THERE = 1e-11;
 static const int32_t SECANTS = 40;
 
 /* --------------------------------------------------------------------------------------------- the track ---- */
@@ -38,6 +38,8 @@ double rg_fold_progress(const rg_fold *f, int32_t k)
 void rg_shared_let_go(const rg_memory *mem, rg_shared *s)
 {
     if (!s || atomic_fetch_sub(&s->holders, 1) > 1) return;
+    rg_attempt_free(&s->path); /* on the motion's mesh */
+    pthread_mutex_destroy(&s->reading);
     rg_motion_destroy(s->motion);
     rg_mem_free(mem, s);
 }
@@ -50,8 +52,8 @@ void rg_fold_destroy(rg_fold *f)
     for (int i = 0; i < 2; i++)
         if (f->way[i]) rg_between_free(f->way[i]);
     void *block[] = {f->rho, f->flat, f->place, f->x, f->theta, f->track.rho, f->track.flat, f->track.progress, f->track.closure,
-                     f->ending.vertex, f->ending.crease, f->steer, f->way[0], f->way[1]};
-    for (int i = 0; i < 14; i++) rg_mem_free(&mem, block[i]);
+                     f->ending.vertex, f->ending.crease, f->read, f->guess, f->steer, f->way[0], f->way[1]};
+    for (int i = 0; i < 16; i++) rg_mem_free(&mem, block[i]);
     rg_shared_let_go(&mem, f->shared);
     rg_mem_free(&mem, f);
 }
@@ -81,15 +83,18 @@ rg_status rg_fold_on(rg_shared *shared, const rg_memory *mem, const rg_settings 
     return RG_OK;
 }
 
-/* Takes the motion over, also on failure. */
-static rg_status take_over(rg_motion *motion, const rg_memory *mem, const rg_settings *settings, rg_fold **fold)
+/* Takes motion and path over, also on failure. */
+static rg_status take_over(rg_motion *motion, rg_attempt *path, const rg_memory *mem, const rg_settings *settings, rg_fold **fold)
 {
     rg_shared *shared = rg_mem_array(mem, 1, sizeof *shared);
-    if (!shared) {
+    if (!shared || pthread_mutex_init(&shared->reading, NULL) != 0) {
+        rg_attempt_free(path);
         rg_motion_destroy(motion);
+        rg_mem_free(mem, shared);
         return RG_ENOMEM;
     }
     shared->motion = motion;
+    shared->path = *path;
     atomic_init(&shared->holders, 1);
     const rg_status s = rg_fold_on(shared, mem, settings, fold);
     rg_shared_let_go(mem, shared);
@@ -101,10 +106,11 @@ rg_status rg_fold_create(const rg_pattern *p, const rg_settings *given, rg_progr
     rg_settings settings;
     rg_motion *motion = NULL;
     rg_status s = rg_settings_take(given, &settings, why);
-    if (s == RG_OK) s = rg_motion_create(p, &settings, progress, ctx, &motion, why);
+    rg_attempt path = {0};
+    if (s == RG_OK) s = rg_motion_with_path(p, &settings, progress, ctx, &motion, &path, why);
     if (s != RG_OK) return s;
     const rg_memory mem = rg_mem_default(settings.memory);
-    s = take_over(motion, &mem, &settings, fold);
+    s = take_over(motion, &path, &mem, &settings, fold);
     return s == RG_OK ? s : rg_fail(s, why, 0, "%s", rg_status_text(s));
 }
 
@@ -112,12 +118,13 @@ rg_status rg_fold_create_flat(const rg_pattern *p, const rg_settings *given, rg_
 {
     rg_settings settings;
     rg_motion *motion = NULL;
+    rg_attempt none = {0};
     rg_fold *f = NULL;
     rg_status s = rg_settings_take(given, &settings, why);
     if (s == RG_OK) s = rg_motion_unfolded(p, &settings, &motion, why);
     if (s != RG_OK) return s;
     const rg_memory mem = rg_mem_default(settings.memory);
-    s = take_over(motion, &mem, &settings, &f);
+    s = take_over(motion, &none, &mem, &settings, &f);
     if (s == RG_OK) s = rg_fold_make_steer(f);
     if (s == RG_OK) s = rg_fold_own_track(f, 1);
     if (s != RG_OK) {
@@ -218,6 +225,7 @@ static double progress_of(const rg_fold *f, const double *rho)
 static rg_status make_way(rg_fold *f, int moves)
 {
     if (f->way[moves]) return RG_OK;
+    if (!f->guess && !(f->guess = rg_mem_array(&f->mem, (size_t)rg_fold_mesh(f)->N, sizeof *f->guess))) return RG_ENOMEM;
     rg_between *b = rg_mem_array(&f->mem, 1, sizeof *b);
     if (!b) return RG_ENOMEM;
     const rg_status s = rg_between_init(b, &f->mem, rg_fold_mesh(f), moves, &f->settings);
@@ -236,9 +244,56 @@ static rg_between *way_between(rg_fold *f, int32_t k)
     return make_way(f, moves) == RG_OK ? f->way[moves] : NULL;
 }
 
+/* Does the track bend nowhere, so that more than two of its states tell where it goes between them? */
+static int is_smooth(const rg_fold *f)
+{
+    const rg_report *r = &f->shared->motion->report;
+    return f->steered || (strcmp(r->method, "adaptive") == 0 && r->stages == 0);
+}
+
+/* The polynomial through the states about k and k + 1, SIDE of them on each side, as far as progress rises: its value at that part of the
+ * way between them, f->guess. Zero: it strays from their chord, which is better then. */
+static int follow(rg_fold *f, int32_t k, double part)
+{
+    enum { SIDE = 3 };
+    const int32_t N = rg_fold_mesh(f)->N;
+    const double *a = rg_fold_state(f, k), *b = rg_fold_state(f, k + 1);
+    const double s = rg_fold_progress(f, k) + part * (rg_fold_progress(f, k + 1) - rg_fold_progress(f, k));
+    int32_t first = k, last = k + 1;
+    double turn = 0;
+    while (first > 0 && k - first < SIDE - 1 && rg_fold_progress(f, first - 1) < rg_fold_progress(f, first)) first--;
+    while (last < rg_fold_states(f) - 1 && last - k < SIDE && rg_fold_progress(f, last) < rg_fold_progress(f, last + 1)) last++;
+    for (int32_t i = 0; i < N; i++) f->guess[i] = 0;
+    for (int32_t j = first; j <= last; j++) {
+        const double *rho = rg_fold_state(f, j);
+        double w = 1;
+        for (int32_t l = first; l <= last; l++)
+            if (l != j) w *= (s - rg_fold_progress(f, l)) / (rg_fold_progress(f, j) - rg_fold_progress(f, l));
+        for (int32_t i = 0; i < N; i++) f->guess[i] += w * rho[i];
+    }
+    for (int32_t i = 0; i < N; i++) turn = fmax(turn, fabs(b[i] - a[i]));
+    for (int32_t i = 0; i < N; i++)
+        if (!(fabs(f->guess[i] - (a[i] + part * (b[i] - a[i]))) <= turn)) return 0;
+    return 1;
+}
+
+/* The state at that part of the way from k to k + 1 in which crease c has the angle, NAN: that which it has there. */
 static double at_part(rg_fold *f, rg_between *b, int32_t k, double part, int32_t c, double angle)
 {
-    return rg_between_at(b, rg_fold_state(f, k), rg_fold_pattern(f, k), rg_fold_state(f, k + 1), rg_fold_pattern(f, k + 1), part, c, angle);
+    const rg_vec2 *X = rg_fold_pattern(f, k), *Y = rg_fold_pattern(f, k + 1);
+    const double *from = rg_fold_state(f, k), *to = rg_fold_state(f, k + 1);
+    if (!b->moves && is_smooth(f) && follow(f, k, part)) return rg_between_at(b, f->guess, X, f->guess, X, 0, c, isnan(angle) ? f->guess[c] : angle);
+    return rg_between_at(b, from, X, to, Y, part, c, isnan(angle) ? from[c] + part * (to[c] - from[c]) : angle);
+}
+
+/* What is now the present state, between states k and k + 1. */
+static void stand_at(rg_fold *f, int32_t k, double closure)
+{
+    f->at = k;
+    f->between = 1;
+    f->closure = closure;
+    f->progress = progress_of(f, f->rho);
+    rg_fold_look(f);
 }
 
 /* What is in b becomes the present state; where it did not close, the nearer one of the track. */
@@ -251,11 +306,41 @@ static void stand_between(rg_fold *f, const rg_between *b, int32_t k, double par
     }
     memcpy(f->rho, b->z, (size_t)m->N * sizeof *f->rho);
     memcpy(f->flat, b->flat, (size_t)m->nv * sizeof *f->flat);
-    f->at = k;
-    f->between = 1;
-    f->closure = closure;
-    f->progress = progress_of(f, f->rho);
-    rg_fold_look(f);
+    stand_at(f, k, closure);
+}
+
+/* Off the path itself, between frames k and k + 1, where crease c has the angle `goal`; c -1: where that is progress. *found zero: there is
+ * no path to read, or it leaps over that place. What is read depends on the place alone, not on where frames are. RG_ENOMEM. */
+static rg_status find_on_path(rg_fold *f, int32_t k, int32_t c, double goal, int *found)
+{
+    rg_shared *of = f->shared;
+    rg_relax *F = of->path.relax;
+    *found = 0;
+    if (f->steered || !of->path.due) return RG_OK;
+    if (!f->read && !(f->read = rg_mem_array(&f->mem, (size_t)F->n, sizeof *f->read))) return RG_ENOMEM;
+    const double *due = of->path.due;
+    double low = due[k], high = due[k + 1], off_low = (c < 0 ? rg_fold_progress(f, k) : rg_fold_state(f, k)[c]) - goal;
+    double off_high = (c < 0 ? rg_fold_progress(f, k + 1) : rg_fold_state(f, k + 1)[c]) - goal, off = NAN, closure = NAN;
+    for (int32_t n = 0; n < SECANTS && !(fabs(off) <= SAME_PLACE); n++) {
+        const double straight = of->path.backwards ? 1 - goal : goal; /* as frames are, where they are even in it */
+        double s = low - off_low * (high - low) / (off_high - off_low);
+        if (n == 0 && c < 0 && (straight - low) * (high - straight) > 0) s = straight;
+        else if (n % 4 == 3) s = (low + high) / 2;
+        pthread_mutex_lock(&of->reading);
+        closure = rg_relax_at(F, s, f->read);
+        pthread_mutex_unlock(&of->reading);
+        off = (c < 0 ? progress_of(f, f->read) : f->read[c]) - goal;
+        if (!(closure <= F->tol) || s == low || s == high) break;
+        if (off * off_low > 0) low = s, off_low = off;
+        else high = s, off_high = off;
+    }
+    if (!(closure <= F->tol && fabs(off) <= NOT_THERE)) return RG_OK;
+    memcpy(f->rho, f->read, (size_t)F->N * sizeof *f->rho);
+    if (F->U > 0) rg_freedom_move(&F->freedom, f->read + F->N, f->flat);
+    else memcpy(f->flat, rg_fold_pattern(f, k), (size_t)rg_fold_mesh(f)->nv * sizeof *f->flat);
+    stand_at(f, k, closure);
+    *found = 1;
+    return RG_OK;
 }
 
 /* Between states k and k + 1, at that progress: the crease that turns most leads. */
@@ -264,6 +349,9 @@ static rg_status find_progress(rg_fold *f, int32_t k, double goal)
     const double *a = rg_fold_state(f, k), *b = rg_fold_state(f, k + 1);
     double low = 0, high = 1, at_low = rg_fold_progress(f, k), at_high = rg_fold_progress(f, k + 1), part = 0, closure = NAN;
     int32_t c = 0;
+    int found;
+    const rg_status s = find_on_path(f, k, -1, goal, &found);
+    if (s != RG_OK || found) return s;
     rg_between *way = way_between(f, k);
     if (!way) return RG_ENOMEM;
     for (int32_t i = 1; i < rg_fold_mesh(f)->N; i++)
@@ -271,11 +359,11 @@ static rg_status find_progress(rg_fold *f, int32_t k, double goal)
     for (int32_t n = 0; n < SECANTS; n++) {
         part = low + (high - low) * (goal - at_low) / (at_high - at_low);
         if (n % 4 == 3) part = (low + high) / 2; /* where the secant creeps */
-        closure = at_part(f, way, k, part, c, a[c] + part * (b[c] - a[c]));
-        const double s = isnan(closure) ? NAN : progress_of(f, way->z);
-        if (!(fabs(s - goal) > SAME_PLACE)) break;
-        if (s < goal) low = part, at_low = s;
-        else high = part, at_high = s;
+        closure = at_part(f, way, k, part, c, NAN);
+        const double is = isnan(closure) ? NAN : progress_of(f, way->z);
+        if (!(fabs(is - goal) > SAME_PLACE)) break;
+        if (is < goal) low = part, at_low = is;
+        else high = part, at_high = is;
     }
     stand_between(f, way, k, part, closure);
     return RG_OK;
@@ -287,7 +375,7 @@ rg_status rg_fold_go_to(rg_fold *f, double percent)
     if (!(goal >= 0 && goal <= 1)) return RG_EARG;
     if (f->aimed) rg_fold_advance(f);
     for (int32_t k = f->first;; k++) {
-        if (rg_fold_progress(f, k) == goal) {
+        if (fabs(rg_fold_progress(f, k) - goal) <= SAME_PLACE) {
             rg_fold_stand(f, k);
             return RG_OK;
         }
@@ -306,6 +394,20 @@ static int passes(const rg_fold *f, int32_t k, int32_t c, double angle)
     return (a - angle) * (b - angle) <= 0 && a != b;
 }
 
+/* Which part of the way from k to k + 1 that is, of which the chord says `part`. */
+static double part_at(rg_fold *f, int32_t k, int32_t c, double angle, double part)
+{
+    double low = 0, high = 1, off_low = rg_fold_state(f, k)[c] - angle, off_high = rg_fold_state(f, k + 1)[c] - angle, x = part;
+    for (int32_t n = 0; n < SECANTS && is_smooth(f) && follow(f, k, x); n++) {
+        const double off = f->guess[c] - angle;
+        if (fabs(off) <= SAME_PLACE) break;
+        if (off * off_low > 0) low = x, off_low = off;
+        else high = x, off_high = off;
+        x = n % 4 == 3 ? (low + high) / 2 : low - off_low * (high - low) / (off_high - off_low);
+    }
+    return x;
+}
+
 static rg_status stand_at_angle(rg_fold *f, int32_t k, int32_t c, double angle)
 {
     const double a = rg_fold_state(f, k)[c], b = rg_fold_state(f, k + 1)[c], part = (angle - a) / (b - a);
@@ -313,9 +415,16 @@ static rg_status stand_at_angle(rg_fold *f, int32_t k, int32_t c, double angle)
         rg_fold_stand(f, angle == a ? k : k + 1);
         return RG_OK;
     }
-    rg_between *way = way_between(f, k);
+    int found;
+    const rg_status s = find_on_path(f, k, c, angle, &found);
+    rg_between *way = s == RG_OK ? way_between(f, k) : NULL;
     if (!way) return RG_ENOMEM;
-    stand_between(f, way, k, part, at_part(f, way, k, part, c, angle));
+    if (found) { /* and by rounding to the angle itself */
+        const double closure = rg_between_at(way, f->rho, f->flat, f->rho, f->flat, 0, c, angle);
+        if (!isnan(closure)) stand_between(f, way, k, part, closure);
+        return RG_OK;
+    }
+    stand_between(f, way, k, part, at_part(f, way, k, part_at(f, k, c, angle, part), c, angle));
     return RG_OK;
 }
 
