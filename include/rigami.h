@@ -795,13 +795,15 @@ RG_API rg_status rg_generate_to(const char *kind, int32_t n, int32_t m, double a
 RG_API rg_status rg_generate_pattern(const char *kind, int32_t n, int32_t m, double angle, const rg_reading *r,
                                      rg_pattern **pattern, rg_diag *why);
 
-/* An example in a size, a unit and a format. Start from rg_example_default(); NULL where one is asked for is the same. */
+/* An example in a size, a unit and a format. Start from rg_example_default(); NULL where one is asked for is the
+ * same. */
 typedef struct rg_example {
     size_t size;      /* of this struct, as the caller has it */
     int32_t n, m;     /* as for rg_generate */
     double angle;     /* the same */
     double side;      /* the sheet's longer side, in units of the file; 0: 400 */
-    double cell;      /* instead of it the side of a part, which is what rigami gen --help says for each kind; 0: by `side` */
+    double cell;      /* instead of it the side of a part, which is what rigami gen --help says for each kind; 0: by
+                       * `side` */
     double unit;      /* metres in a unit of the file, 0: it says none */
     rg_format format; /* of what is written; AUTO: by the path's extension, .opx where it has none */
 } rg_example;

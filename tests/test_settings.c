@@ -12,6 +12,7 @@
 #include "near.h"
 
 #include "base/settings.h"
+#include "base/vec.h"
 #include "render/picture.h"
 
 #include <float.h>
@@ -34,6 +35,7 @@ typedef struct member {
 #define WHOLE(type, m, low, high) {AT(type, m), INT, low, high, 0, low}
 #define REAL(type, m, low, high) {AT(type, m), DOUBLE, low, high, 0, low}
 static const double PI = 3.14159265358979323846;
+enum { LARGEST = 512 };
 
 /* ------------------------------------------------------------------------------------------------ the tables ---- */
 
@@ -119,6 +121,17 @@ static const member DRAWING[] = {
     BORROWED(rg_drawing, author),
 };
 
+static const member EXAMPLE[] = {
+    {AT(rg_example, size), SIZE, 0, 0, 0, 0},
+    {AT(rg_example, n), INT, 2, LARGEST, 0, 0}, /* of a Miura-ori */
+    {AT(rg_example, m), INT, 2, LARGEST, 0, 0},
+    {AT(rg_example, angle), DOUBLE, (10 - 1e-9) * RG_DEG, (85 + 1e-9) * RG_DEG, 0, 0}, /* rounded */
+    REAL(rg_example, side, 0, 1e9),
+    REAL(rg_example, cell, 0, 1e9),
+    REAL(rg_example, unit, 0, 1e9),
+    WHOLE(rg_example, format, 0, RG_FORMAT_DXF), /* those that are written */
+};
+
 /* ------------------------------------------------------------------------------------------- what takes them ---- */
 
 static rg_status take_settings(const void *s, rg_diag *why)
@@ -143,6 +156,13 @@ static rg_status take_drawing(const void *s, rg_diag *why)
 {
     rg_drawing out;
     return rg_drawing_take(s, &out, why);
+}
+
+/* Nothing but the folder is wrong then. */
+static rg_status take_example(const void *e, rg_diag *why)
+{
+    const rg_status s = rg_example_write("miura", e, "/nowhere/x.opx", why);
+    return s == RG_EWRITE ? RG_OK : s;
 }
 
 static rg_pattern *square(void)
@@ -243,6 +263,13 @@ static void drawing_is_refused(const void *bad)
     assert_null(p);
 }
 
+static void example_is_refused(const void *bad)
+{
+    rg_diag why = {0, ""};
+    assert_int_equal(rg_example_write("miura", bad, "/nowhere/x.opx", &why), RG_EARG);
+    assert_true(why.text[0]);
+}
+
 /* ------------------------------------------------------------------------------------------------- each of all ---- */
 
 typedef struct kind_of_struct {
@@ -260,6 +287,7 @@ static const kind_of_struct KINDS[] = {
     STRUCT(rg_reading, READING, take_reading, reading_is_refused),
     STRUCT(rg_picture, PICTURE, take_picture, picture_is_refused),
     STRUCT(rg_drawing, DRAWING, take_drawing, drawing_is_refused),
+    STRUCT(rg_example, EXAMPLE, take_example, example_is_refused),
 };
 enum { KINDS_HERE = sizeof KINDS / sizeof *KINDS };
 
@@ -268,6 +296,7 @@ typedef union any_struct {
     rg_reading reading;
     rg_picture picture;
     rg_drawing drawing;
+    rg_example example;
 } any_struct;
 
 /* In range, but for what is in arrays, which are so long. */
@@ -283,6 +312,7 @@ static void usual(int k, any_struct *s)
         s->picture = rg_picture_default();
         s->picture.targeted = s->picture.aimed = 1;
         break;
+    case 4: s->example = rg_example_default(); break;
     default:
         s->drawing = rg_drawing_default();
         s->drawing.vertices = 1, s->drawing.at = at, s->drawing.edges = 1, s->drawing.ends = ends, s->drawing.assignment = "B";
@@ -340,6 +370,7 @@ static void numbers_in_and_out_of_range(void **state)
                 any_struct s;
                 rg_diag why = {0, ""};
                 if (KINDS[k].member == DRAWING && m->kind == INT && x[j] > ROOM) continue;
+                if (KINDS[k].member == EXAMPLE && x[j] == LARGEST) continue; /* which takes its time */
                 usual(k, &s);
                 put(&s, m, x[j]);
                 const int in = m->kind == ANY_INT || is_in(m, x[j]);
