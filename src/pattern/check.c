@@ -46,10 +46,11 @@ static double targets_miss(const struct rg_pattern *p, int32_t v, const double *
         const double rho = p->E[star[i]].target;
         if (!isfinite(rho)) return 0;
         is_flat &= fabs(rho) == RG_PI;
-        F = rg_mat3_mul(F, over_crease(rho, theta[i]));
     }
+    if (is_flat) return 0;
+    for (int32_t i = 0; i < n; i++) F = rg_mat3_mul(F, over_crease(p->E[star[i]].target, theta[i]));
     const rg_vec3 twice = {F.c[1].z - F.c[2].y, F.c[2].x - F.c[0].z, F.c[0].y - F.c[1].x};
-    return is_flat ? 0 : atan2(rg_vec3_length(twice), F.c[0].x + F.c[1].y + F.c[2].z - 1);
+    return atan2(rg_vec3_length(twice), F.c[0].x + F.c[1].y + F.c[2].z - 1);
 }
 
 /* The sector that is strictly the smallest among its neighbours has its two creases folded the same way: they would shut

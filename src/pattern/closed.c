@@ -19,6 +19,14 @@ static void far_end(const struct rg_pattern *p, int32_t v, int32_t e, double x[2
     x[1] = at.y;
 }
 
+/* Whether the assignments alone leave it possible: the angles of most vertices are not asked for. */
+static int may_close(const struct rg_pattern *p, const int32_t *star, int32_t n)
+{
+    for (int32_t i = 0; i < n; i++)
+        if (rg_closed_inside(p->E[star[i]].assignment, p->E[star[(i + 1) % n]].assignment, p->E[star[(i + 2) % n]].assignment, 0, 0)) return 1;
+    return 0;
+}
+
 rg_status rg_closed_find(struct rg_pattern *p)
 {
     size_t room = 0;
@@ -27,7 +35,7 @@ rg_status rg_closed_find(struct rg_pattern *p)
     if (!theta) return RG_ENOMEM;
     for (int32_t v = 0; s == RG_OK && v < p->nv; v++) {
         const int32_t *star = p->star + p->star_start[v], n = p->star_start[v + 1] - p->star_start[v];
-        if (p->rim[v] || n < 3) continue;
+        if (p->rim[v] || n < 3 || !may_close(p, star, n)) continue;
         rg_check_sectors(p, v, theta);
         int found = 0;
         for (int32_t i = 0; s == RG_OK && i < n; i++) {

@@ -6,6 +6,8 @@
 static const double SAME_TARGET = 1e-6;
 /* Vertices moved in all that is tried: a second's work, enough for every place in a ring of 1,400. */
 static const int64_t MOST_MOVED = 4000000;
+/* In so many tries vertices are looked for one by one, before they are put in order. */
+enum { TRIES_UNSORTED = 8 };
 /* Vertices are sorted along a direction in which few are side by side. */
 static const double ACROSS_X = 0.3302, ACROSS_Y = 0.9439;
 
@@ -23,6 +25,7 @@ typedef struct search {
     int32_t *vertex_to, *edge_to; /* [nv], [ne] where each of them goes */
     int32_t *taken;               /* [nv] the last try in which a vertex went there */
     int32_t tries;
+    int sorted; /* what is searched in is put in order when something is first looked for there */
 } search;
 
 static double along(rg_vec2 x) { return ACROSS_X * x.x + ACROSS_Y * x.y; }
@@ -78,13 +81,41 @@ static char exchanged(char assignment)
     return assignment == RG_MOUNTAIN ? RG_VALLEY : assignment == RG_VALLEY ? RG_MOUNTAIN : assignment;
 }
 
+static void sort(search *s)
+{
+    if (s->sorted) return;
+    for (int32_t v = 0; v < s->nv; v++) s->spots[v] = (spot){along(from_middle(s, v)), v};
+    for (int32_t e = 0; e < s->ne; e++) s->edges[e] = ends_of(s->E[e].v[0], s->E[e].v[1], e);
+    qsort(s->spots, (size_t)s->nv, sizeof *s->spots, by_along);
+    qsort(s->edges, (size_t)s->ne, sizeof *s->edges, by_ends);
+    s->sorted = 1;
+}
+
+static rg_vec2 image(const search *s, const rg_map *g, int32_t v)
+{
+    const rg_vec2 x = from_middle(s, v);
+    const double y = g->mirror ? -x.y : x.y;
+    return (rg_vec2){g->c * x.x - g->s * y, g->s * x.x + g->c * y};
+}
+
+/* Whether some vertex is there, found without any order. */
+static int is_there(const search *s, rg_vec2 x)
+{
+    for (int32_t v = 0; v < s->nv; v++) {
+        const rg_vec2 off = rg_vec2_sub(from_middle(s, v), x);
+        if (fabs(off.x) <= s->tol && fabs(off.y) <= s->tol) return 1;
+    }
+    return 0;
+}
+
 static int move_vertices(search *s, const rg_map *g)
 {
     s->tries++;
+    /* Most drawings have no symmetry, and do not have to be put in order to see it. */
+    if (!s->sorted && s->tries <= TRIES_UNSORTED && !(is_there(s, image(s, g, s->nv / 2)) && is_there(s, image(s, g, s->nv / 3)))) return 0;
+    sort(s);
     for (int32_t v = 0; v < s->nv; v++) {
-        const rg_vec2 x = from_middle(s, v);
-        const double y = g->mirror ? -x.y : x.y;
-        const int32_t to = vertex_at(s, (rg_vec2){g->c * x.x - g->s * y, g->s * x.x + g->c * y});
+        const int32_t to = vertex_at(s, image(s, g, v));
         if (to < 0 || s->taken[to] == s->tries) return 0;
         s->taken[to] = s->tries;
         s->vertex_to[v] = to;
@@ -127,24 +158,41 @@ static rg_status keep(rg_maps *g, room *r, const search *s, const rg_map *map)
 }
 
 /* Wherever the furthest vertex may go, turned or mirrored: y = (c + i s) x, or (c + i s) times the conjugate of x. */
+static rg_status keep_identity(rg_maps *g, room *r, search *s)
+{
+    for (int32_t v = 0; v < s->nv; v++) s->vertex_to[v] = v;
+    for (int32_t e = 0; e < s->ne; e++) s->edge_to[e] = e;
+    return keep(g, r, s, &(rg_map){1, 0, 0, 1});
+}
+
 static rg_status try_all(rg_maps *g, search *s)
 {
     int32_t furthest = 0;
     int64_t moved = 0;
     room r = {0, 0, 0};
-    for (int32_t v = 1; v < s->nv; v++)
-        if (rg_vec2_length(from_middle(s, v)) > rg_vec2_length(from_middle(s, furthest))) furthest = v;
+    double most = -1;
+    for (int32_t v = 0; v < s->nv; v++) {
+        const rg_vec2 y = from_middle(s, v);
+        const double square = rg_vec2_dot(y, y);
+        if (square > most) most = square, furthest = v;
+    }
     const rg_vec2 x = from_middle(s, furthest);
     const double far = rg_vec2_length(x);
     if (!(far > 2 * s->tol)) return RG_OK;
     for (int32_t n = 0; n <= s->nv && moved < MOST_MOVED; n++) { /* to itself first, so that the one by nothing is the first */
         const int32_t v = n == 0 ? furthest : n - 1;
         const rg_vec2 y = from_middle(s, v);
+        if (!(fabs(y.x) + fabs(y.y) >= far - 2 * s->tol)) continue; /* most lie nearer */
         const double length = rg_vec2_length(y);
         if ((n > 0 && v == furthest) || !(fabs(length - far) <= s->tol)) continue;
         moved += 2 * (int64_t)s->nv;
         for (int mirror = 0; mirror < 2; mirror++) {
             const double xy = mirror ? -x.y : x.y, both = far * length;
+            if (n == 0 && !mirror) {
+                const rg_status status = keep_identity(g, &r, s);
+                if (status != RG_OK) return status;
+                continue;
+            }
             rg_map map = {(x.x * y.x + xy * y.y) / both, (x.x * y.y - xy * y.x) / both, mirror, 0};
             if (!applies(s, &map) || s->vertex_to[furthest] != v) continue;
             const rg_status status = keep(g, &r, s, &map);
@@ -160,10 +208,6 @@ static void fill(search *s)
         s->middle.x += s->X[v].x / s->nv;
         s->middle.y += s->X[v].y / s->nv;
     }
-    for (int32_t v = 0; v < s->nv; v++) s->spots[v] = (spot){along(from_middle(s, v)), v};
-    for (int32_t e = 0; e < s->ne; e++) s->edges[e] = ends_of(s->E[e].v[0], s->E[e].v[1], e);
-    qsort(s->spots, (size_t)s->nv, sizeof *s->spots, by_along);
-    qsort(s->edges, (size_t)s->ne, sizeof *s->edges, by_ends);
 }
 
 rg_status rg_maps_find(rg_maps *g, const rg_memory *mem, int32_t nv, const rg_vec2 *X, int32_t ne, const rg_edge *E,

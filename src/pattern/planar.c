@@ -17,6 +17,10 @@ static const int64_t MOST_PAIRS = (int64_t)1 << 34;
 static const int64_t MOST_ENTRIES = (int64_t)1 << 28;
 /* Crossings are guessed from so many pairs of lines, of which so many have to cross to mean anything; that few lines are not asked. */
 enum { PAIRS_LOOKED_AT = 200000, TO_MEAN_ANYTHING = 10, FEW_LINES = 3000 };
+/* Less than one edge of so many is fresh: then most are far from all that are. */
+enum { FEW = 100 };
+/* Parts of the size and of the tolerance that rounding moves a crossing off its two lines, and more. */
+static const double ROUNDING = 1e-13, OF_TOLERANCE = 1e-3;
 /* Cells of the search grid, side by side: memory, and what one long line crosses, stay small. */
 static const double MOST_SIDE = 1024;
 
@@ -29,6 +33,9 @@ typedef struct splitter {
     int32_t ne;
     size_t room;
     unsigned char *fresh; /* [ne] not looked at yet: what was, crosses nothing that was */
+    int32_t fresh_count;
+    unsigned char *touched; /* [vertices] an edge was cut there, or one that was cut ends there, in this round; NULL: all may be */
+    double exact;         /* a cut that is no farther off its line than this leaves it where it was */
     int32_t looked_at;    /* vertices below this one as well */
     cut *cuts;
     size_t cut_count, cut_room;
@@ -43,10 +50,10 @@ typedef struct splitter {
     unsigned char *wanted; /* [cells] something is to be looked at there */
 } splitter;
 
-static int clamp(double i, int32_t n) { return i < 0 ? 0 : i >= n ? n - 1 : (int)i; }
-static int32_t column(const splitter *s, double x) { return clamp((x - s->origin.x) * s->per_cell, s->side[0]); }
-static int32_t row(const splitter *s, double y) { return clamp((y - s->origin.y) * s->per_cell, s->side[1]); }
-static int32_t cell_of(const splitter *s, rg_vec2 x) { return column(s, x.x) * s->side[1] + row(s, x.y); }
+static inline int clamp(double i, int32_t n) { return i < 0 ? 0 : i >= n ? n - 1 : (int)i; }
+static inline int32_t column(const splitter *s, double x) { return clamp((x - s->origin.x) * s->per_cell, s->side[0]); }
+static inline int32_t row(const splitter *s, double y) { return clamp((y - s->origin.y) * s->per_cell, s->side[1]); }
+static inline int32_t cell_of(const splitter *s, rg_vec2 x) { return column(s, x.x) * s->side[1] + row(s, x.y); }
 
 typedef enum visit { MARK, COUNT, FILL } visit;
 
@@ -59,6 +66,9 @@ static inline int visit_cell(splitter *s, int32_t e, int32_t c, visit what)
     return s->wanted[c];
 }
 
+/* Cells that near an edge are its as well: more than rounding moves what is computed below. */
+static inline double padding(const splitter *s) { return 2 * s->points.tol + 1e-9 * s->cell; }
+
 /* Visits the cells within the tolerance of an edge. Returns whether any of them is wanted. */
 static int register_edge(splitter *s, int32_t e, visit what)
 {
@@ -69,9 +79,9 @@ static int register_edge(splitter *s, int32_t e, visit what)
         a = b;
         b = t;
     }
-    const double pad = 2 * s->points.tol + 1e-9 * s->cell; /* more than rounding moves what is computed below */
+    const double pad = padding(s);
     const int32_t first = column(s, a.x - pad), last = column(s, b.x + pad);
-    const int32_t bottom = row(s, fmin(a.y, b.y) - pad), top = row(s, fmax(a.y, b.y) + pad);
+    const int32_t bottom = row(s, (a.y < b.y ? a.y : b.y) - pad), top = row(s, (a.y < b.y ? b.y : a.y) + pad);
     if (first == last || bottom == top) { /* as most are that are short */
         for (int32_t i = first; i <= last; i++)
             for (int32_t j = bottom; j <= top; j++) any |= visit_cell(s, e, i * s->side[1] + j, what);
@@ -89,6 +99,50 @@ static int register_edge(splitter *s, int32_t e, visit what)
         for (int32_t j = low; j <= high; j++) any |= visit_cell(s, e, i * s->side[1] + j, what);
     }
     return any;
+}
+
+/* Of an edge from one cell to the same or the next one, all cells that it is registered at are within so many rows and columns of the first. */
+enum { REACH = 2 };
+typedef struct place { int16_t column, row; } place; /* MOST_SIDE is less */
+
+/* Whether a cell is within REACH of one that is wanted. *near: out, [cells]. */
+static rg_status widen(const splitter *s, unsigned char **near)
+{
+    const int32_t rows = s->side[1], columns = s->side[0];
+    const size_t cells = (size_t)columns * (size_t)rows;
+    unsigned char *along = rg_mem_array(&s->mem, cells, 1); /* by rows first, then by columns */
+    *near = rg_mem_array(&s->mem, cells, 1);
+    const rg_status status = along && *near ? RG_OK : RG_ENOMEM;
+    for (int32_t i = 0; status == RG_OK && i < columns; i++)
+        for (int32_t j = 0; j < rows; j++)
+            for (int32_t k = j - REACH; s->wanted[i * rows + j] && k <= j + REACH; k++)
+                if (k >= 0 && k < rows) along[i * rows + k] = 1;
+    for (int32_t i = 0; status == RG_OK && i < columns; i++)
+        for (int32_t k = i - REACH; k <= i + REACH; k++)
+            for (int32_t j = 0; k >= 0 && k < columns && j < rows; j++) (*near)[i * rows + j] |= along[k * rows + j];
+    rg_mem_free(&s->mem, along);
+    return status;
+}
+
+/* The edges in cells that are wanted, in order: list[*n]. Where few are, most edges are told to be elsewhere by the cells of their ends. */
+static rg_status count_near(splitter *s, int32_t *list, int32_t *n)
+{
+    unsigned char *near = NULL;
+    const int32_t nv = s->points.count, rows = s->side[1];
+    const int few = s->fresh_count < s->ne / FEW && padding(s) < s->cell;
+    place *at = few ? rg_mem_array(&s->mem, (size_t)nv, sizeof *at) : NULL;
+    rg_status status = !few ? RG_OK : !at ? RG_ENOMEM : widen(s, &near);
+    for (int32_t v = 0; status == RG_OK && few && v < nv; v++) at[v] = (place){(int16_t)column(s, s->points.X[v].x), (int16_t)row(s, s->points.X[v].y)};
+    for (int32_t e = 0; status == RG_OK && e < s->ne; e++) {
+        if (few) {
+            const place p = at[s->E[e].v[0]], q = at[s->E[e].v[1]];
+            if (abs(p.column - q.column) <= 1 && abs(p.row - q.row) <= 1 && !near[p.column * rows + p.row]) continue;
+        }
+        if (register_edge(s, e, COUNT)) list[(*n)++] = e;
+    }
+    rg_mem_free(&s->mem, at);
+    rg_mem_free(&s->mem, near);
+    return status;
 }
 
 /* The edges in each cell that has to be looked at: where an edge or a vertex is new. */
@@ -117,8 +171,11 @@ static rg_status build_grid(splitter *s, rg_vec2 low, rg_vec2 high)
     int32_t near = 0;
     int32_t *list = rg_mem_array(&s->mem, (size_t)s->ne, sizeof *list); /* of what is in any of these cells */
     if (!list) return RG_ENOMEM;
-    for (int32_t e = 0; e < s->ne; e++)
-        if (register_edge(s, e, COUNT)) list[near++] = e;
+    const rg_status counted = count_near(s, list, &near);
+    if (counted != RG_OK) {
+        rg_mem_free(&s->mem, list);
+        return counted;
+    }
     int64_t total = 0;
     for (size_t c = 1; c < cells + 2 && total <= MOST_ENTRIES; c++) s->start[c] = (int32_t)(total += s->start[c]);
     if (total > MOST_ENTRIES) s->too_many = "lines that cross the whole drawing";
@@ -261,50 +318,74 @@ static rg_status sort_cuts(splitter *s, int32_t **start)
     return RG_OK;
 }
 
-static double length_of(const splitter *s, int32_t u, int32_t v) { return rg_vec2_length(rg_vec2_sub(s->points.X[u], s->points.X[v])); }
+static double square_of(const splitter *s, int32_t u, int32_t v)
+{
+    const rg_vec2 d = rg_vec2_sub(s->points.X[u], s->points.X[v]);
+    return rg_vec2_dot(d, d);
+}
 
 /* How many of n cuts of an edge to make now: all, or the first alone where vertices lie so near both sides of a short edge
  * that a part between two of them is longer than the whole. Parts get shorter and shorter then, and the rounds end. */
 static size_t cuts_to_make(const splitter *s, const rg_edge *e, const cut *cuts, size_t n)
 {
-    const double whole = length_of(s, e->v[0], e->v[1]);
+    const double whole = square_of(s, e->v[0], e->v[1]);
     for (size_t i = 1; i < n; i++)
-        if (!(length_of(s, cuts[i - 1].vertex, cuts[i].vertex) < whole)) return 1;
+        if (!(square_of(s, cuts[i - 1].vertex, cuts[i].vertex) < whole)) return 1;
     return n;
 }
 
-/* What is cut is fresh then, the rest is not. */
+/* Whether a cut leaves the edge where it was. A piece between two such ones crosses nothing that the edge does not cross, which has been
+ * seen to: it need not be looked at again. Most crossings are so; those that fell to a vertex nearby are not. */
+static int stays(const splitter *s, const rg_edge *e, int32_t vertex)
+{
+    const rg_vec2 a = s->points.X[e->v[0]], d = rg_vec2_sub(s->points.X[e->v[1]], a);
+    const double off = rg_vec2_cross(d, rg_vec2_sub(s->points.X[vertex], a));
+    return off * off < s->exact * s->exact * rg_vec2_dot(d, d);
+}
+
+/* What is cut, and bent by it, is fresh then, the rest is not. */
 static rg_status apply_cuts(splitter *s)
 {
     rg_edge *E = NULL;
     size_t room = 0;
-    int32_t n = 0, *start = NULL;
+    int32_t n = 0, *start = NULL, fresh_count = 0;
     unsigned char *fresh = rg_mem_array(&s->mem, (size_t)s->ne + s->cut_count, 1);
-    rg_status status = fresh ? sort_cuts(s, &start) : RG_ENOMEM;
+    unsigned char *touched = rg_mem_array(&s->mem, (size_t)s->points.count, 1);
+    rg_status status = fresh && touched ? sort_cuts(s, &start) : RG_ENOMEM;
     if (status == RG_OK) status = rg_mem_grow(&s->mem, (void **)&E, &room, (size_t)s->ne + s->cut_count, sizeof *E);
     if (status != RG_OK) {
         rg_mem_free(&s->mem, fresh);
+        rg_mem_free(&s->mem, touched);
         rg_mem_free(&s->mem, start);
         return status;
     }
     for (int32_t e = 0; e < s->ne; e++) {
         rg_edge rest = s->E[e];
-        const int32_t first = n, count = start[e + 1] - start[e];
+        const int32_t count = start[e + 1] - start[e];
         const cut *cuts = s->cuts + start[e];
         const int32_t made = (int32_t)cuts_to_make(s, &rest, cuts, (size_t)count);
+        if (count > 0) touched[rest.v[0]] = touched[rest.v[1]] = 1;
+        for (int32_t i = 0; i < made; i++) touched[cuts[i].vertex] = 1;
+        int bent = made < count; /* from the last cut on; what is still to be cut has to be looked at */
         for (int32_t i = 0; i < made; i++) {
             if (cuts[i].vertex == rest.v[0] || cuts[i].vertex == rest.v[1]) continue;
+            const int bends = made < count || !stays(s, &s->E[e], cuts[i].vertex);
+            fresh_count += fresh[n] = (unsigned char)(bent || bends);
+            bent = bends;
             E[n] = rest;
             E[n++].v[1] = rest.v[0] = cuts[i].vertex;
         }
+        fresh_count += fresh[n] = (unsigned char)bent;
         E[n++] = rest;
-        memset(fresh + first, count > 0, (size_t)(n - first));
     }
     rg_mem_free(&s->mem, start);
     rg_mem_free(&s->mem, s->E);
     rg_mem_free(&s->mem, s->fresh);
+    rg_mem_free(&s->mem, s->touched);
     s->E = E;
     s->fresh = fresh;
+    s->touched = touched;
+    s->fresh_count = fresh_count;
     s->room = room;
     s->ne = n;
     return RG_OK;
@@ -324,14 +405,19 @@ static int by_end(const void *a, const void *b)
 
 static int32_t lower(const rg_edge *e) { return e->v[0] < e->v[1] ? e->v[0] : e->v[1]; }
 
-/* The edges by their lower vertex, then by the other one. start[nv + 2]: out, where those of a vertex begin. */
+/* Of two edges with the same ends, one is new. */
+static int may_be_double(const splitter *s, const rg_edge *e) { return !s->touched || (s->touched[e->v[0]] && s->touched[e->v[1]]); }
+
+/* Those that may be doubles by their lower vertex, then by the other one. start[nv + 2]: out, where those of a vertex begin. */
 static void sort_edges(const splitter *s, int32_t *start, keyed *key)
 {
     const int32_t nv = s->points.count;
-    for (int32_t e = 0; e < s->ne; e++) start[lower(&s->E[e]) + 2]++;
+    for (int32_t e = 0; e < s->ne; e++)
+        if (may_be_double(s, &s->E[e])) start[lower(&s->E[e]) + 2]++;
     for (int32_t v = 0; v < nv; v++) start[v + 2] += start[v + 1];
     for (int32_t e = 0; e < s->ne; e++) {
         const rg_edge *edge = &s->E[e];
+        if (!may_be_double(s, edge)) continue;
         const int32_t low = lower(edge);
         key[start[low + 1]++] = (keyed){edge->v[0] + edge->v[1] - low, e, rg_overlap_rank(edge->assignment)};
     }
@@ -395,48 +481,68 @@ rg_status rg_graph_compact(rg_graph *g, const unsigned char *drop)
     return RG_OK;
 }
 
-/* How far the nearest line is that does not end in x; INFINITY: there is none. */
-static double nearest_line(const rg_graph *g, int32_t own, rg_vec2 x)
-{
-    double nearest = INFINITY;
-    for (int32_t e = 0; e < g->ne; e++) {
-        const rg_vec2 a = g->X[g->E[e].v[0]], d = rg_vec2_sub(g->X[g->E[e].v[1]], a), r = rg_vec2_sub(x, a);
-        const double part = fmin(1, fmax(0, rg_vec2_dot(r, d) / rg_vec2_dot(d, d)));
-        if (e != own) nearest = fmin(nearest, hypot(r.x - part * d.x, r.y - part * d.y));
-    }
-    return nearest;
-}
-
-/* How far the nearest vertex is that is no end of the line `own`; INFINITY: there is none. */
-static double nearest_vertex(const rg_graph *g, int32_t own, rg_vec2 x)
-{
-    double nearest = INFINITY;
-    for (int32_t v = 0; v < g->nv; v++)
-        if (v != g->E[own].v[0] && v != g->E[own].v[1]) nearest = fmin(nearest, hypot(x.x - g->X[v].x, x.y - g->X[v].y));
-    return nearest;
-}
-
 /* What would have joined a loose end: the tolerance, rounded up to two digits; more than SENSIBLE joins what is no gap. */
 static const double SENSIBLE = 0.02;
 /* A vertex that is hardly farther than the nearest line is what the end was meant to meet: joined to the line beside it, both would be
  * one vertex, somewhere between them. */
 static const double HARDLY_FARTHER = 2;
 
-static rg_status warn_loose(const rg_graph *g, rg_lines *lines, int32_t e, int32_t v, int is_end)
+/* A loose end, of edge e at vertex v, that is told. How far the nearest line is that does not end there, and the nearest vertex that is no
+ * end of its own: INFINITY where that is more than can be sensible. */
+typedef struct loose { int32_t e, v; double line, vertex; int is_end; } loose;
+
+static void find_nearest_lines(const rg_graph *g, loose *told, int n)
 {
-    const rg_vec2 at = rg_lines_own(lines, g->X[v], g->size);
-    const double line = is_end ? nearest_line(g, e, g->X[v]) : INFINITY, vertex = is_end ? nearest_vertex(g, e, g->X[v]) : INFINITY;
-    const int is_vertex = vertex <= HARDLY_FARTHER * line;
-    const double far = is_vertex ? vertex : line, part = far / g->size;
+    const double most = SENSIBLE * g->size;
+    for (int32_t e = 0; n > 0 && e < g->ne; e++) {
+        const rg_vec2 a = g->X[g->E[e].v[0]], b = g->X[g->E[e].v[1]], d = rg_vec2_sub(b, a);
+        const rg_vec2 low = {(a.x < b.x ? a.x : b.x) - most, (a.y < b.y ? a.y : b.y) - most}, high = {(a.x < b.x ? b.x : a.x) + most, (a.y < b.y ? b.y : a.y) + most};
+        for (int i = 0; i < n; i++) {
+            const rg_vec2 x = g->X[told[i].v], r = rg_vec2_sub(x, a);
+            if (!told[i].is_end || e == told[i].e || x.x < low.x || x.x > high.x || x.y < low.y || x.y > high.y) continue;
+            const double part = fmin(1, fmax(0, rg_vec2_dot(r, d) / rg_vec2_dot(d, d)));
+            told[i].line = fmin(told[i].line, hypot(r.x - part * d.x, r.y - part * d.y));
+        }
+    }
+}
+
+static void find_nearest_vertices(const rg_graph *g, loose *told, int n)
+{
+    const double most = HARDLY_FARTHER * SENSIBLE * g->size;
+    for (int32_t v = 0; n > 0 && v < g->nv; v++)
+        for (int i = 0; i < n; i++) {
+            const rg_vec2 r = rg_vec2_sub(g->X[told[i].v], g->X[v]);
+            const int32_t *own = g->E[told[i].e].v;
+            if (!told[i].is_end || fabs(r.x) > most || fabs(r.y) > most || v == own[0] || v == own[1]) continue;
+            told[i].vertex = fmin(told[i].vertex, hypot(r.x, r.y));
+        }
+}
+
+static rg_status warn_loose(const rg_graph *g, rg_lines *lines, const loose *l)
+{
+    const rg_vec2 at = rg_lines_own(lines, g->X[l->v], g->size);
+    const int is_vertex = l->vertex <= HARDLY_FARTHER * l->line;
+    const double far = is_vertex ? l->vertex : l->line, part = far / g->size;
     if (!(part <= SENSIBLE))
-        return rg_lines_warn(lines, g->E[e].where, "a loose end at (%.6g, %.6g) is left out", at.x, at.y);
+        return rg_lines_warn(lines, g->E[l->e].where, "a loose end at (%.6g, %.6g) is left out", at.x, at.y);
     const double digit = pow(10, floor(log10(part)) - 1);
     const double merge = ceil(part / digit * (1 + 1e-9)) * digit;
     if (is_vertex)
-        return rg_lines_warn(lines, g->E[e].where, "a loose end at (%.6g, %.6g) is left out: the next line is %.2g away, a corner %.2g; --merge %.2g joins them",
-                             at.x, at.y, line, far, merge);
-    return rg_lines_warn(lines, g->E[e].where, "a loose end at (%.6g, %.6g) is left out: the next line is %.2g away; --merge %.2g joins them", at.x,
+        return rg_lines_warn(lines, g->E[l->e].where, "a loose end at (%.6g, %.6g) is left out: the next line is %.2g away, a corner %.2g; --merge %.2g joins them",
+                             at.x, at.y, l->line, far, merge);
+    return rg_lines_warn(lines, g->E[l->e].where, "a loose end at (%.6g, %.6g) is left out: the next line is %.2g away; --merge %.2g joins them", at.x,
                          at.y, far, merge);
+}
+
+static rg_status warn_of_all_loose(const rg_graph *g, rg_lines *lines, loose *told, int32_t count)
+{
+    const int n = count < MOST_WARNINGS ? (int)count : MOST_WARNINGS;
+    rg_status s = RG_OK;
+    find_nearest_lines(g, told, n);
+    find_nearest_vertices(g, told, n);
+    for (int i = 0; s == RG_OK && i < n; i++) s = warn_loose(g, lines, &told[i]);
+    if (s == RG_OK && count > n) s = rg_lines_warn(lines, 0, "%d more loose ends are left out", (int)(count - n));
+    return s;
 }
 
 /* Edges that end in the middle of a facet, or outside the sheet, from their free ends inwards. `sum[v]` adds up the
@@ -452,20 +558,22 @@ static rg_status drop_loose_ends(rg_graph *g, rg_lines *lines)
             degree[g->E[e].v[i]]++;
             sum[g->E[e].v[i]] += e;
         }
-    int told = 0, more = 0;
+    loose told[MOST_WARNINGS];
+    int32_t count = 0, lone = 0; /* lone: vertices without an edge */
+    for (int32_t v = 0; s == RG_OK && v < g->nv; v++) lone += degree[v] == 0;
     for (int32_t start = 0; s == RG_OK && start < g->nv; start++)
-        for (int32_t v = start; s == RG_OK && degree[v] == 1;) {
+        for (int32_t v = start; degree[v] == 1;) {
             const int32_t e = (int32_t)sum[v], w = g->E[e].v[0] == v ? g->E[e].v[1] : g->E[e].v[0];
             drop[e] = 1;
             degree[v]--, degree[w]--;
             sum[w] -= e;
             g->loose += g->E[e].assignment != RG_BORDER;
-            if (told++ < MOST_WARNINGS) s = warn_loose(g, lines, e, v, v == start);
-            else more++;
+            if (count < MOST_WARNINGS) told[count] = (loose){e, v, INFINITY, INFINITY, v == start};
+            count++;
             v = w;
         }
-    if (s == RG_OK && more) s = rg_lines_warn(lines, 0, "%d more loose ends are left out", more);
-    if (s == RG_OK) s = rg_graph_compact(g, drop);
+    if (s == RG_OK) s = warn_of_all_loose(g, lines, told, count);
+    if (s == RG_OK && count + lone > 0) s = rg_graph_compact(g, drop);
     rg_mem_free(&g->mem, degree);
     rg_mem_free(&g->mem, sum);
     rg_mem_free(&g->mem, drop);
@@ -582,12 +690,13 @@ static rg_status planarise(splitter *s, rg_lines *lines, rg_vec2 low, rg_vec2 hi
 {
     rg_status status = rg_overlap_resolve(lines, s->points.X, s->points.tol, fmax(high.x - low.x, high.y - low.y), &s->E, &s->ne, &s->room);
     if (status == RG_OK && !(s->fresh = rg_mem_array(&s->mem, (size_t)s->ne, 1))) status = RG_ENOMEM;
-    if (status == RG_OK) memset(s->fresh, 1, (size_t)s->ne);
+    if (status == RG_OK) memset(s->fresh, 1, (size_t)s->ne), s->fresh_count = s->ne;
     if (status == RG_OK) status = merge_doubles(s, lines);
     if (status == RG_OK && crosses_too_often(s)) s->too_many = "crossings", status = RG_EFORMAT;
     for (int round = 0; status == RG_OK && s->ne > 0; round++) {
         if (round == MOST_ROUNDS)
             return rg_fail(RG_EFORMAT, why, 0, "lines lie too close together to tell crossings apart: try another --merge");
+        if (s->fresh_count == 0) break;
         status = look(s, low, high);
         if (status != RG_OK || !s->cut_count) break;
         status = apply_cuts(s);
@@ -616,6 +725,7 @@ static rg_status graph(rg_lines *lines, const rg_reading *settings, double merge
 
     splitter s = {.mem = g->mem};
     rg_status status = rg_points_init(&s.points, &s.mem, low, g->size, merge * g->size);
+    s.exact = fmin(ROUNDING * g->size, OF_TOLERANCE * s.points.tol);
     if (status == RG_OK) status = add_lines(&s, lines, settings);
     if (status == RG_OK) status = planarise(&s, lines, low, high, why);
     if (status == RG_OK) {
@@ -635,6 +745,7 @@ static rg_status graph(rg_lines *lines, const rg_reading *settings, double merge
     rg_mem_free(&s.mem, s.in);
     rg_mem_free(&s.mem, s.wanted);
     rg_mem_free(&s.mem, s.fresh);
+    rg_mem_free(&s.mem, s.touched);
     rg_mem_free(&s.mem, s.parent);
     return status;
 }
