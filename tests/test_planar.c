@@ -727,7 +727,7 @@ static void no_lines_and_hopeless_ones(void **state)
 static void merge_out_of_range(void **state)
 {
     (void)state;
-    static const double merge[] = {-1e-9, 0.1, 1, NAN, INFINITY};
+    static const double merge[] = {-1e-9, 0.101, 1, NAN, INFINITY};
     static const double corner[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     static const int32_t side[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
     for (int i = 0; i < 5; i++) {
