@@ -581,7 +581,7 @@ static void lines_nested_in_one(void **state)
         const double from = 1000.0 - i * 0.05, to = 1001.0 + i * 0.05, a = i % 2 ? from : to, b = i % 2 ? to : from;
         draw(&l, i == N / 2 ? RG_BORDER : i == N / 4 ? RG_VALLEY : RG_UNASSIGNED, a * dx, a * dy, b * dx, b * dy);
     }
-    assert_int_equal(rg_planar_from_all_lines(&l, 1e-9, &g, &why), RG_OK);
+    assert_int_equal(rg_planar_from_all_lines(&l, 1e-9, NULL, &g, &why), RG_OK);
     assert_int_equal(g.nv, 2 * N);
     assert_int_equal(g.ne, 2 * N - 1);
     int32_t border = 0, valley = 0;
@@ -609,7 +609,7 @@ static void too_many_in_one_place(void **state)
     rg_diag why = {0, ""};
     unsigned seed = 3;
     for (int i = 0; i < 25000; i++) draw(&l, RG_UNASSIGNED, -1, 1e-3 * noise(&seed), 1, 1e-3 * noise(&seed));
-    assert_int_equal(rg_planar_from_all_lines(&l, 1e-12, &g, &why), RG_EFORMAT);
+    assert_int_equal(rg_planar_from_all_lines(&l, 1e-12, NULL, &g, &why), RG_EFORMAT);
     assert_true(strstr(why.text, "too many") != NULL);
     rg_graph_free(&g);
     rg_lines_free(&l);
@@ -648,12 +648,51 @@ static void crossings_are_guessed_before_they_are_kept(void **state)
     rg_lines_init(&l, &mem);
     for (int i = 0; i < LONG; i++) draw(&l, RG_UNASSIGNED, noise(&seed), -1, noise(&seed), 1);
     const size_t drawn = w.out;
-    assert_int_equal(rg_planar_from_all_lines(&l, 1e-9, &g, &why), RG_EFORMAT);
+    assert_int_equal(rg_planar_from_all_lines(&l, 1e-9, NULL, &g, &why), RG_EFORMAT);
     assert_non_null(strstr(why.text, "too many crossings"));
     assert_true(w.most < drawn + 1000 * LONG);
     rg_graph_free(&g);
     rg_lines_free(&l);
     assert_int_equal(w.out, 0);
+}
+
+typedef struct asked { int times, end_at; double last; } asked;
+
+static int answer(void *ctx, double progress)
+{
+    asked *a = ctx;
+    assert_true(progress >= a->last && progress < 1);
+    a->last = progress;
+    return a->times++ == a->end_at;
+}
+
+/* A large drawing is asked for all along whether to go on, and can be ended each time; nothing is kept of it then. */
+static void it_can_be_ended_in_the_middle(void **state)
+{
+    (void)state;
+    enum { LONG = 1000, EVER = 1 << 30 };
+    asked a = {0, EVER, 0};
+    int all = EVER;
+    for (int end_at = EVER; end_at >= 0; end_at = end_at == EVER ? all - 1 : end_at - 1 - all / 30) {
+        weighed w = {0, 0};
+        const rg_memory mem = {weigh, &w};
+        rg_reading s = rg_reading_default();
+        rg_lines l;
+        rg_graph g;
+        rg_diag why = {0, ""};
+        unsigned seed = 17;
+        rg_lines_init(&l, &mem);
+        for (int i = 0; i < LONG; i++) draw(&l, RG_VALLEY, noise(&seed), noise(&seed), noise(&seed), noise(&seed));
+        a = (asked){0, end_at, 0};
+        s.progress = answer, s.progress_ctx = &a;
+        assert_int_equal(rg_planar_from_lines(&l, &s, &g, &why), end_at == EVER ? RG_OK : RG_ECANCELLED);
+        if (end_at == EVER) all = a.times;
+        else assert_true(a.times == end_at + 1 && why.text[0]);
+        rg_graph_free(&g);
+        rg_lines_free(&l);
+        assert_int_equal(w.out, 0);
+    }
+    assert_true(all > 50 && all < 5000);
 }
 
 static void what_is_left_out_is_said(void **state)
@@ -793,6 +832,7 @@ int main(void)
         cmocka_unit_test(the_first_of_many_on_one_line_stays),
         cmocka_unit_test(too_many_in_one_place),
         cmocka_unit_test(crossings_are_guessed_before_they_are_kept),
+        cmocka_unit_test(it_can_be_ended_in_the_middle),
         cmocka_unit_test(what_is_left_out_is_said),
         cmocka_unit_test(faults_do_not_flood),
         cmocka_unit_test(no_lines_and_hopeless_ones),

@@ -257,18 +257,30 @@ static rg_status number_faces(plane *p, const rg_lines *l)
 
 /* -------------------------------------------------------------------------------------------------------- FOLD ---- */
 
+/* A part of the work that asks whether to go on by itself, as if it were all that comes after reading. */
+typedef struct part { const rg_reading *of; double from, to; } part;
+
+static int ask(void *ctx, double progress)
+{
+    const part *p = ctx;
+    return p->of->progress(p->of->progress_ctx, p->from + (p->to - p->from) * (progress - LINES_READ) / (1 - LINES_READ));
+}
+
 /* The graph to write. Where nobody asked for a tolerance, lines stay where they are, unless the drawing's own format is
  * a rough one; *gaps: out, whether ends miss each other that a reader would join. */
 static rg_status draw(rg_lines *l, const rg_reading *s, rg_graph *g, int *gaps, rg_diag *why)
 {
     const int32_t warnings = l->warnings;
     *gaps = 0;
-    if (s->merge != RG_MERGE_DEFAULT) return rg_planar_from_all_lines(l, s->merge, g, why);
+    if (s->merge != RG_MERGE_DEFAULT) return rg_planar_from_all_lines(l, s->merge, s, g, why);
     const double usual = l->merge > 0 ? l->merge : s->merge;
     rg_graph joined = {.mem = l->mem};
-    rg_status status = rg_planar_from_all_lines(l, usual, &joined, why);
+    part p = {s, LINES_READ, (1 + LINES_READ) / 2};
+    rg_reading asking = {.progress = s->progress ? ask : NULL, .progress_ctx = &p};
+    rg_status status = rg_planar_from_all_lines(l, usual, &asking, &joined, why);
     l->warnings = warnings; /* each is said once */
-    if (status == RG_OK) status = rg_planar_from_all_lines(l, MERGE, g, why);
+    p.from = p.to, p.to = 1;
+    if (status == RG_OK) status = rg_planar_from_all_lines(l, MERGE, &asking, g, why);
     if (status == RG_OK && (joined.nv != g->nv || joined.ne != g->ne)) {
         const double far = joined.merged_max;
         *gaps = !(l->merge > 0);

@@ -43,7 +43,7 @@ static rg_status draw(rg_cells *c, const rg_mesh *m, const rg_flat *f, rg_diag *
     }
     c->tol = fmax(ROUNDED * m->size, OFF * f->gap);
     const double box = fmax(high.x - low.x, high.y - low.y);
-    if (s == RG_OK) s = rg_planar_from_all_lines(&lines, c->tol / box, &c->graph, why);
+    if (s == RG_OK) s = rg_planar_from_all_lines(&lines, c->tol / box, NULL, &c->graph, why);
     rg_lines_free(&lines);
     return s;
 }

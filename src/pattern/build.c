@@ -79,11 +79,21 @@ static void count(struct rg_pattern *p)
     info->author = p->lines.author ? p->lines.author : "";
 }
 
+/* Most of the time goes by before; the rest is asked for now and then. RG_ECANCELLED: it is to end. */
+static const double GRAPH_MADE = 0.95, STEP = 0.01;
+
+static rg_status go_on(const rg_reading *r, int step, rg_diag *why)
+{
+    if (!r->progress || !r->progress(r->progress_ctx, GRAPH_MADE + STEP * step)) return RG_OK;
+    return rg_fail(RG_ECANCELLED, why, 0, "%s", rg_status_text(RG_ECANCELLED));
+}
+
 static rg_status build(struct rg_pattern *p, const rg_reading *settings, rg_diag *why)
 {
     rg_graph g = {.mem = p->mem};
     rg_star star = {.mem = p->mem};
     rg_status s = rg_planar_from_lines(&p->lines, settings, &g, why);
+    if (s == RG_OK) s = go_on(settings, 0, why);
     if (s == RG_OK) s = rg_pieces_find(&g, &p->lines, settings->sheet, &p->piece, &p->info.sheets, why);
     p->info.size = g.size;
     p->info.merged_max = g.merged_max;
@@ -92,7 +102,9 @@ static rg_status build(struct rg_pattern *p, const rg_reading *settings, rg_diag
     p->info.file_frames = p->lines.frames;
     if (s == RG_OK) s = rg_source_sort(&g, &p->lines);
     if (s == RG_OK) s = rg_points_nearest(&p->mem, g.X, g.nv, &p->info.kept_min, NULL);
+    if (s == RG_OK) s = go_on(settings, 1, why);
     if (s == RG_OK) s = rg_sheet_from_graph(&g, settings->merge * g.size, &p->lines, &p->info, &p->rim);
+    if (s == RG_OK) s = go_on(settings, 2, why);
     if (s == RG_OK) s = rg_source_init(&p->source, &g, &p->lines);
     if (s == RG_OK) s = rg_star_init(&star, &p->mem, g.nv, g.ne, g.X, g.E);
     if (s != RG_OK) {
@@ -107,7 +119,8 @@ static rg_status build(struct rg_pattern *p, const rg_reading *settings, rg_diag
     p->star_start = star.start;
     p->star = star.edge;
     count(p);
-    s = rg_check_vertices(p);
+    s = go_on(settings, 3, why);
+    if (s == RG_OK) s = rg_check_vertices(p);
     if (s == RG_OK) s = rg_closed_find(p);
     return s == RG_OK ? rg_plane_lend(p) : s;
 }

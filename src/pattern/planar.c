@@ -26,6 +26,11 @@ static const double MOST_SIDE = 1024;
 
 typedef struct cut { int32_t edge, vertex; double t; } cut;
 
+/* Reading the file is the first half of the work; what comes after this is as good as nothing. */
+static const double BEGINS = 0.5, ENDS = 0.95;
+/* Pairs, edges or vertices that are looked at before it is asked again whether to go on: a millisecond or less. */
+enum { WORK = 10000 };
+
 typedef struct splitter {
     rg_memory mem;
     rg_points points;
@@ -42,6 +47,9 @@ typedef struct splitter {
     int32_t (*parent)[2]; /* of vertices from `looked_at` on: the two edges that it was found to be the crossing of, which are cut */
     size_t parent_room;
     const char *too_many; /* of what: RG_EFORMAT */
+    const rg_reading *ask; /* its progress, whether to go on; NULL: nobody */
+    double progress;
+    int64_t work;          /* since it was asked last */
     /* search grid: edges of cell c are in[start[c]] ... in[start[c + 1] - 1] */
     rg_vec2 origin;
     double cell, per_cell; /* a cell's side, and one over it */
@@ -49,6 +57,15 @@ typedef struct splitter {
     int32_t *start, *in;
     unsigned char *wanted; /* [cells] something is to be looked at there */
 } splitter;
+
+/* So much was done. RG_ECANCELLED: it is to end. */
+static inline rg_status done(splitter *s, int64_t work)
+{
+    s->work += work;
+    if (s->work < WORK) return RG_OK;
+    s->work = 0;
+    return s->ask && s->ask->progress && s->ask->progress(s->ask->progress_ctx, s->progress) ? RG_ECANCELLED : RG_OK;
+}
 
 static inline int clamp(double i, int32_t n) { return i < 0 ? 0 : i >= n ? n - 1 : (int)i; }
 static inline int32_t column(const splitter *s, double x) { return clamp((x - s->origin.x) * s->per_cell, s->side[0]); }
@@ -139,6 +156,7 @@ static rg_status count_near(splitter *s, int32_t *list, int32_t *n)
             if (abs(p.column - q.column) <= 1 && abs(p.row - q.row) <= 1 && !near[p.column * rows + p.row]) continue;
         }
         if (register_edge(s, e, COUNT)) list[(*n)++] = e;
+        status = done(s, 1);
     }
     rg_mem_free(&s->mem, at);
     rg_mem_free(&s->mem, near);
@@ -181,9 +199,13 @@ static rg_status build_grid(splitter *s, rg_vec2 low, rg_vec2 high)
     if (total > MOST_ENTRIES) s->too_many = "lines that cross the whole drawing";
     else s->in = rg_mem_array(&s->mem, (size_t)total, sizeof *s->in);
     for (size_t c = cells + 1; s->in && c > 0; c--) s->start[c] = s->start[c - 1];
-    for (int32_t k = 0; s->in && k < near; k++) register_edge(s, list[k], FILL);
+    rg_status status = s->in ? RG_OK : s->too_many ? RG_EFORMAT : RG_ENOMEM;
+    for (int32_t k = 0; status == RG_OK && k < near; k++) {
+        register_edge(s, list[k], FILL);
+        status = done(s, 1 + total / (near + 1)); /* cells that an edge crosses, more or less */
+    }
     rg_mem_free(&s->mem, list);
-    return s->in ? RG_OK : s->too_many ? RG_EFORMAT : RG_ENOMEM;
+    return status;
 }
 
 static rg_status add_cut(splitter *s, int32_t e, int32_t v)
@@ -244,8 +266,14 @@ static rg_status find_crossings(splitter *s)
         pairs += n * (n - 1) / 2;
     }
     if (pairs > MOST_PAIRS) return s->too_many = "lines in one place", RG_EFORMAT;
+    const double from = s->progress;
+    int64_t seen = 0;
     for (int32_t c = 0; c < cells; c++)
         for (int32_t i = s->start[c]; i < s->start[c + 1]; i++) {
+            seen += s->start[c + 1] - i;
+            s->progress = from + (ENDS - from) / 2 * fmin(1, (double)seen / (double)(pairs + s->start[cells] + 1)); /* later rounds share the rest */
+            const rg_status asked = done(s, s->start[c + 1] - i);
+            if (asked != RG_OK) return asked;
             const int32_t e = s->in[i], is_fresh = s->fresh[e];
             for (int32_t j = i + 1; j < s->start[c + 1]; j++) {
                 const int32_t f = s->in[j];
@@ -287,6 +315,8 @@ static rg_status find_junctions(splitter *s, int32_t known)
             rg_status status = add_cut(s, e, v);
             if (status != RG_OK) return status;
         }
+        const rg_status asked = done(s, 1 + s->start[c + 1] - s->start[c]);
+        if (asked != RG_OK) return asked;
     }
     return RG_OK;
 }
@@ -645,6 +675,7 @@ static rg_status add_lines(splitter *s, rg_lines *lines, const rg_reading *setti
         const char assignment = settings && l->assignment == RG_FLAT ? RG_UNASSIGNED : l->assignment;
         if (settings && l->assignment == RG_CUT && !cuts++) first_cut = l->where;
         if (is_used(l, settings)) status = add_line(s, lines, l, assignment, &told);
+        if (status == RG_OK) status = done(s, 1);
     }
     if (status == RG_OK) status = settle(s, lines, &told);
     if (status == RG_OK && told > MOST_WARNINGS)
@@ -707,7 +738,7 @@ static rg_status planarise(splitter *s, rg_lines *lines, rg_vec2 low, rg_vec2 hi
 }
 
 /* settings NULL: of every line, loose ends too. */
-static rg_status graph(rg_lines *lines, const rg_reading *settings, double merge, rg_graph *g, rg_diag *why)
+static rg_status graph(rg_lines *lines, const rg_reading *settings, double merge, const rg_reading *ask, rg_graph *g, rg_diag *why)
 {
     memset(g, 0, sizeof *g);
     g->mem = lines->mem;
@@ -723,7 +754,7 @@ static rg_status graph(rg_lines *lines, const rg_reading *settings, double merge
     if (!(g->size > 0)) return RG_OK;
     if (g->size < 1e-100) return rg_fail(RG_EFORMAT, why, 0, "the whole drawing is smaller than 1e-100: too small to compute with");
 
-    splitter s = {.mem = g->mem};
+    splitter s = {.mem = g->mem, .ask = ask, .progress = BEGINS};
     rg_status status = rg_points_init(&s.points, &s.mem, low, g->size, merge * g->size);
     s.exact = fmin(ROUNDING * g->size, OF_TOLERANCE * s.points.tol);
     if (status == RG_OK) status = add_lines(&s, lines, settings);
@@ -738,6 +769,7 @@ static rg_status graph(rg_lines *lines, const rg_reading *settings, double merge
         s.E = NULL;
         if (settings) status = drop_loose_ends(g, lines);
     }
+    if (status == RG_ECANCELLED) rg_fail(status, why, 0, "%s", rg_status_text(status));
     rg_points_free(&s.points);
     rg_mem_free(&s.mem, s.E);
     rg_mem_free(&s.mem, s.cuts);
@@ -752,12 +784,12 @@ static rg_status graph(rg_lines *lines, const rg_reading *settings, double merge
 
 rg_status rg_planar_from_lines(rg_lines *lines, const rg_reading *s, rg_graph *g, rg_diag *why)
 {
-    return graph(lines, s, s->merge, g, why);
+    return graph(lines, s, s->merge, s, g, why);
 }
 
-rg_status rg_planar_from_all_lines(rg_lines *lines, double merge, rg_graph *g, rg_diag *why)
+rg_status rg_planar_from_all_lines(rg_lines *lines, double merge, const rg_reading *ask, rg_graph *g, rg_diag *why)
 {
-    return graph(lines, NULL, merge, g, why);
+    return graph(lines, NULL, merge, ask, g, why);
 }
 
 void rg_graph_free(rg_graph *g)

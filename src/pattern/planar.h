@@ -19,11 +19,12 @@ typedef struct rg_graph {
 /* The graph of the lines that are part of the sheet: cuts of the folded model are left out, auxiliary lines too unless
  * they shall be creases, loose ends as well; what is left out is told in the lines' warnings.
  * Near-linear time in lines and crossings. RG_EFORMAT: the lines are too many or too close to tell apart, why->text.
+ * s->progress is asked every millisecond or so; RG_ECANCELLED where it ends it.
  * Owner: the caller, rg_graph_free, also after a failure. */
 rg_status rg_planar_from_lines(rg_lines *lines, const rg_reading *s, rg_graph *g, rg_diag *why);
 /* The same of every line, with its own assignment and with loose ends, for whoever keeps the drawing: only doubles and lines
- * without length are left out. merge: as in rg_reading. */
-rg_status rg_planar_from_all_lines(rg_lines *lines, double merge, rg_graph *g, rg_diag *why);
+ * without length are left out. merge: as in rg_reading. Only the progress of `ask` counts; NULL: nobody is asked. */
+rg_status rg_planar_from_all_lines(rg_lines *lines, double merge, const rg_reading *ask, rg_graph *g, rg_diag *why);
 /* Takes out the edges marked drop[e] != 0 and the vertices that then have none. RG_ENOMEM. */
 rg_status rg_graph_compact(rg_graph *g, const unsigned char *drop);
 void rg_graph_free(rg_graph *g);
