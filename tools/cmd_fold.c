@@ -194,7 +194,11 @@ int fold_one(const options *o, fold_seen seen, void *ctx)
         if (!stopped && !o->quiet && !on_output) summarize(o, name, m);
         if (o->verbose && !on_output) tell_details(m);
         const int elsewhere = !stopped && !(r->moved_at_end <= ON_THE_PATTERN);
-        if (elsewhere)
+        if (elsewhere && fabs(o->settings.to) < 1)
+            say("%s: at %.1f %% its creases are up to %.2g %% of the sheet away from where they were drawn, as they roll on the way to keep facets apart "
+                "or free, and come back further on. Next: --adjust off keeps them, or take another --to",
+                name, r->folded_percent, 100 * r->moved_at_end);
+        else if (elsewhere)
             say("%s: it ends on a pattern moved by %.2g %% of the sheet, as it does not close as it was drawn; rigami info says where", name,
                 100 * r->moved_at_end);
         if (!stopped && r->contact == RG_CONTACT_CROSSES) say_contact(name, r);

@@ -80,7 +80,7 @@ static const rule rules[] = {
     {FOR_FOLD, "symmetry", 0, "WHAT", CHOICE, AT(symmetry), 0, 0, 1, symmetries,
      "fold a symmetric pattern by its symmetry, or by as much of it as folds (auto):"},
     {FOR_FOLD, "pace", 0, "WHAT", CHOICE, AT(pace), 0, 0, 1, paces,
-     "frames even in percent, or even in the largest angle that a crease turns (percent; steady where all outputs are films and pages, as all outputs of a run show the same frames):"},
+     "frames even in percent, or even in the largest angle that a crease turns (percent; films and pages steady):"},
     {FOR_FOLD, "effort", 0, "HOW", CHOICE, AT(effort), 0, 0, 1, efforts,
      "how much is tried when the plain way stops short (normal):"},
     {FOR_FOLD, "contact", 0, "WHAT", CHOICE, AT(contact), 0, 0, 1, contacts,
@@ -519,6 +519,7 @@ static void settle(options *o)
     o->settings.triangulate = (rg_triangulation)o->triangulate;
     o->settings.symmetry = (rg_symmetry_kept)o->symmetry;
     o->settings.pace = o->pace >= 0 ? (rg_pace)o->pace : only_animations(o) ? RG_PACE_STEADY : RG_PACE_PERCENT;
+    o->picture.steady = o->pace < 0;
     o->settings.effort = (rg_effort)o->effort;
     o->picture.colour = (rg_colouring)o->colour;
     o->picture.loop = (rg_loop)o->loop;

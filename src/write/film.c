@@ -39,6 +39,7 @@ static shape shape_of(const char *path)
 }
 
 int rg_film_is_form(const char *path) { return shape_of(path) != NOTHING; }
+int rg_film_is_animation(const char *path) { return shape_of(path) >= GIF; }
 
 rg_status rg_film_check(const char *path, rg_diag *why)
 {

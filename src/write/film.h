@@ -18,6 +18,8 @@
 
 /* Whether a path asks for one of these. */
 int rg_film_is_form(const char *path);
+/* And for an animation, all frames in one file. */
+int rg_film_is_animation(const char *path);
 /* RG_OK, or RG_EABSENT: there is no ffmpeg; RG_EARG: a number in the name of what is one
  * file, two numbers. why->text says so. */
 rg_status rg_film_check(const char *path, rg_diag *why);

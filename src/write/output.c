@@ -10,6 +10,7 @@
 #include "write/html.h"
 #include "write/numbered.h"
 #include "write/obj.h"
+#include "write/paced.h"
 #include "write/png.h"
 #include "write/stl.h"
 #include "write/svgfile.h"
@@ -114,20 +115,39 @@ static rg_status check_image(const rg_motion *m, const char *path, rg_diag *why)
     return s == RG_OK ? s : rg_fail(s, why, 0, "%.100s: %s", path, found.text);
 }
 
-rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_picture *picture, rg_diag *why)
+/* What is looked at as it moves; pictures each in its file are frames, as tables have them. */
+static int is_film_or_page(const char *path)
 {
-    rg_picture mine, *const p = &mine;
+    const char *dot = strrchr(path, '.');
+    return rg_film_is_animation(path) || (dot && strcasecmp(dot, ".html") == 0);
+}
+
+static rg_status write_as_it_is(const rg_motion *m, const char *path, const rg_picture *p, rg_diag *why)
+{
     const form *f;
     rg_numbered n;
-    rg_output_sweep(path, 0);
-    rg_status s = rg_picture_take(picture, p, why); /* models and pages have its colours, view and pace, too */
-    if (s == RG_OK && rg_film_is_form(path)) return rg_film_write(m, path, p, why);
+    rg_status s = RG_OK;
+    if (rg_film_is_form(path)) return rg_film_write(m, path, p, why);
     if (s == RG_OK) s = find_form(path, &f, why);
     if (s == RG_OK && p->image) s = check_image(m, p->image, why);
     if (s != RG_OK) return s;
     if (rg_numbered_find(path, &n)) return write_each(m, f, &n, p, why);
     if (ends(p, 0)) return cancelled(why);
     return write_one(m, f, m->report.frame_count - 1, p, &(rg_dest){path, NULL}, why);
+}
+
+rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_picture *picture, rg_diag *why)
+{
+    rg_picture p;
+    rg_motion paced;
+    rg_output_sweep(path, 0);
+    rg_status s = rg_picture_take(picture, &p, why); /* models and pages have its colours, view and pace, too */
+    if (s != RG_OK || !p.steady || m->settings.pace == RG_PACE_STEADY || !is_film_or_page(path))
+        return s == RG_OK ? write_as_it_is(m, path, &p, why) : s;
+    s = rg_paced_init(&paced, m);
+    s = s == RG_OK ? write_as_it_is(&paced, path, &p, why) : rg_fail(s, why, 0, "%.100s: %s", path, rg_status_text(s));
+    rg_paced_free(&paced, m);
+    return s;
 }
 
 rg_status rg_motion_write_to(const rg_motion *m, const char *extension, int32_t frame, const rg_sink *sink, const rg_picture *picture,
