@@ -3,9 +3,11 @@
 #include "base/bytes.h"
 #include "base/json.h"
 #include "base/text.h"
+#include "motion/ending.h"
 #include "render/lift.h"
 #include "render/stage.h"
 #include "render/tint.h"
+#include "write/patches.h"
 #include "write/png.h"
 
 #include <string.h>
@@ -107,6 +109,43 @@ static rg_status one_frame(rg_json *j, book *b, int32_t k)
     return s;
 }
 
+/* What the last frame, whose places and lifts are in b, needs besides where its layers lie in a circle: pieces of facets, with the side
+ * that begins at each corner, where that is in the pattern, and how far each piece is moved from its facet. */
+static rg_status patches(rg_json *j, const book *b)
+{
+    const rg_layers *l = rg_ending_layers(b->m, b->m->report.frame_count - 1);
+    rg_patches p;
+    if (!l) return RG_OK;
+    rg_status s = rg_patches_init(&p, &b->m->mem, l);
+    if (s == RG_OK && p.count > 0) {
+        const int32_t n = p.start[p.count];
+        const rg_vec3 step = rg_vec3_scale(1.0 / p.apart, rg_vec3_sub(b->lift[p.high], b->lift[p.low]));
+        rg_json_open(j, "patches", '{');
+        rg_json_integers(j, "facet", p.facet, p.count);
+        rg_json_open_line(j, "corners", '[');
+        for (int32_t k = 0; k < p.count; k++) rg_json_integer(j, NULL, p.start[k + 1] - p.start[k]);
+        rg_json_close(j);
+        rg_json_integers(j, "edge", p.edge, n);
+        rg_json_open_line(j, "at", '[');
+        for (int32_t i = 0; i < n; i++) {
+            rg_json_number(j, NULL, p.corner[i].x - b->middle.x);
+            rg_json_number(j, NULL, p.corner[i].y - b->middle.y);
+        }
+        rg_json_close(j);
+        rg_json_open_line(j, "lift", '[');
+        for (int32_t k = 0; k < p.count; k++) {
+            const rg_vec3 by = rg_vec3_scale(p.raise[k], step);
+            rg_json_number(j, NULL, by.x);
+            rg_json_number(j, NULL, by.y);
+            rg_json_number(j, NULL, by.z);
+        }
+        rg_json_close(j);
+        rg_json_close(j);
+    }
+    rg_patches_free(&p);
+    return s;
+}
+
 /* What happened, in a line: nothing where all went well. */
 static void told(rg_json *j, const rg_motion *m, const rg_tint_scale *t)
 {
@@ -173,6 +212,7 @@ static rg_status data(book *b, const rg_picture *p, FILE *out)
     rg_json_open(j, "frames", '[');
     for (int32_t k = 0; s == RG_OK && k < b->m->report.frame_count; k++) s = one_frame(j, b, k);
     rg_json_close(j);
+    if (s == RG_OK) s = patches(j, b);
     rg_json_close(j);
     return s;
 }
