@@ -359,15 +359,16 @@ static void reading_and_writing_are_watched(void **state)
     w = (watcher){0, 0, 0};
     assert_int_equal(rg_pattern_read("patterns/bird.opx", &r, &cp, NULL), RG_ECANCELLED);
     assert_null(cp);
-    static const char *const forms[] = {".fold", ".png", ".gif", ".apng"};
-    for (int k = 0; k < 4; k++)
-        for (int stop = 0; stop < 2; stop++) {
+    static const char *const forms[] = {".fold", ".csv", ".glb", ".html", ".obj", ".png", ".gif", ".apng"};
+    for (int k = 0; k < 8; k++)
+        for (int stop = 0; stop < 3; stop++) {
             rg_picture picture = rg_picture_default();
             picture.width = 80, picture.height = 60;
             picture.progress = watch, picture.progress_ctx = &w;
-            w = (watcher){0, stop ? 0 : 1000, 0};
+            if (stop == 2 && k >= 4) continue; /* one frame */
+            w = (watcher){0, stop == 2 ? 3 : stop ? 0 : 1000, 0}; /* not at all; at once; in the middle */
             assert_int_equal(rg_motion_write_to(m, forms[k], -1, &sink, &picture, NULL), stop ? RG_ECANCELLED : RG_OK);
-            assert_true(w.calls > 0);
+            assert_true(w.calls > (stop == 2 ? 3 : 0));
             assert_int_equal(p.n > 0, !stop);
             empty(&p);
         }

@@ -1,5 +1,6 @@
 #include "write/csv.h"
 #include "base/number.h"
+#include "render/picture.h"
 
 /* "c0_M 4-5 (0.5 0)-(0.5 1) target -180": which crease it is, without a comma. */
 static void column(const rg_motion *m, int32_t i, FILE *out)
@@ -15,13 +16,14 @@ static void column(const rg_motion *m, int32_t i, FILE *out)
 
 rg_status rg_csv_write(const rg_motion *m, int32_t frame, const rg_picture *p, FILE *out)
 {
-    (void)frame, (void)p;
+    (void)frame;
     const int32_t N = m->mesh.N;
     fputs("frame,percent", out);
     for (int32_t i = 0; i < N; i++) column(m, i, out);
     fputc('\n', out);
     for (int32_t k = 0; k < m->report.frame_count; k++) {
         const double *rho = rg_motion_angles(m, k);
+        if (rg_picture_ended(p, (double)k / m->report.frame_count)) return RG_ECANCELLED;
         char text[RG_NUMBER_ROOM];
         fprintf(out, "%d,%s", (int)k, rg_number_print(text, rg_number_tidy(m->frame[k].percent)));
         for (int32_t i = 0; i < N; i++) fprintf(out, ",%s", rg_number_print(text, rg_number_tidy(rg_number_degrees(rho[i]))));

@@ -5,6 +5,7 @@
 #include "base/unit.h"
 #include "pattern/source.h"
 #include "read/value.h"
+#include "render/picture.h"
 #include "save/fold.h"
 
 #include <string.h>
@@ -171,7 +172,7 @@ static void one_frame(rg_json *j, const rg_motion *m, int32_t k, const rg_vec3 *
 
 rg_status rg_foldfile_write(const rg_motion *m, int32_t frame, const rg_picture *p, FILE *out)
 {
-    (void)frame, (void)p;
+    (void)frame;
     rg_json j;
     rg_status s = RG_OK;
     rg_vec3 *x = rg_mem_array(&m->mem, (size_t)m->mesh.nv, sizeof *x);
@@ -183,7 +184,7 @@ rg_status rg_foldfile_write(const rg_motion *m, int32_t frame, const rg_picture 
     s = rest(&j, m);
     rg_json_open(&j, "file_frames", '[');
     for (int32_t k = 0; s == RG_OK && k < m->report.frame_count; k++) {
-        s = rg_motion_place(m, k, x);
+        s = rg_picture_ended(p, (double)k / m->report.frame_count) ? RG_ECANCELLED : rg_motion_place(m, k, x);
         if (s == RG_OK) one_frame(&j, m, k, x);
     }
     rg_json_close(&j);

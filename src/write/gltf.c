@@ -3,6 +3,7 @@
 #include "base/bytes.h"
 #include "base/json.h"
 #include "pose/turn.h"
+#include "render/picture.h"
 #include "render/triangles.h"
 #include "write/png.h"
 
@@ -144,12 +145,13 @@ static void crease_ends(model *g)
     }
 }
 
-static void turns_and_shifts(model *g)
+static rg_status turns_and_shifts(model *g)
 {
     const rg_mesh *mesh = g->mesh;
     const rg_vec3 middle = rg_motion_middle(g->m);
     for (int32_t f = 0; f < mesh->nf; f++) g->last_turn[f] = (rg_turn){0, 0, 0, 1};
     for (int32_t k = 0; k < g->frames; k++) {
+        if (rg_picture_ended(g->p, (double)k / g->frames)) return RG_ECANCELLED;
         rg_pose_facets(mesh, mesh->X, &g->m->tree, rg_motion_angles(g->m, k), g->place);
         for (int32_t f = 0; f < mesh->nf; f++) {
             const size_t at = (size_t)f * (size_t)g->frames + (size_t)k;
@@ -162,6 +164,7 @@ static void turns_and_shifts(model *g)
             g->last_shift[f] = shift;
         }
     }
+    return RG_OK;
 }
 
 /* The mesh is the last frame, for viewers without morphs; displacements are from there as it was rounded, so that roundings
@@ -173,7 +176,7 @@ static rg_status displacements(model *g)
     unsigned char *weight = g->bytes + g->start[WEIGHTS];
     for (int32_t v = 0; v < g->mesh->nv; v++) mesh = vector(mesh, g->last[v].x, g->last[v].y, g->last[v].z);
     for (int32_t k = 0; s == RG_OK && k < g->frames - 1; k++) {
-        s = rg_motion_place_centred(g->m, k, g->x);
+        s = rg_picture_ended(g->p, (double)k / g->frames) ? RG_ECANCELLED : rg_motion_place_centred(g->m, k, g->x);
         for (int32_t v = 0; v < g->mesh->nv; v++)
             to = vector(to, g->x[v].x - (float)g->last[v].x, g->x[v].y - (float)g->last[v].y,
                         g->x[v].z - (float)g->last[v].z);
@@ -210,8 +213,7 @@ static rg_status fill(model *g)
     if (g->morphs) return displacements(g);
     centres(g);
     facet_meshes(g);
-    turns_and_shifts(g);
-    return RG_OK;
+    return turns_and_shifts(g);
 }
 
 static void model_free(model *g)

@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "motion/ending.h"
 #include "render/lift.h"
+#include "render/picture.h"
 #include "render/stage.h"
 #include "render/tint.h"
 #include "write/patches.h"
@@ -210,7 +211,8 @@ static rg_status data(book *b, const rg_picture *p, FILE *out)
     rg_status s = image(j, b, p);
     if (s == RG_OK) s = sheet(j, b);
     rg_json_open(j, "frames", '[');
-    for (int32_t k = 0; s == RG_OK && k < b->m->report.frame_count; k++) s = one_frame(j, b, k);
+    for (int32_t k = 0; s == RG_OK && k < b->m->report.frame_count; k++)
+        s = rg_picture_ended(p, (double)k / b->m->report.frame_count) ? RG_ECANCELLED : one_frame(j, b, k);
     rg_json_close(j);
     if (s == RG_OK) s = patches(j, b);
     rg_json_close(j);
