@@ -586,11 +586,14 @@ typedef struct rg_sheet {
     const int32_t *crease_edge;        /* [creases] its edge */
     const int32_t (*edge_facet)[2];    /* [edges] the facet left of the way from its first end to its second, and
                                         * right of it; -1: none */
+    int32_t triangles;                 /* that facets are drawn as, which need not be convex */
+    const int32_t (*triangle)[3];      /* [triangles] vertices, counter-clockwise in the pattern */
+    const int32_t *facet_triangle;     /* [facets + 1] into triangle */
 } rg_sheet;
 RG_API const rg_sheet *rg_motion_get_sheet(const rg_motion *m);
 /* xyz[vertices]: out, positions of that frame. RG_EARG: no such frame. */
 RG_API rg_status rg_motion_pose(const rg_motion *m, int32_t frame, double (*xyz)[3]);
-/* Fold angles of a frame, [creases], radians; borrowed; NULL: no such frame. */
+/* Fold angles of a frame, [creases], radians; those of the next frame follow them; borrowed; NULL: no such frame. */
 RG_API const double *rg_motion_angles(const rg_motion *m, int32_t frame);
 /* Whose fold angle is which: a crease of the sheet, as everything that is written numbers it. */
 typedef struct rg_crease {
@@ -678,6 +681,9 @@ RG_API rg_status rg_fold_drive(rg_fold *f, int32_t count, const int32_t *creases
 RG_API rg_status rg_fold_set_target(rg_fold *f, int32_t crease, double radians);
 /* From now on it stays as it is, until it is driven or has a target again. */
 RG_API rg_status rg_fold_pin(rg_fold *f, int32_t crease);
+/* The present state becomes the first of the track, from which it goes on to what it aims at: what is steered for hours
+ * keeps no more than it needs. */
+RG_API rg_status rg_fold_forget(rg_fold *f);
 
 /* ---- the present state; all borrowed until the fold is moved next */
 

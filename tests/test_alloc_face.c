@@ -169,6 +169,7 @@ static rg_status steered_fold(const rg_memory *mem, counted *c)
         status = rg_fold_drive(f, 1, &crease, &to);
         for (int k = 0; status == RG_OK && k < 4; k++) rg_fold_step(f);
         if (status == RG_OK) status = rg_fold_go_to(f, 61);
+        if (status == RG_OK) status = rg_fold_forget(f);
         if (status == RG_OK) status = rg_fold_pin(f, 0);
         if (status == RG_OK) status = rg_fold_set_target(f, 0, RG_FREE);
         if (status == RG_OK) status = rg_fold_drive(f, 1, &crease, &on);

@@ -86,21 +86,20 @@ static void from_arrays_and_back(void **state)
 }
 
 /* The sheet that is folded: edges of the pattern first, creases in their order, added ones last. */
-static void the_sheet_goes_on_from_the_pattern(void **state)
+static void sheet_of(int cuts)
 {
-    (void)state;
     rg_pattern *p = NULL;
     rg_settings s = rg_settings_default();
     rg_motion *m = NULL;
     assert_int_equal(rg_generate_pattern("miura", 3, 0, 0, NULL, &p, NULL), RG_OK);
-    s.triangulate = RG_TRIANGULATE_ALL;
+    s.triangulate = cuts ? RG_TRIANGULATE_ALL : RG_TRIANGULATE_NONE;
     s.frames = 3;
     s.to = 0.5;
     assert_int_equal(rg_motion_create(p, &s, NULL, NULL, &m, NULL), RG_OK);
     const rg_plane *q = rg_pattern_get_plane(p);
     const rg_sheet *h = rg_motion_get_sheet(m);
     int32_t crease = 0;
-    assert_true(h->added > 0);
+    assert_int_equal(h->added > 0, cuts);
     for (int32_t e = 0; e < q->edges; e++) {
         assert_memory_equal(h->ends[e], q->ends[e], sizeof *q->ends);
         assert_int_equal(h->edge_crease[e], q->assignment[e] == 'B' ? -1 : crease++);
@@ -115,10 +114,40 @@ static void the_sheet_goes_on_from_the_pattern(void **state)
         const double middle[2] = {(c.at[0][0] + c.at[1][0]) / 2, (c.at[0][1] + c.at[1][1]) / 2};
         if (!c.added) assert_int_equal(rg_motion_crease_at(m, middle), i);
     }
+    /* Its triangles: facet by facet, with its corners, counter-clockwise, as large together as it is. */
+    assert_int_equal(h->facet_triangle[0], 0);
+    assert_int_equal(h->facet_triangle[h->facets], h->triangles);
+    for (int32_t f = 0; f < h->facets; f++) {
+        double area = 0, sum = 0;
+        const int32_t from = h->facet_start[f], to = h->facet_start[f + 1];
+        assert_int_equal(h->facet_triangle[f + 1] - h->facet_triangle[f], to - from - 2);
+        for (int32_t j = from; j < to; j++) {
+            const double *a = h->flat[h->facet_vertex[j]], *b = h->flat[h->facet_vertex[j + 1 < to ? j + 1 : from]];
+            area += (a[0] * b[1] - a[1] * b[0]) / 2;
+        }
+        for (int32_t t = h->facet_triangle[f]; t < h->facet_triangle[f + 1]; t++) {
+            const double *a = h->flat[h->triangle[t][0]], *b = h->flat[h->triangle[t][1]], *c = h->flat[h->triangle[t][2]];
+            const double one = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
+            assert_true(one > 0);
+            sum += one;
+            for (int k = 0; k < 3; k++) {
+                int32_t j = from;
+                while (j < to && h->facet_vertex[j] != h->triangle[t][k]) j++;
+                assert_true(j < to);
+            }
+        }
+        near(sum, area, 1e-12 * area);
+    }
     assert_int_equal(rg_motion_crease(m, h->creases, NULL), RG_EARG);
     assert_int_equal(rg_motion_crease_at(m, (const double[]){1e9, 0}), -1);
     rg_motion_destroy(m);
     rg_pattern_destroy(p);
+}
+
+static void the_sheet_goes_on_from_the_pattern(void **state)
+{
+    (void)state;
+    for (int cuts = 0; cuts < 2; cuts++) sheet_of(cuts);
 }
 
 /* ------------------------------------------------------------------------------------------- what is refused ---- */

@@ -124,6 +124,64 @@ static void back_through_flat(void **state)
     rg_pattern_destroy(p);
 }
 
+/* To and fro with a slider, for as long as it likes: nothing is kept, and nothing is asked for, of all that was passed. */
+static void to_and_fro(void **state)
+{
+    (void)state;
+    counted c = {1000000000, 0, 0};
+    const rg_memory mem = {counted_resize, &c};
+    rg_settings s = rg_settings_default();
+    rg_pattern *p = generated("miura", 4);
+    rg_fold *f = NULL;
+    const int32_t crease = 0;
+    s.frames = 2;
+    s.memory = &mem;
+    assert_int_equal(rg_fold_create_flat(p, &s, &f, NULL), RG_OK);
+    long asked = 0;
+    for (int k = 0; k < 200; k++) {
+        const double to = (letter(f, crease) == 'V' ? 1 : -1) * (35 - 30 * cos(0.3 * k)) * RG_DEG;
+        assert_int_equal(rg_fold_drive(f, 1, &crease, &to), RG_OK);
+        while (rg_fold_step(f)->outcome == RG_RUNNING) {}
+        assert_int_equal(rg_fold_get_info(f)->outcome, RG_FOLDED);
+        near(rg_fold_angles(f, NULL)[crease], to, 1e-15);
+        follows_the_closed_form(f, crease, to, fabs(to) > fabs(rg_fold_angles(f, NULL)[6]) - 1e-9);
+        const double *now = rg_fold_angles(f, NULL), before = now[6];
+        assert_int_equal(rg_fold_forget(f), RG_OK);
+        near(now[6], before, 0);
+        assert_int_equal(rg_fold_get_info(f)->frames, 1);
+        assert_int_equal(rg_fold_get_info(f)->frame, 0);
+        if (k == 1) asked = c.asked;
+    }
+    assert_int_equal(c.asked, asked);
+    rg_fold_destroy(f);
+    rg_pattern_destroy(p);
+}
+
+/* Forgotten on the way, between two states and of a motion that was found: it goes on to what it aimed at. */
+static void forgotten_on_the_way(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("miura", 4);
+    for (int found = 0; found < 2; found++) {
+        rg_fold *f = found ? found_fold(p, 11) : flat_fold(p, 11);
+        const int32_t crease = 0;
+        const double to = (letter(f, crease) == 'V' ? 1 : -1) * 70 * RG_DEG;
+        if (!found) assert_int_equal(rg_fold_drive(f, 1, &crease, &to), RG_OK);
+        assert_int_equal(rg_fold_go_to(f, 37), RG_OK);
+        const double there = rg_fold_angles(f, NULL)[crease];
+        assert_int_equal(rg_fold_forget(f), RG_OK);
+        near(rg_fold_angles(f, NULL)[crease], there, 0);
+        rg_fold_step_back(f);
+        near(rg_fold_angles(f, NULL)[crease], there, 0);
+        while (rg_fold_step(f)->outcome == RG_RUNNING) below(rg_fold_get_info(f)->closure, 1e-10);
+        assert_int_equal(rg_fold_get_info(f)->outcome, RG_FOLDED);
+        if (!found) near(rg_fold_angles(f, NULL)[crease], to, 1e-15);
+        assert_int_equal(rg_fold_get_info(f)->frames, 11);
+        rg_fold_destroy(f);
+    }
+    rg_pattern_destroy(p);
+}
+
 /* ---------------------------------------------------------------------------------------------- aims and pins ---- */
 
 static void targets_pins_and_free_creases(void **state)
@@ -493,7 +551,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_crease_of_a_miura_ori), cmocka_unit_test(back_through_flat), cmocka_unit_test(targets_pins_and_free_creases),
-        cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames), cmocka_unit_test(frames_do_not_matter),
+        cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames), cmocka_unit_test(frames_do_not_matter), cmocka_unit_test(to_and_fro), cmocka_unit_test(forgotten_on_the_way),
         cmocka_unit_test(kept_states), cmocka_unit_test(positions_and_transforms), cmocka_unit_test(recorded),
         cmocka_unit_test(steps_ask_for_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);

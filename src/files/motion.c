@@ -196,7 +196,7 @@ static rg_status build(rg_motion *m, const rg_value *root, const rg_pattern *p, 
             s = rg_fail(RG_EFORMAT, why, 0, "lines of the pattern cross at (%.6g, %.6g) where the file has no vertex", m->mesh.X[v].x, m->mesh.X[v].y);
     if (s != RG_OK) return s;
     name_flat_lines(m);
-    rg_motion_lend(m);
+    if (s == RG_OK) s = rg_motion_lend(m);
     g.nv = (int32_t)rg_value_count(rg_value_get(m->source.frame, "vertices_coords"));
     m->target = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *m->target);
     m->from = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *m->from);

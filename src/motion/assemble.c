@@ -219,8 +219,8 @@ static rg_status make(rg_motion *m, const rg_states *q, const rg_pattern *last, 
     rg_status s = rg_motion_name(m, last);
     if (s == RG_OK) s = rg_assemble_frames(m, q, why);
     if (s != RG_OK) return s;
-    rg_motion_lend(m);
-    s = rg_tree_init(&m->mesh, m->settings.fixed_facet, &m->tree);
+    s = rg_motion_lend(m);
+    if (s == RG_OK) s = rg_tree_init(&m->mesh, m->settings.fixed_facet, &m->tree);
     if (s == RG_EARG)
         rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)m->settings.fixed_facet, (int)m->mesh.nf - 1);
     if (s == RG_OK) s = measure(m, watch);

@@ -190,7 +190,7 @@ rg_status rg_motion_with_path(const rg_pattern *p, const rg_settings *given, rg_
     if (s == RG_OK) s = adopt(m, &search, path);
     if (s == RG_OK) s = adopt_stages(m, &stages);
     rg_motion_free_stages(&stages);
-    if (s == RG_OK) rg_motion_lend(m);
+    if (s == RG_OK) s = rg_motion_lend(m);
     rg_attempt_free(&search.best);
     if (s == RG_OK) s = rg_tree_init(&m->mesh, settings->fixed_facet, &m->tree);
     if (s == RG_EARG && m->mesh.nf > 0)
@@ -252,7 +252,7 @@ static rg_status lay_out(rg_motion *m, const rg_pattern *p, rg_diag *why)
     s = rg_tree_init(&m->mesh, m->settings.fixed_facet, &m->tree);
     if (s == RG_EARG && m->mesh.nf > 0)
         rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)m->settings.fixed_facet, (int)m->mesh.nf - 1);
-    if (s == RG_OK) rg_motion_lend(m);
+    if (s == RG_OK) s = rg_motion_lend(m);
     return s == RG_OK ? rg_measure_frames(m, NULL) : s;
 }
 

@@ -212,7 +212,7 @@ rg_status rg_fold_record(const rg_fold *f, rg_motion **motion, rg_diag *why)
     if (s == RG_OK) s = rg_source_copy(&f->shared->motion->source, &m->mem, &m->source);
     if (s == RG_OK) s = fill(m, f);
     if (s == RG_OK) s = rg_tree_init(&m->mesh, f->settings.fixed_facet, &m->tree);
-    if (s == RG_OK) rg_motion_lend(m);
+    if (s == RG_OK) s = rg_motion_lend(m);
     if (s == RG_OK) s = rg_measure_frames(m, NULL);
     if (s == RG_OK) s = rg_ending_find(m, NULL, why);
     if (s != RG_OK) {

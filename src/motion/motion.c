@@ -23,6 +23,7 @@ void rg_motion_destroy(rg_motion *m)
     const rg_memory mem = m->mem;
     rg_mesh_free(&m->mesh);
     rg_tree_free(&m->tree);
+    rg_triangles_free(&m->triangles);
     void *block[] = {m->target, m->from, m->rho, m->flat, m->frame, m->blocking_vertex, m->blocking_crease, m->blocking_at,
                      m->state_frame, m->by_flat, m->space, m->tried};
     for (int i = 0; i < 12; i++) rg_mem_free(&m->mem, block[i]);
@@ -45,13 +46,17 @@ rg_status rg_motion_name(rg_motion *m, const rg_pattern *p)
     return m->title && m->author ? RG_OK : RG_ENOMEM;
 }
 
-void rg_motion_lend(rg_motion *m)
+rg_status rg_motion_lend(rg_motion *m)
 {
     const rg_mesh *mesh = &m->mesh;
+    const rg_status s = rg_triangles_init(&m->mem, mesh, &m->triangles);
+    if (s != RG_OK) return s;
     m->sheet = (rg_sheet){.vertices = mesh->nv, .creases = mesh->N, .facets = mesh->nf, .facet_start = mesh->facet_start,
                           .facet_vertex = mesh->facet_vertex, .flat = (const double(*)[2])mesh->X, .edges = mesh->ne, .added = mesh->added,
                           .ends = (const int32_t(*)[2])mesh->edge, .assignment = mesh->assignment, .edge_crease = mesh->edge_crease,
-                          .crease_edge = mesh->crease_edge, .edge_facet = (const int32_t(*)[2])mesh->edge_facet};
+                          .crease_edge = mesh->crease_edge, .edge_facet = (const int32_t(*)[2])mesh->edge_facet,
+                          .triangles = m->triangles.start[mesh->nf], .triangle = (const int32_t(*)[3])m->triangles.v, .facet_triangle = m->triangles.start};
+    return RG_OK;
 }
 
 const rg_sheet *rg_motion_get_sheet(const rg_motion *m) { return &m->sheet; }

@@ -4,6 +4,7 @@
 #define RG_MOTION_H
 
 #include "mesh/mesh.h"
+#include "mesh/triangles.h"
 #include "pose/pose.h"
 
 /* The stages of a motion, and how its mesh is made of the pattern's. */
@@ -32,7 +33,8 @@ struct rg_motion {
     rg_frame *frame;       /* [report.frame_count] */
     rg_try *tried;         /* [report.tried_count] */
     rg_unfoldable theorem; /* what the report's points to */
-    rg_sheet sheet;        /* what is lent of the mesh */
+    rg_sheet sheet;        /* what is lent of the mesh, */
+    rg_triangles triangles; /* and how it is drawn */
     rg_pattern_info info;  /* of the pattern */
     int32_t *blocking_vertex, *blocking_crease;
     double (*blocking_at)[2];
@@ -58,7 +60,7 @@ rg_vec3 rg_motion_middle(const rg_motion *m);
 
 /* What m says of the pattern p: its counts, title and author. RG_ENOMEM. */
 rg_status rg_motion_name(rg_motion *m, const rg_pattern *p);
-/* Lends m->mesh, once it is there. */
-void rg_motion_lend(rg_motion *m);
+/* Lends m->mesh, once it is there. RG_ENOMEM. */
+rg_status rg_motion_lend(rg_motion *m);
 
 #endif

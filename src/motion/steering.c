@@ -144,6 +144,17 @@ static rg_status aim(rg_fold *f)
     return RG_OK;
 }
 
+rg_status rg_fold_forget(rg_fold *f)
+{
+    const rg_status s = prepare(f);
+    if (s != RG_OK) return s;
+    f->track.count = 0;
+    append(f, f->rho, f->flat, 0, f->closure);
+    f->at = f->first = f->between = 0;
+    f->progress = 0;
+    return aim(f);
+}
+
 static int is_angle(double x) { return fabs(x) <= RG_PI; }
 
 /* What was driven is nobody's any more. */

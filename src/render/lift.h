@@ -8,7 +8,7 @@
 #define RG_LIFT_H
 
 #include "motion/motion.h"
-#include "render/triangles.h"
+#include "mesh/triangles.h"
 
 typedef struct rg_lift rg_lift;
 

@@ -5,7 +5,7 @@
 
 #include "render/samples.h"
 #include "render/seen.h"
-#include "render/triangles.h"
+#include "mesh/triangles.h"
 
 /* Pixels of 4 bytes, red, green, blue and how opaque, top row first; the pattern's box is stretched over it. */
 typedef struct rg_print {

@@ -5,7 +5,7 @@
 
 #include "render/print.h"
 #include "render/seen.h"
-#include "render/triangles.h"
+#include "mesh/triangles.h"
 
 typedef struct rg_render rg_render;
 

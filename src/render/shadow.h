@@ -4,7 +4,7 @@
 #define RG_SHADOW_H
 
 #include "render/camera.h"
-#include "render/triangles.h"
+#include "mesh/triangles.h"
 
 typedef struct rg_shadow {
     rg_memory mem;

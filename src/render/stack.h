@@ -4,7 +4,7 @@
 #define RG_STACK_H
 
 #include "pose/pose.h"
-#include "render/triangles.h"
+#include "mesh/triangles.h"
 
 typedef struct rg_stack_sample { int32_t row, column, facet; double height; } rg_stack_sample;
 typedef struct rg_stack_pair { int32_t a, b, above; } rg_stack_pair; /* a < b; +1: b lies above a, -1: below */

@@ -4,7 +4,7 @@
 #include "base/json.h"
 #include "pose/turn.h"
 #include "render/picture.h"
-#include "render/triangles.h"
+#include "mesh/triangles.h"
 #include "write/png.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
 /* solid.h -- the sheet with a thickness, as one closed surface: plates of that thickness, and what joins them along the creases.
- * Uses  motion.h render/triangles.h        Used by  stl.c
+ * Uses  motion.h mesh/triangles.h        Used by  stl.c
  *
  * Each facet is there twice, half the thickness above and below where it lies. Along a crease the two upper sides, and the two
  * lower ones, are joined by a strip, round a vertex by a fan, along the border by walls: the surface is closed however it is
@@ -9,7 +9,7 @@
 #define RG_SOLID_H
 
 #include "motion/motion.h"
-#include "render/triangles.h"
+#include "mesh/triangles.h"
 
 /* Called with each triangle, counter-clockwise seen from outside; coordinates are single precision. */
 typedef void (*rg_solid_take)(void *ctx, const rg_vec3 corner[3]);

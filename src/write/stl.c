@@ -1,6 +1,6 @@
 #include "write/stl.h"
 #include "base/bytes.h"
-#include "render/triangles.h"
+#include "mesh/triangles.h"
 #include "write/solid.h"
 
 /* STL has no units; whoever prints it takes them for millimetres. */

@@ -39,6 +39,14 @@ class Miura(unittest.TestCase):
         degrees = table[:, -angles.shape[1] :]
         self.assertLess(np.abs(degrees - np.degrees(angles)).max(), 1e-12 * 180)
 
+        self.assertTrue(np.array_equal(motion.path.view(np.uint64), angles.view(np.uint64)))
+        self.assertFalse(motion.path.flags.owndata)
+        self.assertEqual(len(motion.percent), len(motion))
+        self.assertTrue((np.diff(motion.percent) > 0).all() and motion.percent[0] == 0 and motion.percent[-1] == 100)
+        self.assertEqual(motion.mobility(len(motion) // 2), 1)
+        self.assertEqual(motion.triangles.shape, (2 * len(motion.facets), 3))
+        self.assertEqual(motion._repr_png_()[:4], b"\x89PNG")
+
         frames = [state.angles.copy() for state in rigami.Fold(pattern)]
         self.assertEqual(len(frames), len(motion))
         self.assertTrue(np.array_equal(np.array(frames).view(np.uint64), angles.view(np.uint64)))
@@ -53,6 +61,8 @@ class Miura(unittest.TestCase):
         path = np.array([state.angles.copy() for state in fold])
         self.assertEqual(len(path), 61)
         self.assertLess(np.abs(np.abs(np.degrees(path[:, driven])) - np.arange(61)).max(), 1e-10)
+        fold.forget()
+        self.assertEqual(fold.info.frames, 1)
         ratio = np.abs(np.tan(path[1:] / 2) / np.tan(path[1:, driven : driven + 1] / 2))
         known = np.array([0.5, 1, 2])
         self.assertLess(np.abs(ratio[:, :, None] - known).min(axis=2).max(), 1e-9)

@@ -242,6 +242,12 @@ class _Sheet:
         return _facets(self._sheet(), self)
 
     @property
+    def triangles(self):
+        """What facets are drawn as, (n, 3) vertices: for plot_trisurf and others."""
+        q = self._sheet()
+        return _view(q.triangle, (q.triangles, 3), np.int32, self)
+
+    @property
     def edges(self):
         q = self._sheet()
         return _view(q.ends, (q.edges, 2), np.int32, self)
@@ -319,6 +325,23 @@ class Motion(_Sheet):
     def __len__(self):
         return self.report.frame_count
 
+    @property
+    def path(self):
+        """Fold angles of all frames, (frames, creases)."""
+        return _view(lib.rg_motion_angles(self._motion, 0), (len(self), self._sheet().creases), np.float64, self)
+
+    @property
+    def percent(self):
+        """Folded percent of all frames."""
+        frames = self.report.frames
+        return _view(frames, (len(self), ffi.sizeof("rg_frame") // 8), np.float64, self)[:, 0]
+
+    def mobility(self, frame=-1):
+        """How many ways the sheet could go from there, to first order."""
+        ways = ffi.new("int32_t *")
+        _check(lib.rg_motion_mobility(self._motion, range(len(self))[frame], ways))
+        return ways[0]
+
     def angles(self, frame):
         rho = lib.rg_motion_angles(self._motion, range(len(self))[frame])
         return _view(rho, (self._sheet().creases,), np.float64, self)
@@ -346,6 +369,10 @@ class Motion(_Sheet):
         picture, keep = _made("rg_picture", options)
         why = ffi.new("rg_diag *")
         _check(lib.rg_motion_write(self._motion, str(path).encode(), picture, why), why)
+
+    def _repr_png_(self):
+        """What a notebook shows: the last frame."""
+        return self.to_bytes(".png", width=480, height=360)
 
     def to_bytes(self, form, frame=-1, **options):
         """The same to memory; form: an extension, such as ".glb"."""
@@ -439,6 +466,10 @@ class Fold(_Sheet):
 
     def pin(self, crease):
         _check(lib.rg_fold_pin(self._handle, crease))
+
+    def forget(self):
+        """The present state becomes the first of the track."""
+        _check(lib.rg_fold_forget(self._handle))
 
     @property
     def angles(self):

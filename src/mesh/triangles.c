@@ -1,4 +1,4 @@
-#include "render/triangles.h"
+#include "mesh/triangles.h"
 
 #include <string.h>
 

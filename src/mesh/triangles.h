@@ -1,5 +1,5 @@
 /* triangles.h -- every facet as triangles, for drawing and for measuring overlaps; facets need not be convex.
- * Uses  mesh.h        Used by  render, write */
+ * Uses  mesh.h        Used by  motion, render, write */
 #ifndef RG_TRIANGLES_H
 #define RG_TRIANGLES_H
 
