@@ -881,8 +881,8 @@ typedef struct rg_picture {
     void *progress_ctx;              /* handed on to it; NULL */
     int resume;                      /* non-zero: numbered pictures that are there, of the same motion drawn the same
                                       * way, are kept; 0 */
-    int steady;                      /* non-zero: films and pages have frames of their own, even in the largest angle that
-                                      * a crease turns, whatever those of the motion are even in; 0 */
+    int steady;                      /* non-zero: films and pages have frames of their own, even in the largest angle
+                                      * that a crease turns, whatever those of the motion are even in; 0 */
 } rg_picture;
 
 /* size: sizeof(rg_picture) of the caller. */
