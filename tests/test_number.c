@@ -14,6 +14,7 @@
 
 #include "base/number.h"
 #include "base/text.h"
+#include "comma.h"
 #include "near.h"
 
 static void scans(const char *text, size_t used, double value)
@@ -157,27 +158,12 @@ static void numbers_are_short(void **state)
     for (int k = 1; k < 2000; k++) is_shortest(k / 2048.0 + 1e12), is_shortest(k / 64.0), is_shortest(1e15 + k / 8.0);
 }
 
-static int has_comma(void) { return strcmp(localeconv()->decimal_point, ".") != 0; }
-
-/* A locale with a decimal comma: one of the machine's, else one made for the test where it can be. */
-static int set_comma(const char *folder)
-{
-    const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE", "fr_FR"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (setlocale(LC_ALL, names[i]) && has_comma()) return 1;
-    char command[200];
-    snprintf(command, sizeof command, "localedef -i de_DE -f UTF-8 %s/de_DE.UTF-8 >/dev/null 2>&1", folder);
-    if (system(command) != 0) return 0;
-    setenv("LOCPATH", folder, 1);
-    return setlocale(LC_ALL, "de_DE.UTF-8") && has_comma();
-}
-
 /* A decimal comma in the user's language changes nothing. */
 static void a_decimal_comma_changes_nothing(void **state)
 {
     char folder[] = "/tmp/rigami-locale-XXXXXX", command[100];
     assert_non_null(mkdtemp(folder));
-    const int found = set_comma(folder);
+    const int found = comma_set(folder) != NULL;
     if (found) {
         char text[20];
         snprintf(text, sizeof text, "%.1f", 0.5);
