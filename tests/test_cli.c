@@ -251,13 +251,22 @@ static void the_verdict_comes_first(void **state)
     write_file("odd.cp", "1 0 0 8 0\n1 8 0 8 6\n1 8 6 0 6\n1 0 6 0 0\n2 3 2 0 0\n2 3 2 8 0\n3 3 2 3 6\n");
     const ran *r = ends(1, run("fold", "odd.cp", "-o", "odd.csv"));
     assert_int_equal(lines_in(r->err), 2);
-    assert_true(strstr(r->err, "stopped at") && strstr(r->err, "at (3, 2) 3 creases meet, an odd number. Next: "));
+    assert_true(strstr(r->err, "gets to its end only with creases moved by") && strstr(r->err, "at (3, 2) 3 creases meet, an odd number. Next: mend"));
     assert_non_null(strstr(r->err, "rigami: odd.cp: written up to there: odd.csv"));
     assert_string_equal(r->out, "");
     r = ends(0, run("info", "odd.cp"));
     assert_int_equal(strncmp(r->out, "It does not fold flat: at (3, 2) 3 creases meet", 47), 0);
     const int few = lines_in(r->out);
     assert_true(lines_in(ends(0, run("info", "odd.cp", "-v"))->out) > few);
+    /* What crosses says what speaks against it, if anything does, and how far it may be folded. */
+    write_file("over.cp", "1 0 0 10 0\n1 10 0 10 1\n1 10 1 0 1\n1 0 1 0 0\n3 4 0 4 1\n3 5 0 5 1\n");
+    r = ends(1, run("fold", "over.cp"));
+    int to;
+    assert_true(strstr(r->err, "cannot be put in order") && strstr(r->err, "Next: ") && sscanf(strstr(r->err, "--to "), "--to %d", &to) == 1);
+    char part[20];
+    snprintf(part, sizeof part, "%d", to);
+    ends(0, run("fold", "over.cp", "--to", part, "--contact", "report"));
+    assert_int_equal(strncmp(ends(0, run("info", "over.cp"))->out, "The sheet does not fold flat without passing through itself", 59), 0);
     /* All creases end short of the border: that is no success, whatever there was to fold. */
     write_file("short-of-it.cp", "1 0 0 8 0\n1 8 0 8 6\n1 8 6 0 6\n1 0 6 0 0\n2 4 0.01 4 5.99\n");
     r = ends(1, run("fold", "short-of-it.cp"));

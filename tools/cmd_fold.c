@@ -21,9 +21,6 @@ static const double ON_THE_PATTERN = 1e-4;
 /* A pattern that was moved by less is the one given, for all that one sees. */
 static const double SEEN = 1e-3;
 
-/* A coordinate as people write it: rounding is no place. */
-static double tidy(double x, double size) { return fabs(x) > 1e-9 * size ? x : 0; }
-
 /* One line, "1: 76 creases at once; 2: 4 simple folds"; what comes after the room for it is left to -v and the report. */
 static void summarize_stages(const rg_report *r)
 {
@@ -54,8 +51,8 @@ static void tell_stages(const rg_report *r)
         if (s->folds == 0) printf(": %d creases at once", (int)s->creases);
         for (int32_t f = 0; f < s->folds; f++) {
             const rg_simple_turn *t = &s->fold[f];
-            printf("%s %s fold from (%.4g, %.4g) to (%.4g, %.4g), %d crease%s", f ? ";" : ":", t->over > 0 ? "valley" : "mountain", tidy(t->line[0][0], size),
-                   tidy(t->line[0][1], size), tidy(t->line[1][0], size), tidy(t->line[1][1], size), (int)t->creases, t->creases == 1 ? "" : "s");
+            printf("%s %s fold from (%.4g, %.4g) to (%.4g, %.4g), %d crease%s", f ? ";" : ":", t->over > 0 ? "valley" : "mountain", verdict_tidy(t->line[0][0], size),
+                   verdict_tidy(t->line[0][1], size), verdict_tidy(t->line[1][0], size), verdict_tidy(t->line[1][1], size), (int)t->creases, t->creases == 1 ? "" : "s");
         }
         putchar('\n');
     }
@@ -90,15 +87,6 @@ static void summarize(const options *o, const char *name, const rg_motion *m)
     verdict_files(o, "  written   ", files, sizeof files);
     if (files[0]) puts(files);
     summarize_stages(r);
-}
-
-/* Of a motion that reaches its end through itself: from where on, and which facets first. Of one that stopped short, -v says it. */
-static void say_contact(const char *name, const rg_report *r)
-{
-    const double size = r->pattern->size;
-    say("%s: reaches its end only by passing through itself, from %.0f %%: facets %d at (%.6g, %.6g) and %d at (%.6g, %.6g)", name,
-        r->first_contact_percent, (int)r->contact_facets[0], tidy(r->contact_at[0][0], size), tidy(r->contact_at[0][1], size),
-        (int)r->contact_facets[1], tidy(r->contact_at[1][0], size), tidy(r->contact_at[1][1], size));
 }
 
 static void summarize_contact(const rg_report *r)
@@ -201,8 +189,9 @@ int fold_one(const options *o, fold_seen seen, void *ctx)
         else if (elsewhere)
             say("%s: it ends on a pattern moved by %.2g %% of the sheet, as it does not close as it was drawn; rigami info says where", name,
                 100 * r->moved_at_end);
-        if (!stopped && r->contact == RG_CONTACT_CROSSES) say_contact(name, r);
-        if (!stopped && interrupt_came()) say("%s: interrupted, with all of it written", name);
+        if (!stopped && r->contact == RG_CONTACT_CROSSES) verdict_say_contact(o, name, q.pattern[q.count - 1], m);
+        if (!stopped && interrupt_time_is_up()) say("%s: the %g seconds that it may take are over, with all of it written", name, o->seconds);
+        else if (!stopped && interrupt_came()) say("%s: interrupted, with all of it written", name);
         if (status == ENDS_WELL && (stopped || elsewhere || rolled || interrupt_came() || r->contact == RG_CONTACT_CROSSES)) status = ENDS_SHORT;
         if (seen) seen(ctx, m, status);
     }

@@ -48,10 +48,13 @@ static int is_closed(const rg_pattern *p, const double at[2], double size)
     return 0;
 }
 
+/* Whole percents that it gets to; what stops short gets nowhere near 100. */
+static double way_there(double percent) { return fmin(99, floor(fabs(percent))); }
+
 /* What has not been tried, or else the part of the way that there is. */
 static void next_thing(const options *o, const rg_report *r, char *text, size_t room)
 {
-    const double there = floor(fabs(r->folded_percent));
+    const double there = way_there(r->folded_percent);
     if (o->settings.triangulate == RG_TRIANGULATE_NONE) snprintf(text, room, "let creases be added: --triangulate auto");
     else if (o->settings.adjust == 0) snprintf(text, room, "let creases be moved on the way: --adjust auto");
     else if (o->settings.effort == RG_EFFORT_FAST) snprintf(text, room, "try more: --effort normal");
@@ -75,7 +78,8 @@ static void because(const options *o, const rg_pattern *p, const rg_report *r, c
         rg_unfoldable_text(p, u, text);
         snprintf(why, TEXT, "%s", text);
         if (u->theorem == RG_TARGETS) snprintf(next, TEXT, "change an angle there or leave one open, or fold with --no-targets");
-        else snprintf(next, TEXT, "mend the vertex, or fold part of the way: --to %.0f", fmax(1, floor(fabs(r->folded_percent))));
+        else if (r->folded_percent >= 99) snprintf(next, TEXT, "mend the vertex");
+        else snprintf(next, TEXT, "mend the vertex, or fold part of the way: --to %.0f", fmax(1, way_there(r->folded_percent)));
     } else if (r->blocking_vertex_count > 0) {
         const double *at = r->blocking_at[0];
         const int closed = is_closed(p, at, r->pattern->size);
@@ -84,12 +88,15 @@ static void because(const options *o, const rg_pattern *p, const rg_report *r, c
         next_thing(o, r, next, TEXT);
     } else if (strncmp(r->layers, "none", 4) == 0) {
         snprintf(why, TEXT, "folded flat, the sheet would pass through itself: %s", r->layers_reason);
-        snprintf(next, TEXT, "fold part of the way: --to %.0f", fmax(1, floor(fabs(r->folded_percent))));
+        snprintf(next, TEXT, "fold part of the way: --to %.0f", fmax(1, way_there(r->folded_percent)));
     } else {
         snprintf(why, TEXT, "%s", r->reason);
         next_thing(o, r, next, TEXT);
     }
 }
+
+/* A percent as it is printed, with one decimal: no rounding makes a whole way of one that stopped. */
+static double cut_off(double percent) { return percent < 100 ? floor(10 * percent) / 10 : percent; }
 
 /* The crease that ends farthest on the other side of flat than it should; -1: none does. *far: out, radians. */
 static int32_t wrong_way(const rg_motion *m, rg_crease *worst, double *far)
@@ -129,7 +136,27 @@ void verdict_say(const options *o, const char *name, const rg_pattern *p, const 
     because(o, p, r, why, next);
     if (fabs(o->settings.to) < 1 && strncmp(r->reason, "as far as was asked for", 23) == 0 && say_wrong_way(name, m)) return;
     if (r->pattern->creases == 0) say("%s: nothing is folded: %s%s%s", name, why, next[0] ? ". Next: " : "", next);
-    else say("%s: stopped at %.1f %% folded: %s%s%s", name, r->folded_percent, why, next[0] ? ". Next: " : "", next);
+    else if (r->folded_percent >= 100)
+        say("%s: gets to its end only with creases moved by %.2g %% of the sheet that do not come back: %s%s%s", name, 100 * r->moved_at_end, why,
+            next[0] ? ". Next: " : "", next);
+    else say("%s: stopped at %.1f %% folded: %s%s%s", name, cut_off(r->folded_percent), why, next[0] ? ". Next: " : "", next);
+}
+
+double verdict_tidy(double x, double size) { return fabs(x) > SAME_PLACE * size ? x : 0; }
+
+void verdict_say_contact(const options *o, const char *name, const rg_pattern *p, const rg_motion *m)
+{
+    const rg_report *r = rg_motion_report(m);
+    const double size = r->pattern->size, before = way_there(fmax(0, r->first_contact_percent - 1)); /* where facets come near is known that well */
+    const rg_unfoldable *u = culprit(o, p, r);
+    char why[TEXT] = "", theorem[240], next[TEXT];
+    if (u) rg_unfoldable_text(p, u, theorem), snprintf(why, sizeof why, "; %s", theorem);
+    else if (strncmp(r->layers, "none", 4) == 0) snprintf(why, sizeof why, "; %s", r->layers_reason);
+    snprintf(next, sizeof next, o->settings.contact == RG_CONTACT_REPORT ? "--contact avoid looks for a motion without" : u ? "mend the vertex" : *why ? "change a crease there" : "fold in steps, a file or a --frame each");
+    if (before >= 1) snprintf(next + strlen(next), sizeof next - strlen(next), ", or fold part of the way: --to %.0f", before);
+    say("%s: reaches its end only by passing through itself, from %.0f %%: facets %d at (%.6g, %.6g) and %d at (%.6g, %.6g)%s. Next: %s", name,
+        r->first_contact_percent, (int)r->contact_facets[0], verdict_tidy(r->contact_at[0][0], size), verdict_tidy(r->contact_at[0][1], size),
+        (int)r->contact_facets[1], verdict_tidy(r->contact_at[1][0], size), verdict_tidy(r->contact_at[1][1], size), why, next);
 }
 
 void verdict_files(const options *o, const char *lead, char *text, size_t room)

@@ -7,6 +7,10 @@
 
 /* Of a motion that stopped short, one line on standard error; p: the pattern that it stopped at. */
 void verdict_say(const options *o, const char *name, const rg_pattern *p, const rg_motion *m);
+/* The same of one that reaches its end through itself: from where on, which facets first, why if that is known. */
+void verdict_say_contact(const options *o, const char *name, const rg_pattern *p, const rg_motion *m);
+/* A coordinate as people write it: what is 0 but for rounding, over the sheet's size, is 0. */
+double verdict_tidy(double x, double size);
 /* The files that were written, with `lead` before them; an empty text: there are none. */
 void verdict_files(const options *o, const char *lead, char *text, size_t room);
 

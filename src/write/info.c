@@ -464,7 +464,8 @@ static void verdict(const rg_pattern *p, const rg_layers *l, FILE *out)
             rg_text_to(out, "Next: mend the creases there, or fold part of the way: rigami fold --to 50.\n");
         }
     } else if (layers.state == RG_LAYERS_NONE) {
-        rg_text_to(out, "Each vertex folds flat by itself, the sheet does not without passing through itself: %s.\n", layers.reason);
+        rg_text_to(out, i->interior_vertices ? "Each vertex folds flat by itself, the sheet does not without passing through itself: %s.\n"
+                                             : "The sheet does not fold flat without passing through itself: %s.\n", layers.reason);
         rg_text_to(out, "Next: fold part of the way: rigami fold --to 50.\n");
     } else if (i->mountains + i->valleys == 0) {
         rg_text_to(out, "No crease says which way it folds: nothing will move.\n");
