@@ -15,8 +15,9 @@ static const double NOTHING = 1e-7;
  * degrees. */
 static const double LIVES_INSIDE = 1e-3, LIVES = 2e-4, LIVES_FACING = 0.9;
 
-/* A height (lengths of the sheet) that shows which of two facets is above, and how alike they lie there. */
-static const double SHOWN = 1e-5, ALIKE = 0.9;
+/* A height (lengths of the sheet) that shows which of two facets is above, what a crossing counts from: layers that are nearer lie on
+ * each other; and how alike they lie there. */
+static const double SHOWN = 1e-4, ALIKE = 0.9;
 
 /* A triangle cut by three half planes has six corners at most. */
 typedef struct shape { int n; rg_vec2 x[8]; } shape;
@@ -422,17 +423,28 @@ int rg_end_is_live(const rg_end *e, const rg_end_row *row, const rg_linkage *P)
                                              rg_vec3_dot(P->place[row->frame].R.c[2], P->place[row->other].R.c[2])) > LIVES_FACING;
 }
 
+static double apart_squared(const rg_end_row *row, const rg_linkage *P)
+{
+    rg_vec3 d = {0, 0, 0};
+    for (int32_t i = 0; i < row->terms; i++) d = rg_vec3_axpy(row->weight[i], P->p[row->v[i]], d);
+    return rg_vec3_dot(d, d);
+}
+
+/* Rows are of places of the paper, which slide on each other. One that slid on a slope went up or down by that, which does not say
+ * what is over it. */
 int rg_end_is_upset(const rg_end *e, const rg_linkage *P)
 {
     for (int32_t k = 0; k < e->count;) { /* rows of two facets follow each other */
         const rg_end_row *first = &e->row[k];
-        double low = INFINITY, high = -INFINITY;
+        double low = INFINITY, high = -INFINITY, slid = 0;
         for (; k < e->count && e->row[k].kind == first->kind && e->row[k].frame == first->frame && e->row[k].other == first->other; k++) {
             const double gap = rg_end_gap(&e->row[k], P->place, P->p);
             low = fmin(low, gap), high = fmax(high, gap);
+            slid = fmax(slid, sqrt(fmax(0, apart_squared(&e->row[k], P) - gap * gap)));
         }
-        if (first->kind == RG_END_LAYER && low < -SHOWN && high <= SHOWN &&
-            fabs(rg_vec3_dot(P->place[first->frame].R.c[2], P->place[first->other].R.c[2])) >= ALIKE) return 1;
+        const double facing = fabs(rg_vec3_dot(P->place[first->frame].R.c[2], P->place[first->other].R.c[2]));
+        const double by_slope = slid * sqrt(fmax(0, 1 - facing * facing));
+        if (first->kind == RG_END_LAYER && low < -SHOWN - by_slope && high <= SHOWN && facing >= ALIKE) return 1;
     }
     return 0;
 }

@@ -140,14 +140,20 @@ void rg_linkage_velocity(rg_linkage *P, const double *dz, rg_vec3 *dp)
     }
 }
 
+double rg_linkage_area(const rg_linkage *P, int32_t f, const rg_vec2 *X)
+{
+    const rg_vec2 *given = P->mesh->X;
+    const int32_t *v = P->mesh->facet_vertex + P->mesh->facet_start[f];
+    return rg_vec2_turn(X[v[0]], X[v[1]], X[v[2]]) / rg_vec2_turn(given[v[0]], given[v[1]], given[v[2]]);
+}
+
 double rg_linkage_least_area(rg_linkage *P, const double *u)
 {
     const rg_mesh *m = P->mesh;
     double least = 1;
     rg_freedom_move(&P->freedom, u, P->trial_X);
     for (int32_t f = 0; f < m->nf; f++) {
-        const int32_t *v = m->facet_vertex + m->facet_start[f];
-        const double part = rg_vec2_turn(P->trial_X[v[0]], P->trial_X[v[1]], P->trial_X[v[2]]) / rg_vec2_turn(m->X[v[0]], m->X[v[1]], m->X[v[2]]);
+        const double part = rg_linkage_area(P, f, P->trial_X);
         if (!(part >= least)) least = part;
     }
     return least;

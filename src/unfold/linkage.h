@@ -47,5 +47,7 @@ void rg_linkage_positions(rg_linkage *P, const double *z, rg_vec3 *x);
 void rg_linkage_velocity(rg_linkage *P, const double *dz, rg_vec3 *dp);
 /* The least area of a facet at u, over its area in the pattern given; negative: one has turned over. */
 double rg_linkage_least_area(rg_linkage *P, const double *u);
+/* The same of facet f with vertices at X[nv]. */
+double rg_linkage_area(const rg_linkage *P, int32_t f, const rg_vec2 *X);
 
 #endif

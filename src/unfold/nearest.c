@@ -48,7 +48,7 @@ rg_row *rg_nearest_add(rg_nearest *q)
     if (rg_mem_grow(&q->mem, (void **)&q->row, &q->room, (size_t)q->count + 1, sizeof *q->row) != RG_OK) return NULL;
     rg_row *row = &q->row[q->count++];
     memset(row, 0, sizeof *row);
-    row->crease = row->at = row->feature = row->next = -1;
+    row->crease = row->facet = row->at = row->feature = row->next = -1;
     row->c = LEAST_COMPLIANCE;
     return row;
 }
@@ -76,7 +76,8 @@ double rg_nearest_value(const rg_nearest *q, const rg_row *row)
 {
     if (row->crease >= 0) return row->weight[0] * q->dz[row->crease];
     double sum = 0;
-    for (int32_t i = 0; i < row->terms; i++) sum += row->weight[i] * rg_vec3_dot(row->n, q->dp[row->v[i]]);
+    for (int32_t i = 0; i < row->terms; i++)
+        sum += row->weight[i] * (row->facet >= 0 ? q->dz[q->P->N + row->v[i]] : rg_vec3_dot(row->n, q->dp[row->v[i]]));
     return sum;
 }
 
@@ -110,7 +111,11 @@ static rg_status make(rg_nearest *q, rg_row *row)
             x[n++] = row->weight[0] * q->scale[row->crease] * J->x[j];
         }
     }
-    for (int32_t i = 0; row->crease < 0 && i < row->terms; i++) {
+    for (int32_t i = 0; row->facet >= 0 && i < row->terms; i++) {
+        col[n] = 3 * q->P->mesh->nv + row->v[i];
+        x[n++] = row->weight[i] * q->scale[q->P->N + row->v[i]];
+    }
+    for (int32_t i = 0; row->crease < 0 && row->facet < 0 && i < row->terms; i++) {
         if (row->weight[i] == 0) continue;
         const double a[] = {row->n.x, row->n.y, row->n.z};
         for (int k = 0; k < 3; k++) col[n] = 3 * row->v[i] + k, x[n++] = row->weight[i] * a[k];

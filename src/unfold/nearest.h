@@ -15,9 +15,10 @@
 
 enum { RG_ROW_TERMS = 6 };
 
-/* n . sum weight[i] dp_v[i], or, with crease >= 0, weight[0] drho of it; and what it must be at least. */
+/* n . sum weight[i] dp_v[i], or, with crease >= 0, weight[0] drho of it, or, with facet >= 0, sum weight[i] du of the ways v[i]; and
+ * what it must be at least. */
 typedef struct rg_row {
-    int32_t terms, crease, v[RG_ROW_TERMS];
+    int32_t terms, crease, facet, v[RG_ROW_TERMS];
     double weight[RG_ROW_TERMS];
     rg_vec3 n;
     double b, c;           /* bound, compliance */
@@ -26,6 +27,7 @@ typedef struct rg_row {
     int32_t feature;       /* corner, or nv and an edge, that it is about; -1: neither */
     double d;              /* how far from what it would meet */
     double floor;          /* what its gap may not be less than after the step, for the caller */
+    int32_t carried;       /* how n turns with what it is about, for the caller; 0: it does not */
     double base;           /* what the row is along the projected wish */
     int32_t at;            /* among the rows that are made, -1: not */
     int active;            /* flags: the row, 1, and its soft form, 2; 4 times them: what is broken of it */

@@ -83,26 +83,25 @@ void rg_proximity_free(rg_proximity *n)
 static void corner_pair(const rg_mesh *m, int32_t v, int32_t f, rg_close_pair *at)
 {
     const int32_t *c = m->facet_vertex + m->facet_start[f];
-    *at = (rg_close_pair){0, v, f, {v, c[0], c[1], c[2]}, {1, 0, 0, 0}, 0};
+    *at = (rg_close_pair){0, v, f, {v, c[0], c[1], c[2]}, {1, 0, 0, 0}, 0, {0, 0, 0}};
 }
 
 static void edge_pair(const rg_mesh *m, int32_t e, int32_t f, rg_close_pair *at)
 {
-    *at = (rg_close_pair){1, e, f, {m->edge[e][0], m->edge[e][1], m->edge[f][0], m->edge[f][1]}, {0, 0, 0, 0}, 0};
+    *at = (rg_close_pair){1, e, f, {m->edge[e][0], m->edge[e][1], m->edge[f][0], m->edge[f][1]}, {0, 0, 0, 0}, 0, {0, 0, 0}};
 }
 
 static void measure(rg_close_pair *at, const rg_vec3 *p)
 {
     const int32_t *v = at->v;
-    rg_vec3 n;
     if (at->kind == 0) {
         double w[3];
-        at->d = rg_near_triangle(p[v[0]], p[v[1]], p[v[2]], p[v[3]], w, &n);
+        at->d = rg_near_triangle(p[v[0]], p[v[1]], p[v[2]], p[v[3]], w, &at->n);
         at->weight[0] = 1;
         for (int k = 0; k < 3; k++) at->weight[k + 1] = -w[k];
     } else {
         double s, t;
-        at->d = rg_near_segments(p[v[0]], p[v[1]], p[v[2]], p[v[3]], &s, &t, &n);
+        at->d = rg_near_segments(p[v[0]], p[v[1]], p[v[2]], p[v[3]], &s, &t, &at->n);
         at->weight[0] = 1 - s, at->weight[1] = s, at->weight[2] = t - 1, at->weight[3] = -t;
     }
 }
@@ -217,7 +216,7 @@ static void meet(void *ctx, rg_near_kind kind, int32_t i, int32_t j, int32_t a, 
     rg_close_pair at;
     unsigned char flag;
     (void)a, (void)b;
-    if (!pair_of(m->n, kind, i, j, &at, &flag) || flag) return;
+    if (!pair_of(m->n, kind, i, j, &at, &flag) || flag & RG_PROXIMITY_GLUED) return;
     const double t = advance(&at, m->p, m->q, m->gap, m->most);
     if (!(t < m->most)) return;
     m->most = t;

@@ -16,6 +16,7 @@ typedef struct rg_close_pair {
     int32_t v[4];
     double weight[4];
     double d;           /* distance */
+    rg_vec3 n;          /* unit, from the second to the first; zero where they touch */
 } rg_close_pair;
 
 typedef struct rg_proximity {
@@ -31,7 +32,9 @@ typedef struct rg_proximity {
 
 enum {
     RG_PROXIMITY_APART = 1, /* kept apart by a hinge */
-    RG_PROXIMITY_GLUED = 2, /* its layers lie on each other, and have since the flat end */
+    RG_PROXIMITY_GLUED = 2, /* its layers lie on each other */
+    RG_PROXIMITY_ABOVE = 4, /* when last apart, the first part was on the side that the second's normal points to, */
+    RG_PROXIMITY_BELOW = 8  /* on the other: of edges, the normal of both, first by second */
 };
 
 rg_status rg_proximity_init(rg_proximity *n, const rg_memory *mem, const rg_mesh *m);

@@ -23,9 +23,15 @@ static const double OVER_HALF_TURN = 1e-4; /* what rounding and closing may put 
 static const double ADDED_BACK = 0.1, PATTERN_BACK = 0.5; /* what added creases and pattern are wished back by in a step */
 static const double ADDED_SCALE = 3;     /* an added crease bends more readily than a drawn one leaves its wish */
 static const double LEAST_AREA = 0.1;    /* of a facet, of what it was */
+static const double SMALL_AREA = 0.5, AREA_FLOOR = 0.12; /* facets of less get a row; and what it keeps: a little more than the least */
 static const double MOST_CORRECTION = 0.7, ALWAYS_CORRECTED = 1e-3; /* of the step: else it went to another branch */
 static const double GAP = 0.1;           /* of its distance, that a pair must keep over a step */
+/* A pair is well apart from this distance on, and its side clear where the shortest line is within 60 degrees of the normal; edges
+ * that are nearer to parallel (sine) have none. */
+static const double APART = 1e-5, STEEP = 0.5, PARALLEL = 1e-3;
+static const double IS_NORMAL = 1 - 1e-9; /* cosine: the shortest line is the normal, but for rounding */
 static const double WRONG_BY = 1e-5;     /* a glued pair may not be farther than that on its wrong side, and go on */
+static const double MAY_FALL = 2;        /* or is as far as it was, but for so many times what closing leaves */
 static const double CROSSED = 6e-5;      /* a step after which facets cross deeper (lengths of the sheet) is none */
 static const double STILL = 1e-7;        /* a step in which no crease turns by more is none */
 static const double CLOSED = 1e-11, HARDLY_OPEN = 1e-8;
@@ -91,6 +97,45 @@ static unsigned char *flag_of(rg_stride *s, int kind, int32_t i, int32_t j)
     return (kind ? s->near.edge : s->near.corner) + (size_t)i * wide + (size_t)j;
 }
 
+/* What a row's n turns with: nothing, a facet, two edges, or, from BY_END on, what a row of the end is carried by. */
+enum { FIXED, BY_FACET, BY_EDGES, BY_END };
+
+/* The normal by which a pair's side is remembered; zero: it has none. */
+static rg_vec3 normal_of(const rg_linkage *P, const rg_close_pair *at)
+{
+    if (at->kind == 0) return P->place[at->j].R.c[2];
+    const rg_vec3 a = rg_vec3_sub(P->p[at->v[1]], P->p[at->v[0]]), b = rg_vec3_sub(P->p[at->v[3]], P->p[at->v[2]]);
+    const rg_vec3 c = rg_vec3_cross(a, b);
+    const double length = rg_vec3_length(c);
+    if (!(length > PARALLEL * rg_vec3_length(a) * rg_vec3_length(b))) return (rg_vec3){0, 0, 0};
+    return rg_vec3_scale(1 / length, c);
+}
+
+/* Of a pair that is well apart, on which side it is. */
+static void remember(rg_stride *s, const rg_close_pair *at)
+{
+    unsigned char *flag = flag_of(s, at->kind, at->i, at->j);
+    const double along = rg_vec3_dot(at->n, normal_of(s->P, at));
+    *flag &= (unsigned char)~(RG_PROXIMITY_ABOVE | RG_PROXIMITY_BELOW);
+    if (fabs(along) > STEEP) *flag |= along > 0 ? RG_PROXIMITY_ABOVE : RG_PROXIMITY_BELOW;
+}
+
+/* As rg_sides_tell, and where the order does not say, by where it was when last apart. */
+static int tell(rg_stride *s, rg_close_pair *at, rg_vec3 *n, double *d)
+{
+    if (rg_sides_tell(s->sides, s->P, at, n, d)) return 1;
+    const unsigned char flag = *flag_of(s, at->kind, at->i, at->j);
+    const int side = flag & RG_PROXIMITY_ABOVE ? 1 : flag & RG_PROXIMITY_BELOW ? -1 : 0;
+    const rg_vec3 up = rg_vec3_scale(side, normal_of(s->P, at));
+    rg_vec3 apart = {0, 0, 0};
+    if (!(rg_vec3_dot(up, up) > 0)) return 0;
+    for (int i = 0; i < 4; i++) apart = rg_vec3_axpy(at->weight[i], s->P->p[at->v[i]], apart);
+    if (at->d > TOUCH && fabs(rg_vec3_dot(apart, up)) < STEEP * at->d) return 0; /* past the rim */
+    *n = up;
+    *d = rg_vec3_dot(apart, up);
+    return 1;
+}
+
 /* Where two layers lie on each other at the start they are glued. */
 static void glue(rg_stride *s)
 {
@@ -115,7 +160,7 @@ static void release_pair(rg_stride *s, int kind, int32_t i, int32_t j, unsigned 
     double d;
     if (!(*flag & RG_PROXIMITY_GLUED)) return;
     const double apart = rg_proximity_distance(&s->near, kind, i, j, s->P->p, &at);
-    const int told = s->sides && rg_sides_tell(s->sides, s->P, &at, &n, &d);
+    const int told = s->sides && tell(s, &at, &n, &d);
     if (!(apart > (told ? RELEASE : TOUCH)) || (told && d < SIDE_RELEASE)) return;
     *flag &= (unsigned char)~RG_PROXIMITY_GLUED;
 }
@@ -245,14 +290,18 @@ static rg_status add_pair_rows(rg_stride *s)
     rg_status status = rg_proximity_find(near, s->P->p, REACH * MOVE * s->h / DAMPER + 1e-9);
     for (int32_t k = 0; status == RG_OK && k < near->count; k++) {
         rg_close_pair *at = &near->pair[k];
-        if (s->sides && at->d < TOUCH) *flag_of(s, at->kind, at->i, at->j) |= RG_PROXIMITY_GLUED; /* no distance to go by */
+        rg_vec3 up;
+        double along;
+        /* No distance to go by, nor a straight way from state to state that does not cut through what turns. */
+        if (s->sides && at->d < GLUE && (at->d < TOUCH || tell(s, at, &up, &along))) *flag_of(s, at->kind, at->i, at->j) |= RG_PROXIMITY_GLUED;
         const int glued = is_glued(s, at);
+        if (s->sides && !glued && at->d > APART) remember(s, at);
         rg_vec3 n = {0, 0, 0};
         double d = at->d;
         for (int i = 0; i < 4; i++) n = rg_vec3_axpy(at->weight[i] / fmax(at->d, 1e-300), s->P->p[at->v[i]], n);
         if (s->sides && (glued || at->d < SIDE_COUNTS)) {
             const rg_vec3 shortest = n;
-            const int told = rg_sides_tell(s->sides, s->P, at, &n, &d) && d >= -NOT_THERE;
+            const int told = tell(s, at, &n, &d) && d >= -NOT_THERE;
             if (glued && !told) continue;
             if (!told) n = shortest, d = at->d;
         }
@@ -262,6 +311,7 @@ static rg_status add_pair_rows(rg_stride *s)
         for (int i = 0; i < 4; i++) row->v[i] = at->v[i], row->weight[i] = at->weight[i];
         row->n = n;
         row->feature = at->kind == 0 ? at->i : s->P->mesh->nv + at->i;
+        if (fabs(rg_vec3_dot(n, normal_of(s->P, at))) > IS_NORMAL) row->carried = at->kind == 0 ? BY_FACET : BY_EDGES;
         row->d = d;
         row->c = HARD_COMPLIANCE;
         row->b = -DAMPER * fmax(0, d - dm);
@@ -285,6 +335,7 @@ static rg_status add_end_rows(rg_stride *s)
         memcpy(row->v, from->v, sizeof row->v);
         memcpy(row->weight, from->weight, sizeof row->weight);
         row->n = rg_end_normal(from, s->P->place);
+        row->carried = BY_END + k;
         row->c = HARD_COMPLIANCE;
         row->b = -DAMPER * fmax(0, d - END_FLOOR);
         row->floor = d > 0 ? (1 - DAMPER_CLOSING) * d : d - END_ROUNDING;
@@ -312,11 +363,56 @@ static rg_status add_bounds(rg_stride *s)
     return RG_OK;
 }
 
-/* How far the parts of a row are apart at p. */
-static double gap(const rg_row *row, const rg_vec3 *p)
+/* Facets that have become small do not become much smaller. */
+static rg_status add_area_rows(rg_stride *s)
 {
+    const rg_linkage *P = s->P;
+    const rg_freedom *F = &P->freedom;
+    for (int32_t f = 0; f < P->mesh->nf; f++) {
+        const double part = rg_linkage_area(P, f, P->X);
+        if (part >= SMALL_AREA) continue;
+        rg_row *row = rg_nearest_add(&s->q);
+        if (!row) return RG_ENOMEM;
+        const int32_t *v = P->mesh->facet_vertex + P->mesh->facet_start[f];
+        const rg_vec2 *X = P->mesh->X;
+        const double whole = rg_vec2_turn(X[v[0]], X[v[1]], X[v[2]]);
+        for (int i = 0; i < 3; i++) {
+            const rg_vec2 far = rg_vec2_sub(P->X[v[(i + 2) % 3]], P->X[v[(i + 1) % 3]]);
+            for (int k = 0; k < 2; k++) {
+                const int32_t way = F->way[v[i]][k];
+                if (way < 0) continue;
+                row->v[row->terms] = way;
+                row->weight[row->terms++] = -rg_vec2_cross(F->direction[way], far) / whole;
+            }
+        }
+        row->facet = f;
+        row->c = HARD_COMPLIANCE;
+        row->b = -DAMPER * fmax(0, part - AREA_FLOOR);
+        row->floor = part - DAMPER_CLOSING * fmax(0, part - AREA_FLOOR);
+    }
+    return RG_OK;
+}
+
+/* n of a row, as it is turned where vertices are at p and facets in place: else a corner that slides on a facet that turns would seem
+ * to leave it, or to go through. */
+static rg_vec3 normal_at(const rg_stride *s, const rg_row *row, const rg_vec3 *p, const rg_place *place)
+{
+    const int32_t *v = row->v;
+    if (row->carried == FIXED) return row->n;
+    if (row->carried >= BY_END) return rg_end_normal(&s->end->row[row->carried - BY_END], place);
+    const rg_vec3 m = row->carried == BY_FACET ? rg_vec3_cross(rg_vec3_sub(p[v[2]], p[v[1]]), rg_vec3_sub(p[v[3]], p[v[1]]))
+                                               : rg_vec3_cross(rg_vec3_sub(p[v[1]], p[v[0]]), rg_vec3_sub(p[v[3]], p[v[2]]));
+    const double length = rg_vec3_length(m);
+    if (!(length > 0)) return row->n;
+    return rg_vec3_scale((rg_vec3_dot(m, row->n) > 0 ? 1 : -1) / length, m);
+}
+
+/* How far the parts of a row are apart there. */
+static double gap(const rg_stride *s, const rg_row *row, const rg_vec3 *p, const rg_place *place)
+{
+    const rg_vec3 n = normal_at(s, row, p, place);
     double sum = 0;
-    for (int32_t i = 0; i < row->terms; i++) sum += row->weight[i] * rg_vec3_dot(row->n, p[row->v[i]]);
+    for (int32_t i = 0; i < row->terms; i++) sum += row->weight[i] * rg_vec3_dot(n, p[row->v[i]]);
     return sum;
 }
 
@@ -326,8 +422,12 @@ static void set_floors(rg_stride *s)
     rg_linkage_positions(s->P, s->z1, s->p1);
     for (int32_t k = 0; k < s->q.count; k++) {
         rg_row *row = &s->q.row[k];
+        if (row->facet >= 0) {
+            row->b = row->floor - rg_linkage_area(s->P, row->facet, s->P->trial_X);
+            continue;
+        }
         row->b = row->crease >= 0 ? fabs(s->z1[row->crease]) - fmax(RG_PI + OVER_HALF_TURN / 2, fabs(s->z[row->crease]))
-                                  : row->floor - CLOSING_ROUNDS / 10 - gap(row, s->p1);
+                                  : row->floor - CLOSING_ROUNDS / 10 - gap(s, row, s->p1, s->P->trial_place);
     }
 }
 
@@ -359,8 +459,8 @@ static int changes_side(const rg_stride *s)
     for (int32_t k = 0; k < s->q.count; k++) {
         const rg_row *row = &s->q.row[k];
         if (!row->glued) continue;
-        const double now = gap(row, s->p1);
-        if (!(now >= -WRONG_BY) && !(now >= gap(row, s->P->p) - WRONG_BY / 10)) return 1;
+        const double now = gap(s, row, s->p1, s->P->trial_place);
+        if (!(now >= -WRONG_BY) && !(now >= gap(s, row, s->P->p, s->P->place) - MAY_FALL * CLOSING_ROUNDS)) return 1;
     }
     return 0;
 }
@@ -378,7 +478,7 @@ static int refuse(rg_stride *s, const double *dz, double f)
     if (!(sqrt(off) <= MOST_CORRECTION * sqrt(step) + ALWAYS_CORRECTED)) return RG_REFUSED_FAR;
     if (!(rg_linkage_least_area(s->P, s->z1 + P->N) >= LEAST_AREA)) return RG_REFUSED_AREA;
     for (int32_t i = 0; i < P->N; i++)
-        if (!(fabs(s->z1[i]) <= fmax(RG_PI + OVER_HALF_TURN, fabs(s->z[i])))) return RG_REFUSED_OVER;
+        if (!(fabs(s->z1[i]) <= fmax(RG_PI + OVER_HALF_TURN, fabs(s->z[i]) + OVER_HALF_TURN / 100))) return RG_REFUSED_OVER;
     rg_linkage_positions(s->P, s->z1, s->p1);
     if (changes_side(s)) return RG_REFUSED_SIDE;
     rg_contact_hit hit;
@@ -396,6 +496,7 @@ static rg_status find_step(rg_stride *s, double *f)
     if (status == RG_OK) status = add_pair_rows(s);
     if (status == RG_OK) status = add_end_rows(s);
     if (status == RG_OK) status = add_bounds(s);
+    if (status == RG_OK) status = add_area_rows(s);
     if (status == RG_OK) status = rg_nearest_solve(q, s->wish, P->J.r, 1);
     if (status != RG_OK) return status;
     double turn = 0, move = 0, shift = 0;

@@ -33,6 +33,8 @@ static const double READ_CLOSED = 1e-13, NEAR_DUE = 1e-6;
 static const int READ_NEWTON = 12, SECANTS = 8;
 /* Going home: from where creases are unfolded by this part, in the mean; less is next to flat; and steps, in radians. */
 static const double NEARLY_HOME = 0.9, NEXT_TO_FLAT = 2 * RG_DEG, HOME_STEP = 6 * RG_DEG, HOME_CLOSED = 1e-11;
+/* Radians: a sheet whose creases are all folded by less lies all but flat, its facets side by side. */
+static const double LIES_NEARLY = 20 * RG_DEG;
 /* What is tried, one after the other: a way of opening, and the number of an order; way -1: forwards. Another order does more than
  * another way. */
 typedef struct step_of_plan { int way; int32_t order; } step_of_plan;
@@ -260,6 +262,38 @@ static rg_status go_home(rg_unfold *u, const double *z, int *home)
     return s == RG_OK && *home ? keep(u, u->scratch) : s;
 }
 
+/* Another way home: flat, any pattern closes, and what the pattern gave by holds it back. All creases go home straight, as it is now;
+ * once the sheet lies flat its creases are those of the drawing. */
+static rg_status lie_down(rg_unfold *u, const double *z, int *home)
+{
+    const int32_t N = u->P.N, n = u->P.n, first = u->count;
+    double most = 0;
+    for (int32_t i = 0; i < N; i++) most = fmax(most, fabs(z[i]));
+    rg_stride_scale(&u->P, 1, u->q.scale);
+    const int steps = (int)ceil(most / HOME_STEP);
+    rg_status s = RG_OK;
+    *home = most < LIES_NEARLY;
+    for (int k = 1; s == RG_OK && *home && k < steps; k++) {
+        const double left = 1 - (double)k / steps;
+        for (int32_t i = 0; i < n; i++) u->scratch[i] = i < N ? left * z[i] : z[i];
+        *home = rg_stride_close(&u->P, &u->q, u->scratch, HOME_CLOSED, READ_NEWTON);
+        for (int32_t i = 0; i < N; i++) *home &= fabs(u->scratch[i] - left * z[i]) < NEXT_TO_FLAT;
+        *home = *home && rg_linkage_least_area(&u->P, u->scratch + N) >= LEAST_AREA / 2;
+        if (!*home) break;
+        rg_linkage_put(&u->P, u->scratch);
+        *home = !crosses(u, u->P.p);
+        if (*home) s = keep(u, u->scratch);
+    }
+    if (s != RG_OK || !*home) {
+        u->count = first;
+        return s;
+    }
+    for (int32_t i = 0; i < n; i++) u->scratch[i] = i < N ? 0 : z[i];
+    s = keep(u, u->scratch);
+    memset(u->scratch, 0, (size_t)n * sizeof *u->scratch);
+    return s == RG_OK ? keep(u, u->scratch) : s;
+}
+
 /* What ends it: the budget, also within one long solve, and who watches. */
 static void watch(rg_stride *s, double budget, const rg_unfold_wish *wish)
 {
@@ -310,7 +344,14 @@ static rg_status walk(rg_unfold *u, const rg_end *end, const double *z, const do
     for (int i = 0; i < RG_REFUSALS; i++) u->refused += s.refused[i];
     *through = status == RG_OK && s.state == RG_STRIDE_ARRIVED;
     if (*through) status = finish(u, s.z);
-    else if (status == RG_OK && s.state != RG_STRIDE_GOES && s.mean > NEARLY_HOME) status = go_home(u, s.z, through);
+    else if (status == RG_OK && s.state != RG_STRIDE_GOES && s.mean > NEARLY_HOME) {
+        const int32_t count = u->count;
+        status = go_home(u, s.z, through);
+        if (status == RG_OK && !*through) {
+            u->count = count;
+            status = lie_down(u, s.z, through);
+        }
+    }
     const double spent = s.work + s.q.work + s.q.q.work;
     u->work += spent;
     rg_stride_free(&s);
