@@ -20,6 +20,7 @@ static const double THICK = 0.07;
 static const double BELOW_FLOOR = 0.2;   /* what closing may take of a distance that is below the floor */
 static const double NEAR_HALF_TURN = 0.6; /* creases this near to half a turn get their bound as a row */
 static const double OVER_HALF_TURN = 1e-4; /* what rounding and closing may put a crease past it */
+static const double OVER_ROUNDING = 1e-8; /* and what it may go on by in a step, where it is past that */
 static const double ADDED_BACK = 0.1, PATTERN_BACK = 0.5; /* what added creases and pattern are wished back by in a step */
 static const double ADDED_SCALE = 3;     /* an added crease bends more readily than a drawn one leaves its wish */
 static const double LEAST_AREA = 0.1;    /* of a facet, of what it was */
@@ -478,7 +479,7 @@ static int refuse(rg_stride *s, const double *dz, double f)
     if (!(sqrt(off) <= MOST_CORRECTION * sqrt(step) + ALWAYS_CORRECTED)) return RG_REFUSED_FAR;
     if (!(rg_linkage_least_area(s->P, s->z1 + P->N) >= LEAST_AREA)) return RG_REFUSED_AREA;
     for (int32_t i = 0; i < P->N; i++)
-        if (!(fabs(s->z1[i]) <= fmax(RG_PI + OVER_HALF_TURN, fabs(s->z[i]) + OVER_HALF_TURN / 100))) return RG_REFUSED_OVER;
+        if (!(fabs(s->z1[i]) <= fmax(RG_PI + OVER_HALF_TURN, fabs(s->z[i]) + OVER_ROUNDING))) return RG_REFUSED_OVER;
     rg_linkage_positions(s->P, s->z1, s->p1);
     if (changes_side(s)) return RG_REFUSED_SIDE;
     rg_contact_hit hit;

@@ -24,6 +24,7 @@ static const try_ TRIES[] = {
 /* An opened state whose layers are farther on the wrong side is not one (lengths of the sheet): less than what counts as a crossing. */
 static const double WRONG = 8e-5;
 static const double CLOSED = 1e-9, LEAST_AREA = 0.1;
+static const double OVER = 1e-4; /* radians: what rounding and closing may put a crease past half a turn, as in stride.c */
 /* Places that are looked at between two states: one less. */
 enum { BETWEEN = 4 };
 /* From this progress on the order of layers is to be seen, where it is. */
@@ -417,6 +418,14 @@ static rg_status forwards(rg_unfold *u, double budget, const rg_unfold_wish *wis
     return status;
 }
 
+/* The farthest that a crease is past half a turn. */
+static double over(const rg_unfold *u, const double *z)
+{
+    double most = 0;
+    for (int32_t i = 0; i < u->P.N; i++) most = fmax(most, fabs(z[i]) - RG_PI);
+    return most;
+}
+
 static rg_status attempt(rg_unfold *u, const try_ *t, double budget, const rg_unfold_wish *wish, int *through)
 {
     rg_end end = {0};
@@ -441,7 +450,7 @@ static rg_status attempt(rg_unfold *u, const try_ *t, double budget, const rg_un
         budget -= spent;
     }
     rg_proximity_free(&near);
-    if (s == RG_OK && opened.angle <= CLOSED && (t->open.grow || opened.worst >= -WRONG) && rg_linkage_least_area(&u->P, z + u->P.N) >= LEAST_AREA)
+    if (s == RG_OK && opened.angle <= CLOSED && (t->open.grow || opened.worst >= -WRONG) && over(u, z) <= OVER && rg_linkage_least_area(&u->P, z + u->P.N) >= LEAST_AREA)
         s = walk(u, &end, z, target, budget, t->open.grow, wish, through);
     rg_end_free(&end);
     rg_mem_free(&u->mem, z);
