@@ -92,18 +92,21 @@ static rg_status build(struct rg_pattern *p, const rg_reading *settings, rg_diag
 {
     rg_graph g = {.mem = p->mem};
     rg_star star = {.mem = p->mem};
+    rg_walk walk = {.there = 0};
     rg_status s = rg_planar_from_lines(&p->lines, settings, &g, why);
     if (s == RG_OK) s = go_on(settings, 0, why);
-    if (s == RG_OK) s = rg_pieces_find(&g, &p->lines, settings->sheet, &p->piece, &p->info.sheets, why);
+    if (s == RG_OK) s = rg_pieces_find(&g, &p->lines, settings->sheet, &walk, &p->piece, &p->info.sheets, why);
     p->info.size = g.size;
     p->info.merged_max = g.merged_max;
     p->info.lost_creases = g.loose;
     p->info.unit = p->lines.metres;
     p->info.file_frames = p->lines.frames;
+    if (p->lines.vertex) rg_walk_free(&walk); /* vertices are numbered anew */
     if (s == RG_OK) s = rg_source_sort(&g, &p->lines);
     if (s == RG_OK) s = rg_points_nearest(&p->mem, g.X, g.nv, &p->info.kept_min, NULL);
     if (s == RG_OK) s = go_on(settings, 1, why);
-    if (s == RG_OK) s = rg_sheet_from_graph(&g, settings->merge * g.size, &p->lines, &p->info, &p->rim);
+    if (s == RG_OK) s = rg_sheet_from_graph(&g, &walk, settings->merge * g.size, &p->lines, &p->info, &p->rim);
+    rg_walk_free(&walk);
     if (s == RG_OK) s = go_on(settings, 2, why);
     if (s == RG_OK) s = rg_source_init(&p->source, &g, &p->lines);
     if (s == RG_OK) s = rg_star_init(&star, &p->mem, g.nv, g.ne, g.X, g.E);

@@ -115,3 +115,20 @@ void rg_faces_free(rg_faces *f)
     rg_mem_free(&f->mem, f->area);
     memset(f, 0, sizeof *f);
 }
+
+rg_status rg_walk_make(rg_walk *w, const rg_memory *mem, int32_t nv, int32_t ne, const rg_vec2 *X, const rg_edge *E)
+{
+    if (w->there) return RG_OK;
+    rg_status s = rg_star_init(&w->star, mem, nv, ne, X, E);
+    if (s == RG_OK) s = rg_faces_init(&w->faces, mem, nv, ne, X, E, w->star.start, w->star.edge);
+    w->there = s == RG_OK;
+    if (s != RG_OK) rg_walk_free(w);
+    return s;
+}
+
+void rg_walk_free(rg_walk *w)
+{
+    rg_star_free(&w->star);
+    rg_faces_free(&w->faces);
+    w->there = 0;
+}

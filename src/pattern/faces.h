@@ -29,6 +29,13 @@ rg_status rg_faces_init(rg_faces *f, const rg_memory *mem, int32_t nv, int32_t n
                         const int32_t *star_start, const int32_t *star);
 void rg_faces_free(rg_faces *f);
 
+/* Both of one graph; zeroed: there are none yet. */
+typedef struct rg_walk { rg_star star; rg_faces faces; int there; } rg_walk;
+
+/* Where there are none yet. RG_ENOMEM. */
+rg_status rg_walk_make(rg_walk *w, const rg_memory *mem, int32_t nv, int32_t ne, const rg_vec2 *X, const rg_edge *E);
+void rg_walk_free(rg_walk *w);
+
 static inline int32_t rg_tail(const rg_edge *E, int32_t h) { return E[h >> 1].v[h & 1]; }
 static inline int32_t rg_head(const rg_edge *E, int32_t h) { return E[h >> 1].v[!(h & 1)]; }
 

@@ -15,8 +15,7 @@ typedef struct part {
 
 typedef struct drawing {
     const rg_graph *g;
-    rg_star star;
-    rg_faces faces;
+    const rg_faces *faces;
     int32_t *of;   /* [nv] the part of a vertex */
     part *part;    /* [nv] those at the lowest vertex of a part are */
 } drawing;
@@ -30,7 +29,7 @@ static int encloses(const drawing *d, const part *p, rg_vec2 x)
     do {
         const rg_vec2 a = d->g->X[rg_tail(d->g->E, h)], b = d->g->X[rg_head(d->g->E, h)];
         if ((a.y > x.y) != (b.y > x.y) && x.x < a.x + (x.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
-        h = d->faces.next[h];
+        h = d->faces->next[h];
     } while (h != p->outside);
     return odd;
 }
@@ -45,10 +44,10 @@ static void find_parts(drawing *d)
         p->low = (rg_vec2){fmin(p->low.x, g->X[v].x), fmin(p->low.y, g->X[v].y)};
         p->high = (rg_vec2){fmax(p->high.x, g->X[v].x), fmax(p->high.y, g->X[v].y)};
     }
-    for (int32_t k = 0; k < d->faces.count; k++) {
-        if (!(d->faces.area[k] < 0)) continue;
-        part *p = &d->part[d->of[rg_tail(g->E, d->faces.first[k])]];
-        if (d->faces.area[k] < p->area) p->area = d->faces.area[k], p->outside = d->faces.first[k];
+    for (int32_t k = 0; k < d->faces->count; k++) {
+        if (!(d->faces->area[k] < 0)) continue;
+        part *p = &d->part[d->of[rg_tail(g->E, d->faces->first[k])]];
+        if (d->faces->area[k] < p->area) p->area = d->faces->area[k], p->outside = d->faces->first[k];
     }
 }
 
@@ -113,25 +112,25 @@ static rg_status take_one(drawing *d, rg_graph *g, int32_t sheet)
     return RG_OK;
 }
 
-rg_status rg_pieces_find(rg_graph *g, const rg_lines *lines, int32_t take, rg_piece **piece, int32_t *pieces, rg_diag *why)
+rg_status rg_pieces_find(rg_graph *g, const rg_lines *lines, int32_t take, rg_walk *walk, rg_piece **piece, int32_t *pieces, rg_diag *why)
 {
-    drawing d = {.g = g, .star = {.mem = g->mem}, .faces = {.mem = g->mem}};
+    drawing d = {.g = g, .faces = &walk->faces};
     *piece = NULL;
     *pieces = 0;
     d.of = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *d.of);
     d.part = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *d.part);
     rg_status s = d.of && d.part ? RG_OK : RG_ENOMEM;
-    if (s == RG_OK) s = rg_star_init(&d.star, &g->mem, g->nv, g->ne, g->X, g->E);
-    if (s == RG_OK) s = rg_faces_init(&d.faces, &g->mem, g->nv, g->ne, g->X, g->E, d.star.start, d.star.edge);
+    if (s == RG_OK) s = rg_walk_make(walk, &g->mem, g->nv, g->ne, g->X, g->E);
     if (s == RG_OK) {
         find_parts(&d);
         s = number(&d, lines, piece, pieces);
     }
     if (s == RG_OK && take > *pieces)
         s = rg_fail(RG_EARG, why, 0, "there is no sheet %d: the drawing has %d", (int)take, (int)*pieces);
-    if (s == RG_OK && take > 0) s = take_one(&d, g, take - 1);
-    rg_star_free(&d.star);
-    rg_faces_free(&d.faces);
+    if (s == RG_OK && take > 0) {
+        rg_walk_free(walk);
+        s = take_one(&d, g, take - 1);
+    }
     rg_mem_free(&g->mem, d.of);
     rg_mem_free(&g->mem, d.part);
     return s;

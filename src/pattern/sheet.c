@@ -183,33 +183,29 @@ static rg_status assign_border(rg_graph *g, const unsigned char *outer, rg_lines
                   : RG_OK;
 }
 
-rg_status rg_sheet_from_graph(rg_graph *g, double tol, rg_lines *lines, rg_pattern_info *info, unsigned char **rim_out)
+rg_status rg_sheet_from_graph(rg_graph *g, rg_walk *walk, double tol, rg_lines *lines, rg_pattern_info *info, unsigned char **rim_out)
 {
-    rg_star star = {.mem = g->mem};
-    rg_faces faces = {.mem = g->mem};
+    const rg_faces *faces = &walk->faces;
     unsigned char *rim = rg_mem_array(&g->mem, (size_t)g->nv, 1), *outer = rg_mem_array(&g->mem, (size_t)g->ne, 1);
     rg_status s = rim && outer ? RG_OK : RG_ENOMEM;
     info->is_disk = 1;
     info->not_disk[0] = 0;
-    if (s == RG_OK) s = rg_star_init(&star, &g->mem, g->nv, g->ne, g->X, g->E);
-    if (s == RG_OK) s = rg_faces_init(&faces, &g->mem, g->nv, g->ne, g->X, g->E, star.start, star.edge);
+    if (s == RG_OK) s = rg_walk_make(walk, &g->mem, g->nv, g->ne, g->X, g->E);
     if (s == RG_OK) {
         info->vertices = g->nv;
         info->edges = g->ne;
-        for (int32_t k = 0; k < faces.count; k++) info->facets += !(faces.area[k] < 0);
+        for (int32_t k = 0; k < faces->count; k++) info->facets += !(faces->area[k] < 0);
         if (!g->ne) {
             info->is_disk = 0;
             rg_text(info->not_disk, sizeof info->not_disk, "no lines that enclose a sheet");
         }
-        s = find_rim(g, &faces, rim, outer, lines, info);
+        s = find_rim(g, faces, rim, outer, lines, info);
     }
-    if (s == RG_OK) s = check_inside(g, &faces, outer, lines, info);
+    if (s == RG_OK) s = check_inside(g, faces, outer, lines, info);
     if (s == RG_OK) s = assign_border(g, outer, lines, info);
     if (s == RG_OK) s = dissolve(g, tol);
     rg_mem_free(&g->mem, rim);
     rg_mem_free(&g->mem, outer);
-    rg_star_free(&star);
-    rg_faces_free(&faces);
     if (s != RG_OK) return s;
     *rim_out = rim = rg_mem_array(&g->mem, (size_t)g->nv, 1);
     if (!rim) return RG_ENOMEM;
