@@ -45,13 +45,12 @@ static void look_between(rg_course *c, int32_t k, double bend)
     rg_course_found *f = &c->found;
     const rg_plates_state *from = &c->state[(k + 2) % 3], *to = &c->state[k % 3];
     if (f->first >= 0) return;
-    rg_sweep_rule rule = {RG_CONTACT_TOLERANCE, 0, NULL, NULL};
-    rg_sweep_found way = rg_sweep_step(&c->plates, from, to, &rule, &c->sweep);
+    rg_sweep_found way = rg_sweep_step(&c->plates, from, to, RG_CONTACT_TOLERANCE, &c->sweep);
     f->ways++;
     if (way.verdict == RG_SWEEP_FREE) return;
     const rg_sweep_found first = way;
-    rule.depth += 2 * bend / 8 / c->plates.size;
-    if (way.verdict == RG_SWEEP_CONTACT) way = rg_sweep_step(&c->plates, from, to, &rule, &c->sweep);
+    const double allowed = RG_CONTACT_TOLERANCE + 2 * bend / 8 / c->plates.size;
+    if (way.verdict == RG_SWEEP_CONTACT) way = rg_sweep_step(&c->plates, from, to, allowed, &c->sweep);
     if (way.verdict == RG_SWEEP_CONTACT) {
         f->first = k;
         f->between = 1;

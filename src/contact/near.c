@@ -115,48 +115,6 @@ void rg_near_work_free(rg_near_work *w)
     memset(w, 0, sizeof *w);
 }
 
-static int has_corner(const rg_mesh *m, int32_t f, int32_t v)
-{
-    for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++)
-        if (m->facet_vertex[j] == v) return 1;
-    return 0;
-}
-
-static int32_t across(const rg_mesh *m, int32_t f, int32_t e)
-{
-    return m->edge_facet[e][0] == f ? m->edge_facet[e][1] : m->edge_facet[e][0];
-}
-
-/* Is v a corner of facet f or of one over a crease of it? */
-static int about(const rg_mesh *m, int32_t f, int32_t v)
-{
-    if (has_corner(m, f, v)) return 1;
-    for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) {
-        const int32_t g = across(m, f, m->facet_edge[j]);
-        if (g >= 0 && has_corner(m, g, v)) return 1;
-    }
-    return 0;
-}
-
-/* The same facet, or the two of one crease. */
-static int hinged(const rg_mesh *m, int32_t f, int32_t g)
-{
-    if (f == g) return 1;
-    for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++)
-        if (across(m, f, m->facet_edge[j]) == g) return 1;
-    return 0;
-}
-
-static int edges_belong(const rg_mesh *m, int32_t d, int32_t e)
-{
-    const int32_t *a = m->edge[d], *b = m->edge[e];
-    if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) return 1;
-    for (int i = 0; i < 2; i++)
-        for (int k = 0; k < 2; k++)
-            if (m->edge_facet[d][i] >= 0 && m->edge_facet[e][k] >= 0 && hinged(m, m->edge_facet[d][i], m->edge_facet[e][k])) return 1;
-    return 0;
-}
-
 /* ---------------------------------------------------------------------------------------------- candidates ---- */
 
 typedef struct candidates {
@@ -238,63 +196,4 @@ void rg_near_candidates(const rg_plates *p, const rg_vec3 *x, const rg_vec3 *y, 
     rg_plates_boxes(p, x, w->box);
     if (y) rg_plates_boxes_take_in(p, y, w->box);
     rg_plates_walk_pairs(&(rg_plates_walk){p, nodes_near, features, &c});
-}
-
-/* ---------------------------------------------------------------------------------------------------- pairs ---- */
-
-typedef struct search {
-    const rg_plates *p;
-    const rg_vec3 *x;
-    double reach;
-    rg_near_pair *pair;
-    int32_t room, count;
-} search;
-
-static void keep(search *s, const rg_near_pair *pair)
-{
-    if (s->count < s->room) s->pair[s->count] = *pair;
-    s->count++;
-}
-
-static void look_at_corner(search *s, int32_t v, int32_t a, int32_t b)
-{
-    const rg_plates *p = s->p;
-    const int32_t *t = p->vertex + p->start[b], n = p->start[b + 1] - p->start[b], f = p->facet[b];
-    rg_near_pair best = {.kind = RG_NEAR_CORNER, .facet = {p->facet[a], f}, .distance = INFINITY};
-    if (about(p->mesh, f, v)) return;
-    for (int32_t k = 1; k + 1 < n; k++) {
-        double w[3];
-        rg_vec3 m;
-        const double d = rg_near_triangle(s->x[v], s->x[t[0]], s->x[t[k]], s->x[t[k + 1]], w, &m);
-        if (!(d < best.distance)) continue;
-        best.distance = d;
-        best.n = m;
-        best.v[0] = v, best.v[1] = t[0], best.v[2] = t[k], best.v[3] = t[k + 1];
-        best.weight[0] = 1, best.weight[1] = -w[0], best.weight[2] = -w[1], best.weight[3] = -w[2];
-    }
-    if (best.distance < s->reach) keep(s, &best);
-}
-
-static void look(void *ctx, rg_near_kind kind, int32_t i, int32_t j, int32_t a, int32_t b)
-{
-    search *s = ctx;
-    if (kind == RG_NEAR_CORNER) {
-        look_at_corner(s, i, a, b);
-        return;
-    }
-    const rg_mesh *m = s->p->mesh;
-    const int32_t *u = m->edge[i], *v = m->edge[j];
-    double at, other;
-    rg_vec3 n;
-    const double distance = rg_near_segments(s->x[u[0]], s->x[u[1]], s->x[v[0]], s->x[v[1]], &at, &other, &n);
-    if (!(distance < s->reach) || !(at > 0 && at < 1 && other > 0 && other < 1) || edges_belong(m, i, j)) return;
-    keep(s, &(rg_near_pair){RG_NEAR_EDGES, {s->p->facet[a], s->p->facet[b]}, {u[0], u[1], v[0], v[1]},
-                            {1 - at, at, other - 1, -other}, distance, n});
-}
-
-int32_t rg_near_find(const rg_plates *p, const rg_vec3 *x, double reach, rg_near_work *w, rg_near_pair *pair, int32_t room)
-{
-    search s = {.p = p, .x = x, .reach = reach, .pair = pair, .room = room};
-    if (p->parts > 1) rg_near_candidates(p, x, NULL, reach, w, look, &s);
-    return s.count;
 }

@@ -1,12 +1,11 @@
 #include "contact/sweep.h"
-#include "contact/near.h"
 
 #include <string.h>
 
 /* A facet that turns by more, as another one sees it, has leapt: there is no telling which way it went. */
 static const double LEAP = RG_PI / 2;
-/* Of the depth that is allowed, or of the distance that is kept: what is nearer than this is contact. It keeps steps from
- * getting ever shorter; what is told as contact is off by no more. */
+/* Of the depth that is allowed: what is as near to it as this is contact. It keeps steps from getting ever shorter; what is told
+ * as contact is off by no more. */
 static const double CLOSE = 0.01;
 /* A pair that takes more is given up. Each advances at least by the root of what is left over what turning adds, so that even
  * quarter turns take some dozens. */
@@ -36,17 +35,19 @@ static double larger(double a, double b) { return a > b ? a : b; }
 
 /* ------------------------------------------------------------------------------------------- one pair, moving ---- */
 
-/* All as the first facet sees it. The second's corners: y = p + t dp + turn(t) (r + t dr). */
+/* All as the first facet sees it. The second's corners: y = p(t) + turn(t) Q (r + t dr), where p' = turn(t) v: the point p is one
+ * of the second's, and goes on a screw. */
 typedef struct pair {
     int32_t na, nb;
     rg_vec2 a[RG_PLATE_CORNERS], da[RG_PLATE_CORNERS], r[RG_PLATE_CORNERS], dr[RG_PLATE_CORNERS];
-    rg_vec3 p, dp, omega; /* omega: the axis, as long as the angle */
-    rg_mat3 Q;            /* of the second as it begins */
-    double angle, reach;  /* reach: the farthest corner from the point that goes straight, at any time */
-    double stretch;       /* the longest dr */
+    rg_vec3 p, v, axis; /* axis: unit, or none */
+    rg_mat3 Q;          /* of the second as it begins */
+    double angle, reach; /* reach: the farthest corner from p, at any time */
+    double stretch;     /* the longest dr */
+    int straight;       /* non-zero: p goes straight, p' = v */
     int stiff;            /* zero: the first changes its shape too */
     /* now */
-    rg_vec3 x[2 * RG_PLATE_CORNERS], v[2 * RG_PLATE_CORNERS]; /* the first's corners, then the second's: places, velocities */
+    rg_vec3 x[2 * RG_PLATE_CORNERS], u[2 * RG_PLATE_CORNERS]; /* the first's corners, then the second's: places, velocities */
 } pair;
 
 static rg_mat3 transposed_times(rg_mat3 A, rg_mat3 B)
@@ -62,13 +63,13 @@ static rg_mat3 transpose(rg_mat3 A)
     return (rg_mat3){{{A.c[0].x, A.c[1].x, A.c[2].x}, {A.c[0].y, A.c[1].y, A.c[2].y}, {A.c[0].z, A.c[1].z, A.c[2].z}}};
 }
 
-/* The axis of a rotation, as long as its angle; none near half a turn. */
-static rg_vec3 turn_of(rg_mat3 R)
+/* The axis of a rotation, unit, and its angle; none near half a turn. */
+static rg_vec3 turn_of(rg_mat3 R, double *angle)
 {
     const rg_vec3 skew = {R.c[1].z - R.c[2].y, R.c[2].x - R.c[0].z, R.c[0].y - R.c[1].x};
-    const double sine = rg_vec3_length(skew) / 2, cosine = (R.c[0].x + R.c[1].y + R.c[2].z - 1) / 2;
-    const double angle = atan2(sine, cosine);
-    return sine > 0 ? rg_vec3_scale(angle / (2 * sine), skew) : (rg_vec3){angle > 1 ? angle : 0, 0, 0};
+    const double length = rg_vec3_length(skew);
+    *angle = atan2(length / 2, (R.c[0].x + R.c[1].y + R.c[2].z - 1) / 2);
+    return length > 0 ? rg_vec3_scale(1 / length, skew) : (rg_vec3){0, 0, 0};
 }
 
 static rg_vec3 lifted(rg_mat3 Q, rg_vec2 r) { return rg_vec3_axpy(r.x, Q.c[0], rg_vec3_scale(r.y, Q.c[1])); }
@@ -83,6 +84,23 @@ static rg_place seen_from(const rg_plates_state *s, int32_t f, int32_t g)
     return (rg_place){transposed_times(A->R, B->R), {rg_vec3_dot(A->R.c[0], d), rg_vec3_dot(A->R.c[1], d), rg_vec3_dot(A->R.c[2], d)}};
 }
 
+/* The velocity with which a point starts on a screw of this turn that brings it to the end of d: of its circle the chord is the
+ * part of d across the axis, so that it starts by half the angle off it. */
+static rg_vec3 screw_of(rg_vec3 axis, double angle, rg_vec3 d)
+{
+    const rg_vec3 lift = rg_vec3_scale(rg_vec3_dot(axis, d), axis), chord = rg_vec3_sub(d, lift);
+    const double half = angle / 2, along = half > 0 ? half * cos(half) / sin(half) : 1;
+    return rg_vec3_add(lift, rg_vec3_axpy(along, chord, rg_vec3_scale(-half, rg_vec3_cross(axis, chord))));
+}
+
+/* Where it has come to from there after a time: turning by `gone` on the way, with c and s its cosine and sine. */
+static rg_vec3 on_screw(rg_vec3 axis, double angle, rg_vec3 v, double time, double c, double s)
+{
+    const rg_vec3 lift = rg_vec3_scale(rg_vec3_dot(axis, v), axis), out = rg_vec3_sub(v, lift);
+    if (!(angle > 0)) return rg_vec3_scale(time, v);
+    return rg_vec3_axpy(time, lift, rg_vec3_axpy(s / angle, out, rg_vec3_scale((1 - c) / angle, rg_vec3_cross(axis, out))));
+}
+
 /* corner: the one that the two facets share, -1: none. Returns zero: it leaps. */
 static int set_pair(pair *m, const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, int32_t a, int32_t b, int32_t corner)
 {
@@ -91,22 +109,22 @@ static int set_pair(pair *m, const rg_plates *p, const rg_plates_state *from, co
     m->na = p->start[a + 1] - p->start[a];
     m->nb = p->start[b + 1] - p->start[b];
     m->Q = begin.R;
-    m->omega = turn_of(rg_mat3_mul(end.R, transpose(begin.R)));
-    m->angle = rg_vec3_length(m->omega);
+    m->axis = turn_of(rg_mat3_mul(end.R, transpose(begin.R)), &m->angle);
     if (!(m->angle <= LEAP)) return 0;
     rg_vec2 pivot = {0, 0}, pivot_to = {0, 0};
     if (corner >= 0) {
         pivot = from->X[corner], pivot_to = to->X[corner];
         m->p = (rg_vec3){pivot.x, pivot.y, 0};
-        m->dp = (rg_vec3){pivot_to.x - pivot.x, pivot_to.y - pivot.y, 0};
+        m->v = (rg_vec3){pivot_to.x - pivot.x, pivot_to.y - pivot.y, 0};
     } else {
         for (int32_t k = 0; k < m->nb; k++) {
             pivot = (rg_vec2){pivot.x + from->X[vb[k]].x / m->nb, pivot.y + from->X[vb[k]].y / m->nb};
             pivot_to = (rg_vec2){pivot_to.x + to->X[vb[k]].x / m->nb, pivot_to.y + to->X[vb[k]].y / m->nb};
         }
         m->p = rg_vec3_add(begin.t, lifted(begin.R, pivot));
-        m->dp = rg_vec3_sub(rg_vec3_add(end.t, lifted(end.R, pivot_to)), m->p);
+        m->v = screw_of(m->axis, m->angle, rg_vec3_sub(rg_vec3_add(end.t, lifted(end.R, pivot_to)), m->p));
     }
+    m->straight = corner >= 0;
     m->stiff = 1;
     for (int32_t k = 0; k < m->na; k++) {
         m->a[k] = from->X[va[k]];
@@ -132,17 +150,18 @@ static rg_vec3 turned(rg_vec3 axis, double c, double s, rg_vec3 x)
 static void go_to(pair *m, double t)
 {
     const double c = cos(t * m->angle), s = sin(t * m->angle);
-    const rg_vec3 axis = m->angle > 0 ? rg_vec3_scale(1 / m->angle, m->omega) : (rg_vec3){0, 0, 0};
-    const rg_mat3 Q = {{turned(axis, c, s, m->Q.c[0]), turned(axis, c, s, m->Q.c[1]), turned(axis, c, s, m->Q.c[2])}};
+    const rg_vec3 omega = rg_vec3_scale(m->angle, m->axis);
+    const rg_mat3 Q = {{turned(m->axis, c, s, m->Q.c[0]), turned(m->axis, c, s, m->Q.c[1]), turned(m->axis, c, s, m->Q.c[2])}};
     for (int32_t k = 0; k < m->na; k++) {
         m->x[k] = (rg_vec3){m->a[k].x + t * m->da[k].x, m->a[k].y + t * m->da[k].y, 0};
-        m->v[k] = (rg_vec3){m->da[k].x, m->da[k].y, 0};
+        m->u[k] = (rg_vec3){m->da[k].x, m->da[k].y, 0};
     }
-    const rg_vec3 p = rg_vec3_axpy(t, m->dp, m->p);
+    const rg_vec3 p = rg_vec3_add(m->p, m->straight ? rg_vec3_scale(t, m->v) : on_screw(m->axis, m->angle, m->v, t, c, s));
+    const rg_vec3 v = m->straight ? m->v : turned(m->axis, c, s, m->v);
     for (int32_t k = 0; k < m->nb; k++) {
         const rg_vec3 arm = lifted(Q, (rg_vec2){m->r[k].x + t * m->dr[k].x, m->r[k].y + t * m->dr[k].y});
         m->x[m->na + k] = rg_vec3_add(p, arm);
-        m->v[m->na + k] = rg_vec3_add(rg_vec3_add(m->dp, lifted(Q, m->dr[k])), rg_vec3_cross(m->omega, arm));
+        m->u[m->na + k] = rg_vec3_add(rg_vec3_add(v, lifted(Q, m->dr[k])), rg_vec3_cross(omega, arm));
     }
 }
 
@@ -157,17 +176,17 @@ static double while_positive(double s, double v, double c)
 /* Along the unit vector u, the second plate being on its side: how long they are surely no nearer than `limit`. *gap: out, now. */
 static double holds(const pair *m, rg_vec3 u, double limit, double *gap)
 {
-    const rg_vec3 lever = rg_vec3_cross(m->omega, u);
-    /* u . y'' = u . (omega x (omega x arm)) + 2 u . (omega x Q dr), and u . (omega x z) = (u x omega) . z. */
-    const double c = rg_vec3_length(lever) * (m->angle * m->reach + 2 * m->stretch);
+    const rg_vec3 lever = rg_vec3_scale(m->angle, rg_vec3_cross(m->axis, u));
+    /* u . y'' = u . (omega x (p' + omega x arm + 2 Q dr)), and u . (omega x z) = (u x omega) . z. */
+    const double c = rg_vec3_length(lever) * (m->angle * m->reach + 2 * m->stretch + (m->straight ? 0 : rg_vec3_length(m->v)));
     double top = -INFINITY, least = INFINITY, time = INFINITY;
     for (int32_t k = 0; k < m->na; k++) top = fmax(top, rg_vec3_dot(u, m->x[k]));
     for (int32_t i = m->na; i < m->na + m->nb; i++) {
-        const double s = rg_vec3_dot(u, m->x[i]), v = rg_vec3_dot(u, m->v[i]);
+        const double s = rg_vec3_dot(u, m->x[i]), v = rg_vec3_dot(u, m->u[i]);
         if (s < least) least = s;
         if (m->stiff) time = fmin(time, while_positive(s - top - limit, v, c));
         for (int32_t k = 0; k < m->na && !m->stiff; k++)
-            time = fmin(time, while_positive(s - rg_vec3_dot(u, m->x[k]) - limit, v - rg_vec3_dot(u, m->v[k]), c));
+            time = fmin(time, while_positive(s - rg_vec3_dot(u, m->x[k]) - limit, v - rg_vec3_dot(u, m->u[k]), c));
     }
     *gap = least - top;
     return time;
@@ -229,33 +248,12 @@ static void try_axes(const pair *m, double limit, double enough, best *b)
     }
 }
 
-/* The distance of two plates that do not cross, and the direction from the first to the second. */
-static double distance_of(const pair *m, rg_vec3 *n)
-{
-    double least = INFINITY, w[3], s, t;
-    rg_vec3 u;
-    for (int side = 0; side < 2; side++) {
-        const int32_t first = side ? 0 : m->na, count = side ? m->na : m->nb, other = side ? m->na : 0, others = side ? m->nb : m->na;
-        for (int32_t i = 0; i < count; i++)
-            for (int32_t k = 1; k + 1 < others; k++) {
-                const double d = rg_near_triangle(m->x[first + i], m->x[other], m->x[other + k], m->x[other + k + 1], w, &u);
-                if (d < least) least = d, *n = rg_vec3_scale(side ? -1 : 1, u);
-            }
-    }
-    for (int32_t i = 0; i < m->na; i++)
-        for (int32_t k = 0; k < m->nb; k++) {
-            const double d = rg_near_segments(m->x[m->na + k], m->x[m->na + (k + 1) % m->nb], m->x[i], m->x[(i + 1) % m->na], &s, &t, &u);
-            if (d < least) least = d, *n = u;
-        }
-    return least;
-}
-
 /* ------------------------------------------------------------------------------------------------- one pair, all ---- */
 
 typedef struct sweep {
     const rg_plates *p;
     const rg_plates_state *from, *to;
-    const rg_sweep_rule *rule;
+    double depth; /* file units */
     const rg_sweep_work *w;
     rg_sweep_found found;
     int rigid; /* non-zero: no facet changes its shape */
@@ -277,30 +275,21 @@ static void advance(sweep *s, int32_t a, int32_t b, int32_t corner)
 {
     pair *m = &s->m;
     best now = {0, -INFINITY, {0, 0, 0}};
-    double t = 0, limit = -s->rule->depth * s->p->size, close;
-    const int keeps = s->rule->keep > 0 && corner < 0;
+    double t = 0;
     s->found.pairs++;
     if (!set_pair(m, s->p, s->from, s->to, a, b, corner)) {
         end_at(s, RG_SWEEP_GAVE_UP, 0, a, b, (rg_vec3){0, 0, 0});
         return;
     }
-    go_to(m, 0);
-    close = -CLOSE * limit;
-    if (keeps) {
-        const double distance = distance_of(m, &now.axis);
-        limit = s->rule->keep * distance;
-        close = CLOSE * (distance - limit);
-    }
     for (int32_t n = 0; n < ADVANCEMENTS; n++) {
         const double enough = s->found.time - t;
         now.time = 0;
         now.gap = -INFINITY;
-        if (n > 0) go_to(m, t);
-        if (n > 0 && keeps) distance_of(m, &now.axis);
+        go_to(m, t);
         s->found.advancements++;
-        try_axes(m, limit, enough, &now);
+        try_axes(m, -s->depth, enough, &now);
         if (now.time >= enough) return;
-        if (!(now.gap - limit > close)) {
+        if (!(now.gap + s->depth > CLOSE * s->depth)) {
             end_at(s, RG_SWEEP_CONTACT, t, a, b, now.axis);
             return;
         }
@@ -336,7 +325,7 @@ static void close_hinge(sweep *s, int32_t a, int32_t b, int32_t e)
         }
         reach = fmin(reach, most);
     }
-    if (!(fmin(RG_PI - fabs(before), RG_PI - fabs(after)) * reach > s->rule->depth * s->p->size)) return;
+    if (!(fmin(RG_PI - fabs(before), RG_PI - fabs(after)) * reach > s->depth)) return;
     const double beyond = RG_PI - fabs(before);
     end_at(s, RG_SWEEP_CONTACT, fmin(1, beyond / (2 * RG_PI - fabs(before) - fabs(after))), a, b, (rg_vec3){0, 0, 0});
 }
@@ -358,21 +347,33 @@ static int32_t hinge_of(const rg_plates *p, int32_t a, int32_t b)
     return -1;
 }
 
+/* A point on a screw that turns by up to `angle`, and comes farther by no more than d: how far off its chord it gets. It is faster
+ * than that by the arc over its chord; what turns by more than half is looked at as if it did not. */
+static double arc_over(double angle, double d)
+{
+    const double half = fmin(angle, RG_PI) / 2;
+    return half > 0 ? half / sin(half) * d * angle / 8 : 0;
+}
+
 /* As the first facet sees it, so that it stays where it is: do the second's corners stay on one side of it? They go straight but
- * for the height of an arc. */
+ * for the height of an arc about the middle, and of the middle's. */
 static int stays_away(const sweep *s, int32_t a, int32_t b, double arm)
 {
     const rg_plates *p = s->p;
     const rg_place *back = &s->w->back[p->facet[a]];
     const rg_vec3 *x = s->from->x, *y = s->to->x;
-    const double angle = rg_front_angle(&back->R, &s->w->back[p->facet[b]].R), by = arm * angle * angle / 8;
-    const int32_t *v = p->vertex + p->start[a], n = p->start[a + 1] - p->start[a];
+    const double angle = rg_front_angle(&back->R, &s->w->back[p->facet[b]].R);
+    const int32_t *v = p->vertex + p->start[a], n = p->start[a + 1] - p->start[a], nb = p->start[b + 1] - p->start[b];
     rg_box A = {x[v[0]], x[v[0]]}, B = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    rg_vec3 goes = {0, 0, 0};
     for (int32_t k = 1; k < n; k++) rg_box_take_in(&A, x[v[k]]);
     for (int32_t j = p->start[b]; j < p->start[b + 1]; j++) {
-        rg_box_take_in(&B, x[p->vertex[j]]);
-        rg_box_take_in(&B, rg_vec3_add(rg_mat3_mul_vec(back->R, y[p->vertex[j]]), back->t));
+        const rg_vec3 c = x[p->vertex[j]], d = rg_vec3_add(rg_mat3_mul_vec(back->R, y[p->vertex[j]]), back->t);
+        rg_box_take_in(&B, c);
+        rg_box_take_in(&B, d);
+        goes = rg_vec3_axpy(1.0 / nb, rg_vec3_sub(d, c), goes);
     }
+    const double by = arm * angle * angle / 8 + arc_over(angle, rg_vec3_length(goes));
     return A.low.x - B.high.x > by || B.low.x - A.high.x > by || A.low.y - B.high.y > by || B.low.y - A.high.y > by ||
            A.low.z - B.high.z > by || B.low.z - A.high.z > by;
 }
@@ -386,7 +387,6 @@ static void meet(sweep *s, int32_t a, int32_t b, double arm)
         const int32_t swap = a;
         a = b, b = swap;
     }
-    if (s->rule->skip && s->rule->skip(s->rule->ctx, p->facet[a], p->facet[b])) return;
     const int32_t shared = rg_plates_shared(p->mesh, p->facet[a], p->facet[b], &corner);
     const int32_t hinge = shared > 1 ? hinge_of(p, a, b) : -1;
     if (hinge >= 0) close_hinge(s, a, b, hinge);
@@ -401,15 +401,20 @@ static double nearest_on(rg_vec3 q, rg_vec3 r)
     return rg_vec3_length(t <= 0 ? q : t >= 1 ? r : rg_vec3_axpy(t, d, q));
 }
 
-/* Seen from a facet below the one node, so that it stays where it is, the middle of a part below the other goes straight; both are
- * within their arms of their middles. From another facet of that node it goes straight too, but to an end that is off by the
- * distance times the angle between them. So if the one way comes nowhere near, none does. */
+/* Seen from a facet below the one node, so that it stays where it is, the middle of a part below the other goes along an arc; both
+ * are within their arms of their middles. From another facet of that node its chord begins there too, but comes to an end that is off
+ * by the distance times the angle between them. So if the one chord comes nowhere near, none does. */
 static int passes(const sweep *s, const rg_sweep_ball *a, const rg_sweep_ball *b)
 {
     const rg_vec3 q = rg_vec3_sub(b->middle[0], a->middle[0]), d = rg_vec3_sub(b->middle[1], a->middle[1]);
+    const rg_mat3 *R = &s->w->back[a->facet].R;
     const double near_0 = a->radius[0] + b->radius[0], near_1 = a->radius[1] + b->radius[1];
-    const double off = fmax(near_0, near_1 + a->spread * (rg_vec3_length(d) + near_1));
-    return nearest_on(q, rg_mat3_mul_vec(s->w->back[a->facet].R, d)) > off + a->arm + b->arm;
+    const double turned_off = near_1 + a->spread * (rg_vec3_length(d) + near_1);
+    const rg_vec3 to = rg_mat3_mul_vec(*R, d);
+    const double away = nearest_on(q, to) - fmax(near_0, turned_off) - a->arm - b->arm;
+    if (!(away > 0)) return 0;
+    const double angle = rg_front_angle(R, &s->w->back[b->facet].R) + a->spread + b->spread;
+    return away > arc_over(angle, rg_vec3_length(rg_vec3_sub(to, q)) + near_0 + turned_off);
 }
 
 /* Whichever of a pair is the first. */
@@ -490,13 +495,13 @@ static int keeps_shape(const rg_plates *p, const rg_plates_state *from, const rg
     return from->X == to->X || memcmp(from->X, to->X, (size_t)p->mesh->nv * sizeof *from->X) == 0;
 }
 
-rg_sweep_found rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, const rg_sweep_rule *rule,
+rg_sweep_found rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double depth,
                              rg_sweep_work *w)
 {
-    sweep s = {.p = p, .from = from, .to = to, .rule = rule, .w = w};
+    sweep s = {.p = p, .from = from, .to = to, .depth = depth * p->size, .w = w};
     s.found = (rg_sweep_found){.verdict = RG_SWEEP_FREE, .time = 1, .facet = {-1, -1}};
     if (p->parts < 2) return s.found;
-    if (!(rule->keep > 0) && !rule->skip && rg_front_shows_moving(p, from, to, rule->depth * p->size, &w->front)) {
+    if (rg_front_shows_moving(p, from, to, s.depth, &w->front)) {
         s.found.in_front = 1;
         return s.found;
     }

@@ -1,10 +1,11 @@
 /* sweep.h -- whether facets would meet between two states.
- * Uses  plates.h front.h near.h        Used by  motion
+ * Uses  plates.h front.h        Used by  course.c
  *
- * Between two states the second facet of a pair, the one of the greater number, moves, as the first one sees it, like this: it turns steadily about one axis,
- * and one point of it, their common corner or else its middle, goes straight. So both are rigid all the time, stacks that
- * swing as a whole do not move against each other, and which facet of the sheet is held fixed does not matter. (Where the
- * pattern of the two states differs, corners go straight in the plane of their facet.)
+ * Between two states the second facet of a pair, the one of the greater number, moves, as the first one sees it, on a screw: it turns
+ * steadily about one axis and goes along it. So both are rigid all the time, stacks that swing as a whole do not move against each
+ * other, which facet is held fixed does not matter, and what turns about one line, as a simple fold does, turns about that line.
+ * Facets with a common corner turn about it, and where the pattern of the two states differs, it and all others go straight in the
+ * plane of their facet.
  *
  * What is decided is conservative, after the advancement of Mirtich (1996), but of second order: along an axis u that parts two
  * plates by s, a corner with velocity v leaves at least s + (u . v) h - c h^2 / 2 after a time h, where c bounds what the
@@ -17,18 +18,9 @@
 
 typedef enum rg_sweep_verdict {
     RG_SWEEP_FREE,    /* proved: nothing crosses between the states */
-    RG_SWEEP_CONTACT, /* at `time` a pair comes as near as the rule allows */
+    RG_SWEEP_CONTACT, /* at `time` a pair is as deep as is allowed */
     RG_SWEEP_GAVE_UP  /* neither: a leap, or more advancements than are made; nothing was found up to `time` */
 } rg_sweep_verdict;
-
-/* What may not happen. Pairs that have a corner in common touch there, so for them only depth counts. */
-typedef struct rg_sweep_rule {
-    double depth; /* a pair may cross up to this part of the sheet's size, above 0; RG_CONTACT_TOLERANCE */
-    double keep;  /* 0: as above; else pairs without a common corner keep this part, below 1, of the distance they begin with */
-    /* Non-zero: this pair of facets is not looked at, as something else sees to it. May be NULL. */
-    int (*skip)(void *ctx, int32_t f, int32_t g);
-    void *ctx;
-} rg_sweep_rule;
 
 typedef struct rg_sweep_found {
     rg_sweep_verdict verdict;
@@ -59,9 +51,10 @@ typedef struct rg_sweep_work {
 rg_status rg_sweep_work_init(const rg_plates *p, rg_sweep_work *w);
 void rg_sweep_work_free(rg_sweep_work *w);
 
-/* Looks at all pairs of facets between two states, and says which comes first. Hinges are passed through where a crease goes
+/* Looks at all pairs of facets between two states, and says which first comes to cross deeper than `depth`, above 0, of the sheet's
+ * size. Hinges are passed through where a crease goes
  * through half a turn. Allocates nothing. */
-rg_sweep_found rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, const rg_sweep_rule *rule,
+rg_sweep_found rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double depth,
                              rg_sweep_work *w);
 
 #endif

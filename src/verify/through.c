@@ -173,13 +173,16 @@ static rg_status check_frame(look *l, int32_t frame)
 
 /* ---------------------------------------------------------------------------------------------- between frames ---- */
 
-/* A pair as its first facet sees it: corner i of the second is at p + t dp + turn(t) Q (r + t dr). */
+/* A pair as its first facet sees it: corner i of the second is at p + way of the pivot + turn(t) Q (r + t dr). The pivot, a common
+ * corner, goes straight by dp; or else it is the middle and goes on the screw of the turn: dp = rise + chord, the one
+ * along the axis, the other that of the arc about it. */
 typedef struct way {
     int32_t na, nb;
     rg_vec2 a[RG_PIECE_MOST], da[RG_PIECE_MOST], r[RG_PIECE_MOST], dr[RG_PIECE_MOST];
-    rg_vec3 p, dp, axis;
+    rg_vec3 p, dp, axis, rise, chord;
     rg_mat3 Q;
     double angle, bend; /* bend: the most that the second time derivative of a corner's place can be */
+    int screw;
     double allowed;     /* file units */
 } way;
 
@@ -192,6 +195,9 @@ static rg_mat3 inverse_times(const rg_mat3 *A, const rg_mat3 *B)
 }
 
 static rg_vec3 put(const rg_mat3 *Q, rg_vec2 r) { return rg_vec3_add(rg_vec3_scale(r.x, Q->c[0]), rg_vec3_scale(r.y, Q->c[1])); }
+
+/* The arc of a circle that is seen under an angle, by its chord. */
+static double arc_length(double angle, double chord) { return angle > 0 ? chord * (angle / 2) / sin(angle / 2) : chord; }
 
 static void set_way(const look *l, int32_t frame, int32_t a, int32_t b, int32_t corner, way *w)
 {
@@ -232,12 +238,32 @@ static void set_way(const look *l, int32_t frame, int32_t a, int32_t b, int32_t 
         change = fmax(change, rg_vec2_length(w->dr[k]));
     }
     w->bend = w->angle * (w->angle * arm + 2 * change);
+    w->rise = rg_vec3_scale(rg_vec3_dot(w->axis, w->dp), w->axis);
+    w->chord = rg_vec3_sub(w->dp, w->rise);
+    w->screw = corner < 0 && w->angle > 0;
+    if (w->screw) w->bend += w->angle * arc_length(w->angle, rg_vec3_length(w->chord)); /* speed squared over the radius */
+}
+
+/* On a circle with a chord c that is seen under the angle a from its middle, after the part t of the arc: along the chord
+ * c sin(ta/2) cos((1-t)a/2) / sin(a/2), and beside it c sin(ta/2) sin((1-t)a/2) / sin(a/2), away from the middle. *v: velocity. */
+static rg_vec3 along_screw(const way *w, double t, rg_vec3 *v)
+{
+    if (!w->screw) {
+        *v = w->dp;
+        return rg_vec3_scale(t, w->dp);
+    }
+    const double h = w->angle / 2, s = sin(t * h) / sin(h), e = (1 - t) * h, u = h / sin(h), k = (1 - 2 * t) * h;
+    const rg_vec3 beside = rg_vec3_cross(w->chord, w->axis);
+    *v = rg_vec3_add(w->rise, rg_vec3_axpy(u * cos(k), w->chord, rg_vec3_scale(u * sin(k), beside)));
+    return rg_vec3_axpy(t, w->rise, rg_vec3_axpy(s * cos(e), w->chord, rg_vec3_scale(s * sin(e), beside)));
 }
 
 /* Places and velocities at a time. */
 static void at_time(const way *w, double t, polygon *a, polygon *b, rg_vec3 *va, rg_vec3 *vb)
 {
     const double c = cos(t * w->angle), s = sin(t * w->angle);
+    rg_vec3 speed;
+    const rg_vec3 pivot = rg_vec3_add(w->p, along_screw(w, t, &speed));
     a->n = w->na, b->n = w->nb;
     for (int32_t k = 0; k < w->na; k++) {
         a->x[k] = (rg_vec3){w->a[k].x + t * w->da[k].x, w->a[k].y + t * w->da[k].y, 0};
@@ -250,8 +276,8 @@ static void at_time(const way *w, double t, polygon *a, polygon *b, rg_vec3 *va,
             const rg_vec3 along = rg_vec3_scale(rg_vec3_dot(w->axis, z), w->axis), out = rg_vec3_sub(z, along);
             turned[i] = rg_vec3_add(along, rg_vec3_axpy(c, out, rg_vec3_scale(s, rg_vec3_cross(w->axis, out))));
         }
-        b->x[k] = rg_vec3_add(rg_vec3_axpy(t, w->dp, w->p), turned[0]);
-        vb[k] = rg_vec3_add(rg_vec3_add(w->dp, turned[1]), rg_vec3_scale(w->angle, rg_vec3_cross(w->axis, turned[0])));
+        b->x[k] = rg_vec3_add(pivot, turned[0]);
+        vb[k] = rg_vec3_add(rg_vec3_add(speed, turned[1]), rg_vec3_scale(w->angle, rg_vec3_cross(w->axis, turned[0])));
     }
 }
 
@@ -300,7 +326,8 @@ static double from_origin(rg_vec3 q, rg_vec3 r)
     return rg_vec3_length(rg_vec3_axpy(t, d, q));
 }
 
-/* The middle of the second goes straight, as the first sees it: does it come near enough for corners to meet? */
+/* The middle of the second goes on an arc of a quarter at most, as the first sees it (what turns by more is no way at all): does it
+ * come near enough for corners to meet? */
 static int comes_near(const look *l, int32_t a, int32_t b)
 {
     rg_vec3 at[2];
@@ -309,7 +336,8 @@ static int comes_near(const look *l, int32_t a, int32_t b)
         const rg_vec3 d = rg_vec3_sub(l->middle[b][end], l->middle[a][end]);
         at[end] = (rg_vec3){rg_vec3_dot(R->c[0], d), rg_vec3_dot(R->c[1], d), rg_vec3_dot(R->c[2], d)};
     }
-    return from_origin(at[0], at[1]) <= l->arm[a] + l->arm[b];
+    const double arc = arc_length(LEAP, rg_vec3_length(rg_vec3_sub(at[1], at[0])));
+    return from_origin(at[0], at[1]) <= l->arm[a] + l->arm[b] + LEAP * arc / 8;
 }
 
 /* Do the two pieces have an edge in common, that is a crease or a cut? Its angle says all of them. */

@@ -18,7 +18,7 @@ typedef struct rg_through {
 } rg_through;
 
 /* All frames, and all ways between them on which every facet is rigid: of a pair, the second turns steadily, as the first sees it,
- * about a common corner or else about its own middle, which goes straight. A way is halved until each part is proved free
+ * about a common corner or else on a screw, about one line and along it. A way is halved until each part is proved free
  * by bounds that hold for all of it. RG_ENOMEM. */
 rg_status rg_through_frames(const rg_record *r, const rg_pieces *p, rg_faults *all, rg_through *found);
 
