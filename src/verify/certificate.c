@@ -54,7 +54,8 @@ static rg_status look(rg_certificate *c, rg_record *r, const rg_pattern *given)
     if (s == RG_OK && !(c->isometry.rigid <= RG_THROUGH_LEAST)) return s; /* facets that are none cross nothing */
     if (s == RG_OK) s = rg_pieces_init(r, &p);
     if (s == RG_OK) s = rg_through_frames(r, &p, &c->faults, &c->through);
-    if (s == RG_OK) s = rg_pile_check(r, &p, &c->faults, &c->pile);
+    if (s == RG_OK) s = rg_pile_check(r, &p, &c->through.sides, &c->faults, &c->pile);
+    rg_aparts_free(&c->through.sides);
     rg_pieces_free(&p);
     return s;
 }
@@ -124,7 +125,7 @@ static void write_text(const rg_certificate *c, FILE *out)
     rg_text_to(out, "valid: one sheet, %d rigid facets, closed in all of %d frames; nothing crosses in them deeper than %g of the sheet, or on rigid ways "
             "between them deeper than %.2g\n", (int)i->facets, (int)i->frames, RG_THROUGH_LEAST, i->between_depth);
     if (i->ends_flat)
-        rg_text_to(out, "the last frame lies flat and rests on the order of its layers alone: %d pairs of facets, valid; the frame before shows %d of them\n",
+        rg_text_to(out, "the last frame lies flat and rests on the order of its layers alone: %d pairs of facets, valid; %d of them are seen to come in it\n",
                 (int)i->layer_pairs, (int)i->layers_shown);
 }
 

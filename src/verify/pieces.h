@@ -1,5 +1,5 @@
 /* pieces.h -- facets as convex pieces.
- * Uses  record.h        Used by  through.c pile.c */
+ * Uses  record.h        Used by  apart.c through.c pile.c */
 #ifndef RG_PIECES_H
 #define RG_PIECES_H
 

@@ -8,11 +8,8 @@ static const double NARROW = 1e-4;
 static const double PLANE = 1e-6;
 /* Radians: creases flat, or at half a turn. */
 static const double THERE = 0.5 * RG_DEG;
-/* Of the sheet's size: in the frame before, facets at least as far apart as this show which is above. It is a fifth of what counts as
- * a crossing: layers that lie on each other are not kept apart better than that, and show nothing. */
-static const double APART = 2e-5;
-/* Cosine: and no more tilted against each other. */
-static const double ALIKE = 0.9;
+/* Cosine of the angle that an axis which tells above from below may have with the normal: what lies over the other is not beside it. */
+static const double UPRIGHT = 0.5;
 
 typedef struct pile {
     const rg_record *r;
@@ -23,7 +20,7 @@ typedef struct pile {
     rg_vec2 *at;             /* [nv] in the plane */
     signed char *up;         /* [nf] 1: its front looks up */
     signed char *above;      /* [nf][nf] 1: the first over the second, -1: under, 0: not said */
-    unsigned char *over;     /* [nf][nf] non-zero: they lie over each other */
+    unsigned char *over;     /* [nf][nf] 1: they lie over each other, 2: and came in some order; 0: not */
     int32_t *crease, creases; /* edges at half a turn and flat ones between two facets */
 } pile;
 
@@ -68,19 +65,15 @@ static double width_of(const rg_vec2 *x, int32_t n)
     return round > 0 ? 4 * fabs(rg_pieces_area(x, n)) / round : 0;
 }
 
-/* The widest place that two facets have in common; 0: none. */
-static double common_place(const pile *q, int32_t f, int32_t g, rg_vec2 place[RG_PIECE_COMMON], int32_t *n)
+/* How wide a place two facets have in common; 0: none. */
+static double common_width(const pile *q, int32_t f, int32_t g)
 {
     rg_vec2 a[RG_PIECE_MOST], b[RG_PIECE_MOST], common[RG_PIECE_COMMON];
     double widest = 0;
     for (int32_t i = q->p->first[f]; i < q->p->first[f + 1]; i++)
         for (int32_t k = q->p->first[g]; k < q->p->first[g + 1]; k++) {
             const int32_t na = piece_of(q, i, a), nb = piece_of(q, k, b), m = rg_pieces_common(a, na, b, nb, common);
-            const double width = width_of(common, m);
-            if (!(width > widest)) continue;
-            widest = width;
-            *n = m;
-            memcpy(place, common, (size_t)m * sizeof *place);
+            widest = fmax(widest, width_of(common, m));
         }
     return widest;
 }
@@ -100,51 +93,31 @@ static void take_orders(pile *q)
     }
 }
 
-/* The order of two facets in the frame before, where one is on one side of the other all over their common place; 0: it does not
- * show. */
-static int shown_before(const pile *q, int32_t f, int32_t g, const rg_vec2 *place, int32_t n)
-{
-    const rg_record *r = q->r;
-    const rg_record_place F = rg_record_fit(r, q->last, f, NULL), G = rg_record_fit(r, q->last, g, NULL);
-    const rg_record_place before_f = rg_record_fit(r, q->last - 1, f, NULL), before_g = rg_record_fit(r, q->last - 1, g, NULL);
-    const rg_record_place plane = rg_record_fit(r, q->last, 0, NULL);
-    const rg_vec3 origin = r->x[(size_t)q->last * (size_t)r->nv + (size_t)r->corner[0]];
-    double low = INFINITY, high = -INFINITY;
-    if (!(fabs(rg_vec3_dot(before_f.R.c[2], before_g.R.c[2])) >= ALIKE)) return 0;
-    for (int32_t k = 0; k < n; k++) {
-        const rg_vec3 x = rg_vec3_add(origin, rg_vec3_axpy(place[k].x, plane.R.c[0], rg_vec3_scale(place[k].y, plane.R.c[1])));
-        rg_vec3 at[2];
-        for (int side = 0; side < 2; side++) { /* the point of the paper that comes to lie there */
-            const rg_record_place *P = side ? &G : &F, *B = side ? &before_g : &before_f;
-            const rg_vec3 d = rg_vec3_sub(x, P->t);
-            const rg_vec2 X = {rg_vec3_dot(P->R.c[0], d), rg_vec3_dot(P->R.c[1], d)};
-            at[side] = rg_vec3_add(B->t, rg_vec3_axpy(X.x, B->R.c[0], rg_vec3_scale(X.y, B->R.c[1])));
-        }
-        const double height = q->up[g] * rg_vec3_dot(before_g.R.c[2], rg_vec3_sub(at[0], at[1]));
-        low = fmin(low, height), high = fmax(high, height);
-    }
-    const double eps = APART * r->size;
-    return low >= -eps && high > eps ? 1 : high <= eps && low < -eps ? -1 : 0;
-}
-
 static void check_pairs(pile *q)
 {
-    rg_vec2 place[RG_PIECE_COMMON];
-    int32_t n = 0;
     for (int32_t f = 0; f < q->r->nf; f++)
         for (int32_t g = 0; g < f; g++) {
-            if (!(common_place(q, f, g, place, &n) > NARROW * q->r->size)) continue;
+            if (!(common_width(q, f, g) > NARROW * q->r->size)) continue;
             *over(q, f, g) = *over(q, g, f) = 1;
             q->found->pairs++;
             if (*order(q, f, g) == 0) {
                 rg_faults_add(q->all, q->last, g, f, "lie over each other, and the file does not say in which order");
                 continue;
             }
-            const int shown = q->last > 0 ? shown_before(q, f, g, place, n) : 0;
-            q->found->seen += shown != 0;
-            if (shown * *order(q, f, g) < 0)
-                rg_faults_add(q->all, q->last, g, f, "lie in the other order than the frame before shows");
         }
+}
+
+/* As they come to lie. */
+static void check_sides(pile *q, const rg_aparts *sides)
+{
+    for (int32_t i = 0; i < sides->n; i++) {
+        const rg_apart *s = &sides->list[i];
+        const int32_t f = q->p->facet[s->a], g = q->p->facet[s->b];
+        if (!*over(q, f, g) || !(fabs(s->axis.z) > UPRIGHT)) continue;
+        q->found->seen += *over(q, f, g) == 1;
+        *over(q, f, g) = *over(q, g, f) = 2;
+        if (*order(q, g, f) * q->up[f] * s->axis.z < 0) rg_faults_add(q->all, q->last, f, g, "lie in the other order than they came in");
+    }
 }
 
 /* In a valley the fronts look at each other: what lies on the front of the one is the other. */
@@ -318,7 +291,7 @@ static void check_lines(pile *q)
             if (on_one_line(q, q->crease[i], q->crease[k])) check_two(q, q->crease[i], q->crease[k]);
 }
 
-rg_status rg_pile_check(const rg_record *r, const rg_pieces *p, rg_faults *all, rg_pile *found)
+rg_status rg_pile_check(const rg_record *r, const rg_pieces *p, const rg_aparts *sides, rg_faults *all, rg_pile *found)
 {
     const size_t nf = (size_t)r->nf;
     pile q = {.r = r, .p = p, .all = all, .found = found, .last = r->frames - 1};
@@ -337,6 +310,7 @@ rg_status rg_pile_check(const rg_record *r, const rg_pieces *p, rg_faults *all, 
     if (ok && found->is_flat) {
         take_orders(&q);
         check_pairs(&q);
+        check_sides(&q, sides);
         check_hinges(&q);
         check_triples(&q, under, left);
         check_across(&q);

@@ -11,6 +11,8 @@ static const double PARALLEL = 1e-9;
 static const double LEAP = RG_PI / 2;
 /* A way in so many halvings is not looked at closer: a 4000th of a frame. */
 enum { HALVINGS = 12 };
+/* The way from middle to middle, both normals, all sides by all sides, and across all sides. */
+enum { MOST_AXES = 3 + RG_PIECE_MOST * RG_PIECE_MOST + 2 * RG_PIECE_MOST };
 
 typedef struct polygon { int32_t n; rg_vec3 x[RG_PIECE_MOST]; } polygon;
 
@@ -28,8 +30,7 @@ static rg_vec3 normal_of(const polygon *p)
     return unit(sum);
 }
 
-/* The axes along which two plates can be parted: both normals, and all sides by all sides. Returns how many, at most
- * 2 + RG_PIECE_MOST squared. */
+/* The axes along which two plates can be parted: both normals, and all sides by all sides. Returns how many. */
 static int32_t find_axes(const polygon *a, const polygon *b, rg_vec3 *axis)
 {
     int32_t n = 0;
@@ -102,7 +103,7 @@ typedef struct look {
     int32_t *order;            /* [n] */
     double *arm;               /* [n] */
     rg_vec3 (*middle)[2];      /* [n] */
-    rg_vec3 *axis;             /* room for axes */
+    rg_vec3 *axis;             /* [2 MOST_AXES] */
 } look;
 
 static polygon piece_at(const look *l, int32_t frame, int32_t a)
@@ -294,29 +295,86 @@ static int holds_along(const way *w, rg_vec3 u, double h, const polygon *a, cons
     return 1;
 }
 
-typedef enum outcome { PROVED, THROUGH, OPEN } outcome;
+typedef enum outcome { PROVED, THROUGH, ROUND, OPEN } outcome;
 
-static outcome prove(const way *w, double t, double h, int halvings, rg_vec3 *axis)
+/* How far apart along u, the second beyond the first. */
+static double gap_along(const polygon *a, const polygon *b, rg_vec3 u)
+{
+    double al, ah, bl, bh;
+    span(a, u, &al, &ah);
+    span(b, u, &bl, &bh);
+    return bl - ah;
+}
+
+/* Axes along which two plates may be apart: the way from middle to middle, those of find_axes, and, for plates in one plane, across
+ * their sides. */
+static int32_t all_axes(const polygon *a, const polygon *b, rg_vec3 *axis)
+{
+    rg_vec3 middle = {0, 0, 0};
+    for (int32_t k = 0; k < a->n; k++) middle = rg_vec3_axpy(-1.0 / a->n, a->x[k], middle);
+    for (int32_t k = 0; k < b->n; k++) middle = rg_vec3_axpy(1.0 / b->n, b->x[k], middle);
+    axis[0] = unit(middle);
+    int32_t n = 1 + find_axes(a, b, axis + 1);
+    for (int side = 0; side < 2; side++) {
+        const polygon *p = side ? b : a;
+        const rg_vec3 m = axis[1 + side];
+        for (int32_t k = 0; k < p->n; k++) axis[n++] = unit(rg_vec3_cross(rg_vec3_sub(p->x[(k + 1) % p->n], p->x[k]), m));
+    }
+    return n;
+}
+
+static int is_known(rg_vec3 side) { return side.x != 0 || side.y != 0 || side.z != 0; }
+
+/* What parts two things along u and along v parts them along all between: along (u + v) / |u + v| by no less than the sum of both,
+ * over |u + v|, which is 1 or more up to 120 degrees. So one and the same side goes over into the other. */
+static int is_beside(rg_vec3 u, rg_vec3 v) { return rg_vec3_dot(u, v) >= -0.5; }
+
+/* At a time, they are apart along u and along v; is there a way from the one to the other without passing through each other? Where
+ * both lie in one plane, over each other, there is none from above to below. */
+static int goes_over(const way *w, double t, rg_vec3 v, rg_vec3 u, rg_vec3 *axis)
 {
     polygon a, b;
-    rg_vec3 va[RG_PIECE_MOST], vb[RG_PIECE_MOST], middle = {0, 0, 0};
+    rg_vec3 va[RG_PIECE_MOST], vb[RG_PIECE_MOST];
+    if (!is_known(v) || is_beside(v, u)) return 1;
     at_time(w, t, &a, &b, va, vb);
-    for (int32_t k = 0; k < a.n; k++) middle = rg_vec3_axpy(-1.0 / a.n, a.x[k], middle);
-    for (int32_t k = 0; k < b.n; k++) middle = rg_vec3_axpy(1.0 / b.n, b.x[k], middle);
-    if (holds_along(w, unit(middle), h, &a, &b, va, vb)) return PROVED;
-    const int32_t n = find_axes(&a, &b, axis);
-    double depth = INFINITY;
-    for (int32_t i = 0; i < n; i++) {
-        double al, ah, bl, bh;
-        if (holds_along(w, axis[i], h, &a, &b, va, vb) || holds_along(w, rg_vec3_scale(-1, axis[i]), h, &a, &b, va, vb)) return PROVED;
-        span(&a, axis[i], &al, &ah);
-        span(&b, axis[i], &bl, &bh);
-        depth = fmin(depth, fmin(ah - bl, bh - al));
+    for (int32_t i = all_axes(&a, &b, axis) - 1; i >= 0; i--)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const rg_vec3 m = rg_vec3_scale(sign, axis[i]);
+            if (is_known(m) && is_beside(v, m) && is_beside(m, u) && gap_along(&a, &b, m) >= -w->allowed) return 1;
+        }
+    return 0;
+}
+
+/* From t - h to t + h. *side: that on which the second is as it begins, and then as it ends. axis: room for axes. */
+static outcome prove(const way *w, double t, double h, int halvings, rg_vec3 *axis, rg_vec3 *side)
+{
+    polygon a, b, c, d;
+    rg_vec3 va[RG_PIECE_MOST], vb[RG_PIECE_MOST], vc[RG_PIECE_MOST], vd[RG_PIECE_MOST], best = {0, 0, 0};
+    double depth = INFINITY, most = -INFINITY;
+    int round = 0;
+    at_time(w, t, &a, &b, va, vb);
+    at_time(w, t + h, &c, &d, vc, vd);
+    if (is_known(*side) && holds_along(w, *side, h, &a, &b, va, vb)) return PROVED;
+    const int32_t n = all_axes(&a, &b, axis);
+    for (int32_t i = 0; i < n; i++)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const rg_vec3 u = rg_vec3_scale(sign, axis[i]);
+            if (i > 0) depth = fmin(depth, -gap_along(&a, &b, u));
+            const double gap = gap_along(&c, &d, u);
+            if (!is_known(u) || !(gap > most) || !holds_along(w, u, h, &a, &b, va, vb)) continue;
+            if (goes_over(w, t - h, *side, u, axis + n)) most = gap, best = u;
+            else round = 1;
+        }
+    if (is_known(best)) {
+        /* Where it is above no more than below, it has no side, unless it had it before. */
+        const int either = gap_along(&c, &d, rg_vec3_scale(-1, best)) >= -w->allowed;
+        *side = either && !(rg_vec3_dot(*side, best) > 0.5) ? (rg_vec3){0, 0, 0} : best;
+        return PROVED;
     }
     if (depth > w->allowed) return THROUGH;
-    if (halvings == 0) return OPEN;
-    const outcome first = prove(w, t - h / 2, h / 2, halvings - 1, axis);
-    return first != PROVED ? first : prove(w, t + h / 2, h / 2, halvings - 1, axis);
+    if (halvings == 0) return round ? ROUND : OPEN;
+    const outcome first = prove(w, t - h / 2, h / 2, halvings - 1, axis, side);
+    return first != PROVED ? first : prove(w, t + h / 2, h / 2, halvings - 1, axis, side);
 }
 
 static double from_origin(rg_vec3 q, rg_vec3 r)
@@ -363,34 +421,55 @@ static void find_arms(look *l, int32_t frame)
     }
 }
 
-static void check_way(look *l, int32_t frame, double allowed)
+/* One pair; *side: as it begins, out: as it ends. */
+static void check_pair_on_way(look *l, int32_t frame, int32_t a, int32_t b, double allowed, rg_vec3 *side)
 {
+    const int32_t f = l->p->facet[a], g = l->p->facet[b];
+    const rg_vec3 before = *side;
     way w;
+    int two;
+    const int32_t corner = common_corner(l->r, f, g, &two);
+    *side = (rg_vec3){0, 0, 0};
+    if (two && are_hinged(l, a, b)) return;
+    l->found->proofs++;
+    set_way(l, frame, a, b, corner, &w);
+    if (!(w.angle <= LEAP)) {
+        rg_faults_add(l->all, frame + 1, f, g, "come near, and turn by %.3g degrees against each other from the frame before: no telling how",
+                      w.angle / RG_DEG);
+        return;
+    }
+    /* As in a frame, if that can be; what the path's bends leave open, else, and then it is told. */
+    outcome o = OPEN;
+    for (int more = 0; more < 2 && o != PROVED; more++) {
+        w.allowed = (more ? allowed : RG_THROUGH_LEAST) * l->r->size;
+        *side = before;
+        o = prove(&w, 0.5, 0.5, HALVINGS, l->axis, side);
+        if (o == PROVED && more) l->found->allowed = fmax(l->found->allowed, allowed);
+    }
+    if (o == PROVED) return;
+    *side = (rg_vec3){0, 0, 0};
+    if (o == THROUGH) rg_faults_add(l->all, frame + 1, f, g, "pass through each other on the way from the frame before, deeper than %.2g of the sheet", allowed);
+    else if (o == ROUND) rg_faults_add(l->all, frame + 1, f, g, "lie on each other, and come to lie the other way round on the way from the frame before");
+    else rg_faults_add(l->all, frame + 1, f, g, "could not be proved apart on the way from the frame before");
+}
+
+/* Of pairs that come near; those that are far from each other are on no side. */
+static rg_status check_way(look *l, int32_t frame, double allowed)
+{
+    rg_status s = RG_OK;
+    rg_aparts before = l->found->sides;
+    int32_t at = 0;
+    l->found->sides = (rg_aparts){.mem = l->r->mem};
     find_arms(l, frame);
     for (int32_t a = 0; a < l->p->n; a++)
-        for (int32_t b = a + 1; b < l->p->n; b++) {
-            const int32_t f = l->p->facet[a], g = l->p->facet[b];
-            int two;
-            if (f == g || !comes_near(l, a, b)) continue;
-            const int32_t corner = common_corner(l->r, f, g, &two);
-            if (two && are_hinged(l, a, b)) continue;
-            l->found->proofs++;
-            set_way(l, frame, a, b, corner, &w);
-            if (!(w.angle <= LEAP)) {
-                rg_faults_add(l->all, frame + 1, f, g, "come near, and turn by %.3g degrees against each other from the frame before: no telling how",
-                              w.angle / RG_DEG);
-                continue;
-            }
-            /* As in a frame, if that can be; what the path's bends leave open, else, and then it is told. */
-            w.allowed = RG_THROUGH_LEAST * l->r->size;
-            outcome o = prove(&w, 0.5, 0.5, HALVINGS, l->axis);
-            if (o == PROVED) continue;
-            w.allowed = allowed * l->r->size;
-            o = prove(&w, 0.5, 0.5, HALVINGS, l->axis);
-            if (o == PROVED) l->found->allowed = fmax(l->found->allowed, allowed);
-            if (o == THROUGH) rg_faults_add(l->all, frame + 1, f, g, "pass through each other on the way from the frame before, deeper than %.2g of the sheet", allowed);
-            else if (o == OPEN) rg_faults_add(l->all, frame + 1, f, g, "could not be proved apart on the way from the frame before");
+        for (int32_t b = a + 1; s == RG_OK && b < l->p->n; b++) {
+            if (l->p->facet[a] == l->p->facet[b] || !comes_near(l, a, b)) continue;
+            rg_vec3 side = rg_aparts_next(&before, &at, a, b);
+            check_pair_on_way(l, frame, a, b, allowed, &side);
+            if (is_known(side)) s = rg_aparts_add(&l->found->sides, a, b, side);
         }
+    rg_aparts_free(&before);
+    return s;
 }
 
 /* The most that a corner's path bends at frame k: a steady curve is off its chords by no more than an eighth of that. */
@@ -412,14 +491,14 @@ static int make_room(look *l)
     l->high = rg_mem_array(mem, n, sizeof *l->high);
     l->arm = rg_mem_array(mem, n, sizeof *l->arm);
     l->middle = rg_mem_array(mem, n, sizeof *l->middle);
-    l->axis = rg_mem_array(mem, 2 + RG_PIECE_MOST * RG_PIECE_MOST, sizeof *l->axis);
+    l->axis = rg_mem_array(mem, 2 * MOST_AXES, sizeof *l->axis);
     return l->place[0] && l->place[1] && l->low && l->high && l->arm && l->middle && l->axis;
 }
 
 rg_status rg_through_frames(const rg_record *r, const rg_pieces *p, rg_faults *all, rg_through *found)
 {
     look l = {.r = r, .p = p, .all = all, .found = found};
-    *found = (rg_through){.allowed = RG_THROUGH_LEAST};
+    *found = (rg_through){.allowed = RG_THROUGH_LEAST, .sides = {.mem = r->mem}};
     rg_status s = make_room(&l) ? RG_OK : RG_ENOMEM;
     for (int32_t k = 0; s == RG_OK && k < r->frames; k++) s = check_frame(&l, k);
     for (int32_t k = 0; s == RG_OK && k + 1 < r->frames; k++) {
@@ -427,7 +506,7 @@ rg_status rg_through_frames(const rg_record *r, const rg_pieces *p, rg_faults *a
             for (int32_t f = 0; f < r->nf; f++) l.place[end][f] = rg_record_fit(r, k + end, f, NULL);
         const double bend = fmax(bend_at(r, k), bend_at(r, k + 1));
         const double allowed = fmin(RG_THROUGH_MOST, RG_THROUGH_LEAST + 2 * bend / 8);
-        check_way(&l, k, allowed);
+        s = check_way(&l, k, allowed);
     }
     void *block[] = {l.place[0], l.place[1], l.low, l.high, l.arm, l.middle, l.axis};
     for (int i = 0; i < 7; i++) rg_mem_free(&r->mem, block[i]);
