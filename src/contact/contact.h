@@ -10,9 +10,6 @@
 #include "contact/front.h"
 #include "contact/plates.h"
 
-/* Facets about a common corner: a crossing over less of the sheet's size is how the corner is rounded. */
-#define RG_CONTACT_STRETCH 1e-3
-
 typedef struct rg_contact_hit {
     int32_t facet[2];
     double depth; /* over the sheet's size */

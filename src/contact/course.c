@@ -40,25 +40,28 @@ void rg_course_free(rg_course *c)
 }
 
 /* The way from state k - 1 to state k, if nothing crossed before; bend: the larger second difference at its ends. */
-static void look_between(rg_course *c, int32_t k, double bend)
+static rg_status look_between(rg_course *c, int32_t k, double bend)
 {
     rg_course_found *f = &c->found;
     const rg_plates_state *from = &c->state[(k + 2) % 3], *to = &c->state[k % 3];
-    if (f->first >= 0) return;
-    rg_sweep_found way = rg_sweep_step(&c->plates, from, to, RG_CONTACT_TOLERANCE, &c->sweep);
+    if (f->first >= 0) return RG_OK;
+    rg_sweep_found way, first;
+    rg_status s = rg_sweep_step(&c->plates, from, to, RG_CONTACT_TOLERANCE, &c->sweep, &way);
     f->ways++;
-    if (way.verdict == RG_SWEEP_FREE) return;
-    const rg_sweep_found first = way;
-    const double allowed = RG_CONTACT_TOLERANCE + 2 * bend / 8 / c->plates.size;
-    if (way.verdict == RG_SWEEP_CONTACT) way = rg_sweep_step(&c->plates, from, to, allowed, &c->sweep);
+    first = way;
+    const double allowed = fmin(RG_CONTACT_BETWEEN, RG_CONTACT_TOLERANCE + 2 * bend / 8 / c->plates.size);
+    if (s == RG_OK && way.verdict == RG_SWEEP_CONTACT) s = rg_sweep_step(&c->plates, from, to, allowed, &c->sweep, &way);
+    rg_sweep_go_on(&c->sweep);
+    if (s != RG_OK || first.verdict == RG_SWEEP_FREE) return s;
     if (way.verdict == RG_SWEEP_CONTACT) {
         f->first = k;
         f->between = 1;
         f->time = first.time;
         memcpy(f->facet, first.facet, sizeof f->facet);
-        return;
+    } else if (f->unproved++ == 0) {
+        f->first_unproved = k;
     }
-    if (f->unproved++ == 0) f->first_unproved = k;
+    return RG_OK;
 }
 
 /* State k by itself. */
@@ -97,25 +100,38 @@ static double bend_of(const rg_course *c, int32_t k)
 }
 
 /* What comes after a way is needed to know how it bends, so that ways are looked at one state late. */
-void rg_course_add(rg_course *c, const rg_plates_state *s)
+rg_status rg_course_add(rg_course *c, const rg_plates_state *s)
 {
     const rg_mesh *m = c->plates.mesh;
     const int32_t k = c->found.states++;
+    rg_status status = RG_OK;
     memcpy(c->X[k % 3], s->X, (size_t)m->nv * sizeof *s->X);
     memcpy(c->place[k % 3], s->place, (size_t)m->nf * sizeof *s->place);
     memcpy(c->x[k % 3], s->x, (size_t)m->nv * sizeof *s->x);
     if (k >= 2) {
         const double bend = bend_of(c, k);
-        look_between(c, k - 1, fmax(bend, c->bend));
+        status = look_between(c, k - 1, fmax(bend, c->bend));
         c->bend = bend;
     }
     look_at(c, k);
+    return status;
 }
 
-void rg_course_end(rg_course *c)
+rg_status rg_course_end(rg_course *c)
 {
     rg_course_found *f = &c->found;
-    if (f->states >= 2 && f->first != f->states - 1) look_between(c, f->states - 1, c->bend);
-    if (f->deepest_state < 0) return;
-    f->pairs = rg_contact_pairs(&c->plates, c->worst, RG_CONTACT_TOLERANCE, &c->look, NULL, 0, NULL);
+    rg_status s = RG_OK;
+    if (f->states >= 2 && f->first != f->states - 1) s = look_between(c, f->states - 1, c->bend);
+    if (f->deepest_state >= 0) f->pairs = rg_contact_pairs(&c->plates, c->worst, RG_CONTACT_TOLERANCE, &c->look, NULL, 0, NULL);
+    return s;
+}
+
+/* Cosine of the angle that an axis which tells above from below may have with the normal. */
+static const double UPRIGHT = 0.5;
+
+int rg_course_side(const rg_course *c, int32_t i, int32_t facet[2])
+{
+    const rg_sweep_side *s = &c->sweep.before[i];
+    for (int k = 0; k < 2; k++) facet[k] = c->plates.facet[s->part[k]];
+    return s->axis.z > UPRIGHT ? 1 : s->axis.z < -UPRIGHT ? -1 : 0;
 }

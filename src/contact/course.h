@@ -43,9 +43,12 @@ typedef struct rg_course {
 /* The mesh is borrowed. RG_ENOMEM: *c is zeroed. */
 rg_status rg_course_init(const rg_mesh *m, rg_course *c);
 void rg_course_free(rg_course *c);
-/* The next state; it is copied. Allocates nothing. */
-void rg_course_add(rg_course *c, const rg_plates_state *s);
-/* After the last one; c->found is complete then. Allocates nothing. */
-void rg_course_end(rg_course *c);
+/* The next state; it is copied. RG_ENOMEM. */
+rg_status rg_course_add(rg_course *c, const rg_plates_state *s);
+/* After the last one; c->found is complete then. RG_ENOMEM. */
+rg_status rg_course_end(rg_course *c);
+/* Of a course that ended without a crossing: the i-th of the c->sweep.n_before pairs of parts that came near each other. Returns 1: the
+ * second facet came to lie before the front of the first, -1: behind its back, 0: beside it. */
+int rg_course_side(const rg_course *c, int32_t i, int32_t facet[2]);
 
 #endif

@@ -8,6 +8,13 @@
 
 /* A crossing counts from this part of the sheet's size on: drawings are rounded to some 1e-5 of it, and paper is thicker. */
 #define RG_CONTACT_TOLERANCE 1e-4
+/* Between two states the way is not known; what that leaves open may be added, but not to more than this part of the sheet's size: with
+ * frames so far apart that more is open, a crossing could be anything. */
+#define RG_CONTACT_BETWEEN 1e-3
+
+/* Facets about a common corner: a crossing over less of the sheet's size is how the corner is rounded. And layers that lie on each other
+ * over less of it are beside each other. */
+#define RG_CONTACT_STRETCH 1e-3
 
 /* The most corners of one part, so that a pair of parts fits into fixed room; facets of more are cut. */
 enum { RG_PLATE_CORNERS = 32 };

@@ -1,5 +1,6 @@
 #include "contact/sweep.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* A facet that turns by more, as another one sees it, has leapt: there is no telling which way it went. */
@@ -25,8 +26,8 @@ rg_status rg_sweep_work_init(const rg_plates *p, rg_sweep_work *w)
 void rg_sweep_work_free(rg_sweep_work *w)
 {
     if (!w->mem.resize) return;
-    rg_mem_free(&w->mem, w->ball);
-    rg_mem_free(&w->mem, w->back);
+    void *block[] = {w->ball, w->back, w->before, w->now};
+    for (int i = 0; i < 4; i++) rg_mem_free(&w->mem, block[i]);
     rg_front_work_free(&w->front);
     memset(w, 0, sizeof *w);
 }
@@ -44,6 +45,7 @@ typedef struct pair {
     rg_mat3 Q;          /* of the second as it begins */
     double angle, reach; /* reach: the farthest corner from p, at any time */
     double stretch;     /* the longest dr */
+    double over;        /* less than this they may lie on each other */
     int straight;       /* non-zero: p goes straight, p' = v */
     int stiff;            /* zero: the first changes its shape too */
     /* now */
@@ -125,6 +127,7 @@ static int set_pair(pair *m, const rg_plates *p, const rg_plates_state *from, co
         m->v = screw_of(m->axis, m->angle, rg_vec3_sub(rg_vec3_add(end.t, lifted(end.R, pivot_to)), m->p));
     }
     m->straight = corner >= 0;
+    m->over = RG_CONTACT_STRETCH * p->size;
     m->stiff = 1;
     for (int32_t k = 0; k < m->na; k++) {
         m->a[k] = from->X[va[k]];
@@ -192,26 +195,12 @@ static double holds(const pair *m, rg_vec3 u, double limit, double *gap)
     return time;
 }
 
-/* What the axes tried so far give. */
-typedef struct best { double time, gap; rg_vec3 axis; } best;
-
-static int try_axis(const pair *m, rg_vec3 u, double limit, double enough, best *b)
+static double gap_along(const pair *m, rg_vec3 u)
 {
-    for (int side = 0; side < 2; side++) {
-        double gap;
-        const double time = holds(m, u, limit, &gap);
-        if (gap > b->gap) b->gap = gap;
-        if (time > b->time) b->time = time, b->axis = u;
-        if (b->time >= enough) return 1;
-        u = rg_vec3_scale(-1, u);
-    }
-    return 0;
-}
-
-static int try_direction(const pair *m, rg_vec3 d, double shortest, double limit, double enough, best *b)
-{
-    const double length = rg_vec3_length(d);
-    return length > shortest && try_axis(m, rg_vec3_scale(1 / length, d), limit, enough, b);
+    double top = -INFINITY, least = INFINITY;
+    for (int32_t k = 0; k < m->na; k++) top = fmax(top, rg_vec3_dot(u, m->x[k]));
+    for (int32_t i = m->na; i < m->na + m->nb; i++) least = fmin(least, rg_vec3_dot(u, m->x[i]));
+    return least - top;
 }
 
 static rg_vec3 side_of(const pair *m, int32_t first, int32_t n, int32_t k)
@@ -227,25 +216,88 @@ static rg_vec3 normal_of(const pair *m, int32_t first, int32_t n)
     return sum;
 }
 
+static int is_none(rg_vec3 u) { return u.x == 0 && u.y == 0 && u.z == 0; }
+
 /* Sine of edges that count as parallel. */
 static const double PARALLEL = 1e-9;
 
-/* All axes of the separating-axis theorem, the last good one and the line of the middles first; no more than needed. */
-static void try_axes(const pair *m, double limit, double enough, best *b)
+static rg_vec3 unit(rg_vec3 d, double shortest)
 {
-    rg_vec3 middle = {0, 0, 0};
-    for (int32_t k = 0; k < m->na; k++) middle = rg_vec3_axpy(-1.0 / m->na, m->x[k], middle);
-    for (int32_t k = 0; k < m->nb; k++) middle = rg_vec3_axpy(1.0 / m->nb, m->x[m->na + k], middle);
-    if (try_direction(m, b->axis, 0, limit, enough, b) || try_direction(m, middle, 0, limit, enough, b)) return;
-    if (try_direction(m, normal_of(m, 0, m->na), 0, limit, enough, b)) return;
-    if (try_direction(m, normal_of(m, m->na, m->nb), 0, limit, enough, b)) return;
-    for (int32_t i = 0; i < m->na; i++) {
-        const rg_vec3 e = side_of(m, 0, m->na, i);
-        for (int32_t k = 0; k < m->nb; k++) {
-            const rg_vec3 g = side_of(m, m->na, m->nb, k);
-            if (try_direction(m, rg_vec3_cross(e, g), PARALLEL * rg_vec3_length(e) * rg_vec3_length(g), limit, enough, b)) return;
-        }
+    const double length = rg_vec3_length(d);
+    return length > shortest ? rg_vec3_scale(1 / length, d) : (rg_vec3){0, 0, 0};
+}
+
+/* The k-th axis along which two plates may be apart: the line of the middles; those of the separating-axis theorem, the normals
+ * and all edges by all edges; and in one plane across an edge. None: where edges are parallel. Zero: there are no more. */
+static int axis_number(const pair *m, int32_t k, rg_vec3 *u)
+{
+    rg_vec3 d = {0, 0, 0};
+    double shortest = 0;
+    if (k == 0) {
+        for (int32_t i = 0; i < m->na; i++) d = rg_vec3_axpy(-1.0 / m->na, m->x[i], d);
+        for (int32_t i = 0; i < m->nb; i++) d = rg_vec3_axpy(1.0 / m->nb, m->x[m->na + i], d);
+    } else if (k <= 2) {
+        d = k == 1 ? normal_of(m, 0, m->na) : normal_of(m, m->na, m->nb);
+    } else if ((k -= 3) < m->na * m->nb) {
+        const rg_vec3 e = side_of(m, 0, m->na, k / m->nb), g = side_of(m, m->na, m->nb, k % m->nb);
+        d = rg_vec3_cross(e, g);
+        shortest = PARALLEL * rg_vec3_length(e) * rg_vec3_length(g);
+    } else if ((k -= m->na * m->nb) < m->na) {
+        d = rg_vec3_cross(side_of(m, 0, m->na, k), normal_of(m, 0, m->na));
+    } else if ((k -= m->na) < m->nb) {
+        d = rg_vec3_cross(side_of(m, m->na, m->nb, k), normal_of(m, m->na, m->nb));
+    } else {
+        return 0;
     }
+    *u = unit(d, shortest);
+    return 1;
+}
+
+/* What parts two plates along u and along v parts them along all between, by no less than the sum of both over |u + v|. That is at
+ * least 1 up to 120 degrees; beyond it the middle one is looked at: layers that lie on each other are parted by none. */
+static int are_joined(const pair *m, rg_vec3 u, rg_vec3 v, double limit)
+{
+    if (rg_vec3_dot(u, v) >= -0.5) return 1;
+    const rg_vec3 middle = unit(rg_vec3_add(u, v), PARALLEL);
+    return !is_none(middle) && gap_along(m, middle) >= limit - m->over;
+}
+
+/* Now they are apart along v and along u: do they come from the one to the other by axes between? Where both lie in one plane and
+ * on each other, they don't come from above to below. */
+static int goes_over(const pair *m, rg_vec3 v, rg_vec3 u, double limit)
+{
+    rg_vec3 w;
+    if (is_none(v) || are_joined(m, v, u, limit)) return 1;
+    for (int32_t k = 0; axis_number(m, k, &w); k++)
+        for (int side = 0; side < 2; side++, w = rg_vec3_scale(-1, w))
+            if (!is_none(w) && gap_along(m, w) >= limit && are_joined(m, v, w, limit) && are_joined(m, w, u, limit)) return 1;
+    return 0;
+}
+
+/* What the axes tried so far give. */
+typedef struct best { double time, gap; rg_vec3 axis; } best;
+
+/* side: that on which the second is, or none. */
+static int try_axis(const pair *m, rg_vec3 u, rg_vec3 side, double limit, double enough, best *b)
+{
+    for (int turn = 0; turn < 2; turn++, u = rg_vec3_scale(-1, u)) {
+        double gap;
+        const double time = holds(m, u, limit, &gap);
+        if (!(gap > b->gap || time > b->time) || !goes_over(m, side, u, limit)) continue;
+        if (gap > b->gap) b->gap = gap;
+        if (time > b->time) b->time = time, b->axis = u;
+        if (b->time >= enough) return 1;
+    }
+    return 0;
+}
+
+/* The last good one first; no more than needed. */
+static void try_axes(const pair *m, rg_vec3 side, double limit, double enough, best *b)
+{
+    rg_vec3 u;
+    if (!is_none(b->axis) && try_axis(m, b->axis, side, limit, enough, b)) return;
+    for (int32_t k = 0; axis_number(m, k, &u); k++)
+        if (!is_none(u) && try_axis(m, u, side, limit, enough, b)) return;
 }
 
 /* ------------------------------------------------------------------------------------------------- one pair, all ---- */
@@ -254,8 +306,9 @@ typedef struct sweep {
     const rg_plates *p;
     const rg_plates_state *from, *to;
     double depth; /* file units */
-    const rg_sweep_work *w;
+    rg_sweep_work *w;
     rg_sweep_found found;
+    rg_status status;
     int rigid; /* non-zero: no facet changes its shape */
     pair m;
 } sweep;
@@ -271,29 +324,71 @@ static void end_at(sweep *s, rg_sweep_verdict verdict, double time, int32_t a, i
     s->found.axis = rg_vec3_scale(-1, rg_mat3_mul_vec(A->R, axis));
 }
 
+static int by_pair(const void *a, const void *b)
+{
+    const rg_sweep_side *p = a, *q = b;
+    return p->part[0] != q->part[0] ? p->part[0] - q->part[0] : p->part[1] - q->part[1];
+}
+
+/* On which side the second was as the step before ended; none: not known. */
+static rg_vec3 side_before(const sweep *s, int32_t a, int32_t b)
+{
+    const rg_sweep_side key = {{a, b}, {0, 0, 0}};
+    const rg_sweep_side *at = s->w->n_before ? bsearch(&key, s->w->before, (size_t)s->w->n_before, sizeof key, by_pair) : NULL;
+    return at ? at->axis : (rg_vec3){0, 0, 0};
+}
+
+static void keep_side(sweep *s, int32_t a, int32_t b, rg_vec3 side)
+{
+    rg_sweep_work *w = s->w;
+    if (is_none(side) || s->status != RG_OK) return;
+    s->status = rg_mem_grow(&w->mem, (void **)&w->now, &w->room_now, (size_t)w->n_now + 1, sizeof *w->now);
+    if (s->status == RG_OK) w->now[w->n_now++] = (rg_sweep_side){{a, b}, side};
+}
+
+/* They are apart along u now, and were on `side`, or on none that is known. It is known that they are on this one if it was so before,
+ * or if nothing else parts them that is more than 60 degrees off. */
+static rg_vec3 settled(const pair *m, rg_vec3 side, rg_vec3 u, double limit)
+{
+    const rg_vec3 none = {0, 0, 0};
+    rg_vec3 w;
+    if (rg_vec3_dot(side, u) > 0.5) return u;
+    for (int32_t k = 0; axis_number(m, k, &w); k++)
+        for (int sign = 0; sign < 2; sign++, w = rg_vec3_scale(-1, w))
+            if (!is_none(w) && rg_vec3_dot(w, u) < 0.5 && gap_along(m, w) >= limit) return none;
+    return u;
+}
+
 static void advance(sweep *s, int32_t a, int32_t b, int32_t corner)
 {
     pair *m = &s->m;
-    best now = {0, -INFINITY, {0, 0, 0}};
+    const double limit = -s->depth;
+    rg_vec3 side = side_before(s, a, b);
+    best now = {0, -INFINITY, side};
     double t = 0;
     s->found.pairs++;
     if (!set_pair(m, s->p, s->from, s->to, a, b, corner)) {
         end_at(s, RG_SWEEP_GAVE_UP, 0, a, b, (rg_vec3){0, 0, 0});
         return;
     }
+    go_to(m, 0);
     for (int32_t n = 0; n < ADVANCEMENTS; n++) {
         const double enough = s->found.time - t;
         now.time = 0;
         now.gap = -INFINITY;
-        go_to(m, t);
         s->found.advancements++;
-        try_axes(m, -s->depth, enough, &now);
-        if (now.time >= enough) return;
-        if (!(now.gap + s->depth > CLOSE * s->depth)) {
+        try_axes(m, side, limit, enough, &now);
+        const int done = now.time >= enough;
+        if (!done && !(now.gap + s->depth > CLOSE * s->depth)) {
             end_at(s, RG_SWEEP_CONTACT, t, a, b, now.axis);
             return;
         }
-        t += now.time;
+        t = done ? s->found.time : t + now.time;
+        if (!done || !(rg_vec3_dot(side, now.axis) > 0.5)) go_to(m, t);
+        side = settled(m, side, now.axis, limit);
+        if (!done) continue;
+        keep_side(s, a, b, side);
+        return;
     }
     end_at(s, RG_SWEEP_GAVE_UP, t, a, b, now.axis);
 }
@@ -355,9 +450,9 @@ static double arc_over(double angle, double d)
     return half > 0 ? half / sin(half) * d * angle / 8 : 0;
 }
 
-/* As the first facet sees it, so that it stays where it is: do the second's corners stay on one side of it? They go straight but
- * for the height of an arc about the middle, and of the middle's. */
-static int stays_away(const sweep *s, int32_t a, int32_t b, double arm)
+/* As the first facet sees it, so that it stays where it is: do the second's corners stay on one side of it, near the one that is known? They go
+ * straight but for the height of an arc about the middle, and of the middle's. */
+static int stays_away(sweep *s, int32_t a, int32_t b, double arm)
 {
     const rg_plates *p = s->p;
     const rg_place *back = &s->w->back[p->facet[a]];
@@ -374,8 +469,18 @@ static int stays_away(const sweep *s, int32_t a, int32_t b, double arm)
         goes = rg_vec3_axpy(1.0 / nb, rg_vec3_sub(d, c), goes);
     }
     const double by = arm * angle * angle / 8 + arc_over(angle, rg_vec3_length(goes));
-    return A.low.x - B.high.x > by || B.low.x - A.high.x > by || A.low.y - B.high.y > by || B.low.y - A.high.y > by ||
-           A.low.z - B.high.z > by || B.low.z - A.high.z > by;
+    const double gap[6] = {B.low.x - A.high.x, A.low.x - B.high.x, B.low.y - A.high.y, A.low.y - B.high.y, B.low.z - A.high.z, A.low.z - B.high.z};
+    int most = 0;
+    for (int k = 1; k < 6; k++)
+        if (gap[k] > gap[most]) most = k;
+    if (!(gap[most] > by)) return 0;
+    const rg_mat3 *R = &s->from->place[p->facet[a]].R;
+    const double sign = most % 2 ? -1 : 1;
+    const rg_vec3 row[3] = {{R->c[0].x, R->c[1].x, R->c[2].x}, {R->c[0].y, R->c[1].y, R->c[2].y}, {R->c[0].z, R->c[1].z, R->c[2].z}};
+    const rg_vec3 u = rg_vec3_scale(sign, row[most / 2]), before = side_before(s, a, b);
+    if (!is_none(before) && !(rg_vec3_dot(before, u) > 0.5)) return 0; /* to be looked at closely */
+    if (!is_none(before)) keep_side(s, a, b, u);
+    return 1;
 }
 
 static void meet(sweep *s, int32_t a, int32_t b, double arm)
@@ -495,18 +600,28 @@ static int keeps_shape(const rg_plates *p, const rg_plates_state *from, const rg
     return from->X == to->X || memcmp(from->X, to->X, (size_t)p->mesh->nv * sizeof *from->X) == 0;
 }
 
-rg_sweep_found rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double depth,
-                             rg_sweep_work *w)
+rg_status rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double depth, rg_sweep_work *w,
+                        rg_sweep_found *found)
 {
     sweep s = {.p = p, .from = from, .to = to, .depth = depth * p->size, .w = w};
     s.found = (rg_sweep_found){.verdict = RG_SWEEP_FREE, .time = 1, .facet = {-1, -1}};
-    if (p->parts < 2) return s.found;
-    if (rg_front_shows_moving(p, from, to, s.depth, &w->front)) {
+    w->n_now = 0;
+    if (p->parts > 1 && rg_front_shows_moving(p, from, to, s.depth, &w->front)) {
         s.found.in_front = 1;
-        return s.found;
+    } else if (p->parts > 1) {
+        s.rigid = keeps_shape(p, from, to);
+        find_balls(p, from, to, w);
+        rg_plates_walk_pairs(&(rg_plates_walk){p, may_meet, meet_leaves, &s});
     }
-    s.rigid = keeps_shape(p, from, to);
-    find_balls(p, from, to, w);
-    rg_plates_walk_pairs(&(rg_plates_walk){p, may_meet, meet_leaves, &s});
-    return s.found;
+    *found = s.found;
+    return s.status;
+}
+
+void rg_sweep_go_on(rg_sweep_work *w)
+{
+    rg_sweep_side *list = w->before;
+    const size_t room = w->room_before;
+    if (w->n_now) qsort(w->now, (size_t)w->n_now, sizeof *w->now, by_pair);
+    w->before = w->now, w->room_before = w->room_now, w->n_before = w->n_now;
+    w->now = list, w->room_now = room, w->n_now = 0;
 }

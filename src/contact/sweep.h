@@ -40,11 +40,18 @@ typedef struct rg_sweep_ball {
     int32_t facet; /* that first one */
 } rg_sweep_ball;
 
+/* The second part of a pair, by the greater number, is apart from the first along this axis, unit, as the first part's facet sees it: its
+ * front looks along z. */
+typedef struct rg_sweep_side { int32_t part[2]; rg_vec3 axis; } rg_sweep_side;
+
 typedef struct rg_sweep_work {
     rg_memory mem;
     rg_sweep_ball *ball; /* [nodes] */
     rg_place *back;      /* [nf] from the second state back to the first */
     rg_front_work front;
+    rg_sweep_side *before, *now; /* [n_before] as the step begins, by part; [n_now] as it ends */
+    size_t room_before, room_now;
+    int32_t n_before, n_now;
 } rg_sweep_work;
 
 /* RG_ENOMEM: *w is zeroed. */
@@ -52,9 +59,12 @@ rg_status rg_sweep_work_init(const rg_plates *p, rg_sweep_work *w);
 void rg_sweep_work_free(rg_sweep_work *w);
 
 /* Looks at all pairs of facets between two states, and says which first comes to cross deeper than `depth`, above 0, of the sheet's
- * size. Hinges are passed through where a crease goes
- * through half a turn. Allocates nothing. */
-rg_sweep_found rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double depth,
-                             rg_sweep_work *w);
+ * size. Hinges are passed through where a crease goes through half a turn, and layers that lie on each other where one comes from
+ * above to below: each pair keeps the side on which it was in w->before, or goes round from it. Where it is now, and known, is kept in
+ * w->now. RG_ENOMEM. */
+rg_status rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double depth, rg_sweep_work *w,
+                        rg_sweep_found *found);
+/* What is kept now is what the next step begins with. */
+void rg_sweep_go_on(rg_sweep_work *w);
 
 #endif

@@ -1,4 +1,5 @@
 #include "motion/ending.h"
+#include "motion/measure.h"
 #include "base/status.h"
 #include "motion/seen.h"
 
@@ -19,16 +20,50 @@ static int whole_turns(const rg_motion *m, int32_t frame, double *angle)
     return folded;
 }
 
+/* wish[]: out, as rg_seen_order's, and surer than that where contact followed a pair all the way: such a pair wishes for more than all
+ * others. */
+static void wish_for_sides(const rg_motion *m, double *wish)
+{
+    const rg_layers *l = m->layers;
+    double most = 0;
+    for (int32_t i = 0; i < l->pairs.count; i++) most = fmax(most, fabs(wish[i]));
+    for (int32_t i = 0; i < m->sides; i++) {
+        const rg_motion_side *s = &m->side[i];
+        const int32_t f = l->flat.facet_of[s->facet[0]], g = l->flat.facet_of[s->facet[1]], pair = f == g ? -1 : rg_pairs_find(&l->pairs, f, g);
+        if (pair < 0 || rg_layers_above_of_mesh(l, s->facet[0], s->facet[1]) == 0) continue;
+        wish[pair] = (f < g ? 1 : -1) * s->before * l->flat.up[f] * (1 + most);
+    }
+}
+
 /* Of several orders, one that the facets came in. */
 static rg_status choose(rg_motion *m)
 {
     const rg_seen_frames seen = {&m->mesh, &m->tree, m->rho, m->flat, m->report.frame_count};
-    if (!m->ends_flat || m->report.frame_count < 2 || m->layers->parts.count == 0) return rg_layers_choose(m->layers, NULL);
+    rg_status s = rg_layers_choose(m->layers, NULL);
+    if (s != RG_OK || !m->ends_flat || m->report.frame_count < 2 || m->layers->parts.count == 0) return s;
     double *wish = rg_mem_array(&m->mem, (size_t)m->layers->pairs.count, sizeof *wish);
-    rg_status s = wish ? rg_seen_order(m->layers, &seen, wish) : RG_ENOMEM;
+    s = wish ? rg_seen_order(m->layers, &seen, wish) : RG_ENOMEM;
+    if (s == RG_OK) wish_for_sides(m, wish);
     if (s == RG_OK) s = rg_layers_choose_near(m->layers, wish);
     rg_mem_free(&m->mem, wish);
     return s;
+}
+
+/* A motion that is free but for facets which come to lie in an order that no flat end has passes through itself on the last of its
+ * way. */
+static void tell_wrong_order(rg_motion *m)
+{
+    rg_report *r = &m->report;
+    for (int32_t i = 0; i < m->sides && r->contact == RG_CONTACT_FREE && m->ends_flat; i++) {
+        const rg_motion_side *s = &m->side[i];
+        const int above = rg_layers_above_of_mesh(m->layers, s->facet[0], s->facet[1]);
+        if (above * s->before * m->layers->flat.up[m->layers->flat.facet_of[s->facet[0]]] >= 0) continue;
+        const int32_t last = r->frame_count - 1;
+        r->contact = RG_CONTACT_CROSSES;
+        r->first_contact_frame = last;
+        r->first_contact_percent = m->frame[last].percent;
+        rg_measure_place(m, s->facet);
+    }
 }
 
 rg_status rg_ending_find(rg_motion *m, rg_watch *watch, rg_diag *why)
@@ -54,6 +89,7 @@ rg_status rg_ending_find(rg_motion *m, rg_watch *watch, rg_diag *why)
         m->report.layer_orders = info.count;
         m->report.layers_reason = m->layers->info.reason;
         if (info.state == RG_LAYERS_VALID) s = choose(m);
+        if (info.state == RG_LAYERS_VALID && s == RG_OK) tell_wrong_order(m);
         if (s != RG_OK) rg_fail(s, why, 0, "out of memory");
     }
     rg_mem_free(&m->mem, angle);

@@ -166,6 +166,15 @@ static rg_status measure_symmetry(rg_motion *m)
     return s;
 }
 
+void rg_measure_place(rg_motion *m, const int32_t facet[2])
+{
+    for (int k = 0; k < 2; k++) {
+        const rg_vec2 at = rg_plates_middle(&m->mesh, facet[k]);
+        m->report.contact_facets[k] = facet[k];
+        m->report.contact_at[k][0] = at.x, m->report.contact_at[k][1] = m->source.y_down ? 0 - at.y : at.y;
+    }
+}
+
 /* What is known of contact once all frames are in; a NULL course: nothing is. */
 static void measure_contact(rg_motion *m, rg_course *c)
 {
@@ -173,7 +182,6 @@ static void measure_contact(rg_motion *m, rg_course *c)
     r->first_contact_frame = r->deepest_contact_frame = r->contact_facets[0] = r->contact_facets[1] = -1;
     r->first_contact_percent = NAN;
     if (!c) return;
-    rg_course_end(c);
     const rg_course_found *f = &c->found;
     r->contact = f->first < 0 ? RG_CONTACT_FREE : RG_CONTACT_CROSSES;
     r->contact_unproved = f->unproved;
@@ -185,11 +193,22 @@ static void measure_contact(rg_motion *m, rg_course *c)
     r->first_contact_frame = f->first;
     r->first_contact_percent = m->frame[f->first].percent;
     if (f->between) r->first_contact_percent += (1 - f->time) * (m->frame[f->first - 1].percent - m->frame[f->first].percent);
-    for (int k = 0; k < 2; k++) {
-        const rg_vec2 at = rg_plates_middle(&m->mesh, f->facet[k]);
-        r->contact_facets[k] = f->facet[k];
-        r->contact_at[k][0] = at.x, r->contact_at[k][1] = m->source.y_down ? 0 - at.y : at.y;
+    rg_measure_place(m, f->facet);
+}
+
+/* On which side of each other facets come into the last frame. */
+static rg_status keep_sides(rg_motion *m, const rg_course *c)
+{
+    rg_mem_free(&m->mem, m->side);
+    m->sides = 0;
+    m->side = rg_mem_array(&m->mem, (size_t)c->sweep.n_before, sizeof *m->side);
+    if (!m->side) return RG_ENOMEM;
+    for (int32_t i = 0; c->found.first < 0 && i < c->sweep.n_before; i++) {
+        rg_motion_side *s = &m->side[m->sides];
+        s->before = rg_course_side(c, i, s->facet);
+        m->sides += s->before != 0;
     }
+    return RG_OK;
 }
 
 rg_status rg_measure_frames(rg_motion *m, rg_watch *watch)
@@ -197,19 +216,22 @@ rg_status rg_measure_frames(rg_motion *m, rg_watch *watch)
     int looks = m->settings.contact != RG_CONTACT_IGNORE && !(watch && rg_watch_asked(watch));
     rg_course course = {0};
     gauge g = {0};
+    rg_status s = RG_OK;
     const int ok = make_room(&g, &m->mem, &m->mesh) && (!looks || rg_course_init(&m->mesh, &course) == RG_OK);
     if (ok) m->report.components = rg_components_find(&m->mesh, g.part);
     m->report.isometric = 1;
     for (int32_t k = 0; ok && k < m->report.frame_count; k++) {
         measure_frame(m, k, &g);
         looks = looks && !(watch && rg_watch_asked(watch));
-        if (looks) rg_course_add(&course, &(rg_plates_state){rg_motion_pattern(m, k), g.place, g.x});
+        if (looks && s == RG_OK) s = rg_course_add(&course, &(rg_plates_state){rg_motion_pattern(m, k), g.place, g.x});
     }
-    if (ok) measure_contact(m, looks ? &course : NULL);
+    if (ok && looks && s == RG_OK) s = rg_course_end(&course);
+    if (ok && s == RG_OK) measure_contact(m, looks ? &course : NULL);
+    if (ok && looks && s == RG_OK) s = keep_sides(m, &course);
     rg_course_free(&course);
     void *block[] = {g.rho, g.theta, g.sector, g.place, g.x, g.part};
     for (int i = 0; i < 6; i++) rg_mem_free(&m->mem, block[i]);
-    if (!ok) return RG_ENOMEM;
+    if (!ok || s != RG_OK) return RG_ENOMEM;
     m->report.symmetry = 1;
     return watch && watch->cancelled ? RG_OK : measure_symmetry(m);
 }

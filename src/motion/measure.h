@@ -8,5 +8,7 @@
 /* Fills m->frame and the measurements of m->report; m->tree, m->target, m->from and the frames are there. Once
  * the watch (NULL: nobody's) says so, contact is not looked for any more. RG_ENOMEM. */
 rg_status rg_measure_frames(rg_motion *m, rg_watch *watch);
+/* The report's contact is of these two facets. */
+void rg_measure_place(rg_motion *m, const int32_t facet[2]);
 
 #endif

@@ -25,8 +25,8 @@ void rg_motion_destroy(rg_motion *m)
     rg_tree_free(&m->tree);
     rg_triangles_free(&m->triangles);
     void *block[] = {m->target, m->from, m->rho, m->flat, m->frame, m->blocking_vertex, m->blocking_crease, m->blocking_at,
-                     m->state_frame, m->by_flat, m->space, m->tried};
-    for (int i = 0; i < 12; i++) rg_mem_free(&m->mem, block[i]);
+                     m->state_frame, m->by_flat, m->space, m->tried, m->side};
+    for (int i = 0; i < 13; i++) rg_mem_free(&m->mem, block[i]);
     rg_layers_destroy(m->layers);
     rg_motion_free_stages(&m->stages);
     rg_source_free(&m->source);

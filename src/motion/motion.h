@@ -18,6 +18,9 @@ typedef struct rg_stages {
     int32_t *edge;        /* [mesh ne] which of its edges it is a part of, -1: none */
 } rg_stages;
 
+/* The second facet comes to lie before the front of the first: 1, or behind its back: -1. */
+typedef struct rg_motion_side { int32_t facet[2]; int before; } rg_motion_side;
+
 struct rg_motion {
     rg_memory mem;
     rg_settings settings;
@@ -40,6 +43,8 @@ struct rg_motion {
     double (*blocking_at)[2];
     int32_t *state_frame, *by_flat; /* of a sequence of states, as in the report; NULL: of one pattern */
     rg_stages stages;      /* in which it goes; count 0: at once */
+    int32_t sides;
+    rg_motion_side *side;  /* [sides] pairs of facets that came near each other before the last frame */
     rg_layers *layers;     /* of its flat end, see ending.h; NULL: not looked for */
     int ends_flat;         /* non-zero: the last frame is folded flat */
     rg_report report;

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Facets with a common corner: over less of the sheet it is how the corner is rounded. */
+/* Facets with a common corner: over less of the sheet it is how the corner is rounded. And what lies over the other by less is beside it. */
 static const double STRETCH = 1e-3;
 /* Sine of sides that count as parallel. */
 static const double PARALLEL = 1e-9;
@@ -184,7 +184,7 @@ typedef struct way {
     rg_mat3 Q;
     double angle, bend; /* bend: the most that the second time derivative of a corner's place can be */
     int screw;
-    double allowed;     /* file units */
+    double allowed, over; /* file units */
 } way;
 
 static rg_mat3 inverse_times(const rg_mat3 *A, const rg_mat3 *B)
@@ -241,6 +241,7 @@ static void set_way(const look *l, int32_t frame, int32_t a, int32_t b, int32_t 
     w->bend = w->angle * (w->angle * arm + 2 * change);
     w->rise = rg_vec3_scale(rg_vec3_dot(w->axis, w->dp), w->axis);
     w->chord = rg_vec3_sub(w->dp, w->rise);
+    w->over = STRETCH * l->r->size;
     w->screw = corner < 0 && w->angle > 0;
     if (w->screw) w->bend += w->angle * arc_length(w->angle, rg_vec3_length(w->chord)); /* speed squared over the radius */
 }
@@ -325,27 +326,46 @@ static int32_t all_axes(const polygon *a, const polygon *b, rg_vec3 *axis)
 
 static int is_known(rg_vec3 side) { return side.x != 0 || side.y != 0 || side.z != 0; }
 
-/* What parts two things along u and along v parts them along all between: along (u + v) / |u + v| by no less than the sum of both,
- * over |u + v|, which is 1 or more up to 120 degrees. So one and the same side goes over into the other. */
-static int is_beside(rg_vec3 u, rg_vec3 v) { return rg_vec3_dot(u, v) >= -0.5; }
+/* What parts two things along u and along v parts them along all between: along (u + v) / |u + v| by no less than the sum of both
+ * over |u + v|, which is 1 or more up to 120 degrees. Beyond that the middle is asked: what lies on the other over more than a STRETCH is not parted
+ * by it. So one and the same side goes over into the other. */
+static int is_one_side(const polygon *a, const polygon *b, rg_vec3 u, rg_vec3 v, double allowed, double over)
+{
+    const rg_vec3 both = rg_vec3_add(u, v);
+    return rg_vec3_dot(u, v) >= -0.5 || (rg_vec3_length(both) > PARALLEL && gap_along(a, b, unit(both)) >= -allowed - over);
+}
 
-/* At a time, they are apart along u and along v; is there a way from the one to the other without passing through each other? Where
+/* At a time, they are apart along v and along u; is there a way from the one to the other without passing through each other? Where
  * both lie in one plane, over each other, there is none from above to below. */
 static int goes_over(const way *w, double t, rg_vec3 v, rg_vec3 u, rg_vec3 *axis)
 {
     polygon a, b;
     rg_vec3 va[RG_PIECE_MOST], vb[RG_PIECE_MOST];
-    if (!is_known(v) || is_beside(v, u)) return 1;
+    if (!is_known(v)) return 1;
     at_time(w, t, &a, &b, va, vb);
+    if (is_one_side(&a, &b, v, u, w->allowed, w->over)) return 1;
     for (int32_t i = all_axes(&a, &b, axis) - 1; i >= 0; i--)
         for (int sign = -1; sign <= 1; sign += 2) {
             const rg_vec3 m = rg_vec3_scale(sign, axis[i]);
-            if (is_known(m) && is_beside(v, m) && is_beside(m, u) && gap_along(&a, &b, m) >= -w->allowed) return 1;
+            if (is_known(m) && gap_along(&a, &b, m) >= -w->allowed && is_one_side(&a, &b, v, m, w->allowed, w->over) &&
+                is_one_side(&a, &b, m, u, w->allowed, w->over))
+                return 1;
         }
     return 0;
 }
 
-/* From t - h to t + h. *side: that on which the second is as it begins, and then as it ends. axis: room for axes. */
+/* Nothing else parts them that is more than 60 degrees off: only then is it known on which side they are. */
+static int is_only(const polygon *a, const polygon *b, rg_vec3 u, double allowed, rg_vec3 *axis)
+{
+    for (int32_t i = all_axes(a, b, axis) - 1; i >= 0; i--)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const rg_vec3 m = rg_vec3_scale(sign, axis[i]);
+            if (is_known(m) && rg_vec3_dot(m, u) < 0.5 && gap_along(a, b, m) >= -allowed) return 0;
+        }
+    return 1;
+}
+
+/* From t - h to t + h. *side: that on which the second is known to be as it begins, and then as it ends. axis: room for axes. */
 static outcome prove(const way *w, double t, double h, int halvings, rg_vec3 *axis, rg_vec3 *side)
 {
     polygon a, b, c, d;
@@ -366,9 +386,8 @@ static outcome prove(const way *w, double t, double h, int halvings, rg_vec3 *ax
             else round = 1;
         }
     if (is_known(best)) {
-        /* Where it is above no more than below, it has no side, unless it had it before. */
-        const int either = gap_along(&c, &d, rg_vec3_scale(-1, best)) >= -w->allowed;
-        *side = either && !(rg_vec3_dot(*side, best) > 0.5) ? (rg_vec3){0, 0, 0} : best;
+        if (!(rg_vec3_dot(*side, best) > 0.5) && !is_only(&c, &d, best, w->allowed, axis)) best = (rg_vec3){0, 0, 0};
+        *side = best;
         return PROVED;
     }
     if (depth > w->allowed) return THROUGH;
