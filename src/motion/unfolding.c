@@ -1,7 +1,7 @@
 #include "motion/unfolding.h"
 #include "base/clock.h"
 #include "base/status.h"
-#include "contact/contact.h"
+#include "contact/course.h"
 #include "unfold/unfold.h"
 
 #include <stdio.h>
@@ -19,28 +19,27 @@ static const double GIVE = 1;
 /* A path is looked at in so many states, evenly in percent, whatever frames are asked for: what is chosen must not depend on them. */
 static const int32_t LOOKED_AT = 121;
 
-/* The first frame in which facets cross; -1: none, or the watch (NULL: nobody's) stopped it before it came to one. */
+/* The first frame in which facets cross, or before which they do on the way; -1: none, or the watch (NULL: nobody's) stopped it
+ * before it came to one. */
 static rg_status first_crossing(const rg_attempt *t, rg_watch *watch, int32_t *frame)
 {
     const rg_mesh *m = &t->mesh;
-    rg_plates plates = {0};
-    rg_contact_work w = {0};
+    rg_course course = {0};
     rg_tree tree = {0};
     rg_place *place = rg_mem_array(&t->mem, (size_t)m->nf, sizeof *place);
     rg_vec3 *x = rg_mem_array(&t->mem, (size_t)m->nv, sizeof *x);
     rg_status s = place && x ? rg_tree_init(m, -1, &tree) : RG_ENOMEM;
-    if (s == RG_OK) s = rg_plates_init(m, &plates);
-    if (s == RG_OK) s = rg_contact_work_init(&plates, &w);
+    if (s == RG_OK) s = rg_course_init(m, &course);
     *frame = -1;
-    for (int32_t k = 0; s == RG_OK && k < t->count && *frame < 0 && !(watch && rg_watch_asked(watch)); k++) {
+    for (int32_t k = 0; s == RG_OK && k < t->count && course.found.first < 0 && !(watch && rg_watch_asked(watch)); k++) {
         const rg_vec2 *X = t->flat ? t->flat + (size_t)k * (size_t)m->nv : m->X;
-        rg_contact_hit deepest;
         rg_pose_facets(m, X, &tree, t->rho + (size_t)k * (size_t)m->N, place);
         rg_pose_vertices(m, X, &tree, place, x);
-        if (rg_contact_deepest(&plates, x, RG_CONTACT_TOLERANCE, &w, &deepest)) *frame = k;
+        s = rg_course_add(&course, &(rg_plates_state){X, place, x});
     }
-    rg_contact_work_free(&w);
-    rg_plates_free(&plates);
+    if (s == RG_OK && course.found.states == t->count) s = rg_course_end(&course);
+    if (s == RG_OK) *frame = course.found.first;
+    rg_course_free(&course);
     rg_tree_free(&tree);
     rg_mem_free(&t->mem, place);
     rg_mem_free(&t->mem, x);
