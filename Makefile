@@ -340,6 +340,8 @@ install: build $B/rigami-fold.1
 	install -m 644 tools/install/rigami.bash $(DESTDIR)$(bashdir)/rigami
 	install -m 644 tools/install/rigami.zsh $(DESTDIR)$(zshdir)/_rigami
 	install -m 644 tools/install/rigami.fish $(DESTDIR)$(fishdir)/rigami.fish
+# The loader keeps a list of what there is; a package does so when it is unpacked.
+	@if [ -z '$(DESTDIR)' ] && [ "$$(id -u)" = 0 ] && command -v ldconfig >/dev/null; then ldconfig; fi
 
 # Its options are those that the program says it has.
 $B/rigami-fold.1: docs/rigami-fold.1 tools/install/manual.awk $B/rigami

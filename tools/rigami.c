@@ -167,6 +167,8 @@ static int refuse_command(const char *word)
         best = &commands[i];
     }
     if (best) say("\"%s\" is no command: did you mean rigami %s?", word, best->name);
+    else if (guess_is_near(word, "help", guess_distance(word, "help"))) say("\"%s\" is no command: did you mean rigami help?", word);
+    else if (access(word, R_OK) == 0) say("\"%s\" is a file and no command: did you mean rigami fold %s? rigami --help lists what else there is", word, word);
     else say("\"%s\" is no command; try rigami --help", word);
     return ENDS_USAGE;
 }
