@@ -29,7 +29,8 @@ static rg_motion *motion_of(const char *kind, int32_t n, rg_settings s)
 static double largest_turn(const rg_motion *m, int32_t k)
 {
     double most = 0;
-    for (int32_t i = 0; i < m->mesh.N; i++) most = fmax(most, fabs(rg_motion_angles(m, k + 1)[i] - rg_motion_angles(m, k)[i]));
+    for (int32_t i = 0; i < m->mesh.N; i++)
+        most = fmax(most, fabs(rg_motion_angles(m, k + 1)[i] - rg_motion_angles(m, k)[i]));
     return most;
 }
 
@@ -50,8 +51,12 @@ static double strain(const rg_motion *m, int32_t k)
     return most;
 }
 
-static const struct { const char *kind; int32_t n; double adjust; } SAMPLES[] = {
-    {"bird", 0, RG_ADJUST_AUTO}, {"miura", 4, RG_ADJUST_AUTO}, {"closed-adjust", 0, RG_ADJUST_AUTO}, {"fish", 0, RG_ADJUST_AUTO}, {"waterbomb", 3, RG_ADJUST_AUTO}};
+static const struct { const char *kind; int32_t n; double adjust;
+} SAMPLES[] = {{"bird", 0, RG_ADJUST_AUTO},
+               {"miura", 4, RG_ADJUST_AUTO},
+               {"closed-adjust", 0, RG_ADJUST_AUTO},
+               {"fish", 0, RG_ADJUST_AUTO},
+               {"waterbomb", 3, RG_ADJUST_AUTO}};
 enum { SAMPLE_COUNT = sizeof SAMPLES / sizeof *SAMPLES, FRAMES = 41 };
 
 static void frames_are_even_and_closed(void **state)
@@ -80,7 +85,8 @@ static void frames_are_even_and_closed(void **state)
             uneven = fmax(uneven, largest_turn(m, k));
             assert_true(paced.frame[k + 1].percent >= paced.frame[k].percent - 0.5);
         }
-        /* The ways are cut elsewhere than at m's frames, so that a turn may be a little shorter than its share, and none is longer. */
+        /* The ways are cut elsewhere than at m's frames, so that a turn may be a little shorter than its share, and
+         * none is longer. */
         assert_true(most <= 1.02 * whole / last);
         assert_true(most <= 1.25 * sum / last);
         assert_true(most <= 1.02 * uneven);

@@ -1,4 +1,5 @@
-/* Pieces of facets where layers lie on each other in a circle: with them, each cell of the overlap shows the facet that is on top. */
+/* Pieces of facets where layers lie on each other in a circle: with them, each cell of the overlap shows the facet that
+ * is on top. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,7 +22,9 @@ static rg_motion *motion_of(const char *kind, const rg_memory *mem)
     rg_settings s = rg_settings_default();
     s.memory = mem;
     s.frames = 8;
-    if (rg_generate_pattern(kind, 0, 0, 0, NULL, &p, &why) != RG_OK || rg_motion_create(p, &s, NULL, NULL, &m, &why) != RG_OK) fail_msg("%s: %s", kind, why.text);
+    if (rg_generate_pattern(kind, 0, 0, 0, NULL, &p, &why) != RG_OK ||
+        rg_motion_create(p, &s, NULL, NULL, &m, &why) != RG_OK)
+        fail_msg("%s: %s", kind, why.text);
     rg_pattern_destroy(p);
     return m;
 }
@@ -30,11 +33,13 @@ static int is_inside(const rg_vec2 *x, int32_t n, rg_vec2 p)
 {
     int odd = 0;
     for (int32_t i = 0, k = n - 1; i < n; k = i++)
-        if ((x[i].y > p.y) != (x[k].y > p.y) && p.x < x[i].x + (p.y - x[i].y) / (x[k].y - x[i].y) * (x[k].x - x[i].x)) odd = !odd;
+        if ((x[i].y > p.y) != (x[k].y > p.y) && p.x < x[i].x + (p.y - x[i].y) / (x[k].y - x[i].y) * (x[k].x - x[i].x))
+            odd = !odd;
     return odd;
 }
 
-/* How high a facet is over a point of the plane: by its level, or by a piece of it there; side: the highest or the lowest. */
+/* How high a facet is over a point of the plane: by its level, or by a piece of it there; side: the highest or the
+ * lowest. */
 static int32_t height(const rg_patches *p, const rg_layers *l, const int32_t *level, int32_t f, rg_vec2 point, int side)
 {
     int32_t best = level[f];
@@ -67,10 +72,14 @@ static int check(const char *kind)
             for (int32_t i = c->over_start[k]; i < c->over_start[k + 1]; i++) {
                 const int32_t f = c->over[i];
                 int outer = 1;
-                for (int32_t j = c->over_start[k]; j < c->over_start[k + 1]; j++) outer &= c->over[j] == f || side * rg_layers_above(l, c->over[j], f) > 0;
+                for (int32_t j = c->over_start[k]; j < c->over_start[k + 1]; j++)
+                    outer &= c->over[j] == f || side * rg_layers_above(l, c->over[j], f) > 0;
                 if (outer) truth = f;
                 if (bare < 0 || side * (level[f] - level[bare]) > 0) bare = f;
-                if (seen < 0 || side * (height(&p, l, level, f, c->point[k], side) - height(&p, l, level, seen, c->point[k], side)) > 0) seen = f;
+                if (seen < 0 || side * (height(&p, l, level, f, c->point[k], side) -
+                                        height(&p, l, level, seen, c->point[k], side)) >
+                                    0)
+                    seen = f;
             }
             assert_int_equal(seen, truth);
             wrong += bare != truth;
@@ -81,7 +90,8 @@ static int check(const char *kind)
         for (int32_t i = p.start[k], j = p.start[k + 1] - 1; i < p.start[k + 1]; j = i++) {
             area += rg_vec2_cross(p.corner[j], p.corner[i]) / 2;
             if (p.edge[j] < 0) continue;
-            const rg_vec2 a = m->mesh.X[m->mesh.edge[p.edge[j]][0]], d = rg_vec2_sub(m->mesh.X[m->mesh.edge[p.edge[j]][1]], a);
+            const rg_vec2 a = m->mesh.X[m->mesh.edge[p.edge[j]][0]],
+                          d = rg_vec2_sub(m->mesh.X[m->mesh.edge[p.edge[j]][1]], a);
             near(rg_vec2_cross(d, rg_vec2_sub(p.corner[j], a)) / rg_vec2_dot(d, d), 0, 1e-6);
             near(rg_vec2_cross(d, rg_vec2_sub(p.corner[i], a)) / rg_vec2_dot(d, d), 0, 1e-6);
         }
@@ -122,6 +132,7 @@ static void memory_may_run_short(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_cell_shows_what_is_on_top), cmocka_unit_test(memory_may_run_short)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_cell_shows_what_is_on_top),
+                                       cmocka_unit_test(memory_may_run_short)};
     return cmocka_run_group_tests_name("patches", tests, NULL, NULL);
 }

@@ -17,8 +17,8 @@ static int number(const char *text, double *value, const char **end)
     return n > 0 && stop == text + n && isfinite(*value);
 }
 
-/* The edge of crease `text`: its number, as reports have it, also with the c of .csv and .svg, or a point on it, "x,y". Ends at '=' or the
- * end. -1: none. */
+/* The edge of crease `text`: its number, as reports have it, also with the c of .csv and .svg, or a point on it, "x,y".
+ * Ends at '=' or the end. -1: none. */
 static int32_t find_edge(const rg_pattern *p, const char *text, const char **end)
 {
     const rg_plane *plane = rg_pattern_get_plane(p);
@@ -40,16 +40,19 @@ int aims_set(const options *o, const char *name, rg_pattern *p, rg_driven *drive
         const char *end;
         double degrees = 0;
         const int32_t e = find_edge(p, a->text, &end);
-        const int says = a->what != AIM_DRIVE ? *end == 0 : *end == '=' && number(end + 1, &degrees, &end) && *end == 0 && fabs(degrees) <= 180;
+        const int says = a->what != AIM_DRIVE
+                             ? *end == 0
+                             : *end == '=' && number(end + 1, &degrees, &end) && *end == 0 && fabs(degrees) <= 180;
         const char *option = a->what == AIM_DRIVE ? "drive" : a->what == AIM_PIN ? "pin" : "free";
         if (!says) {
             say("--%s: \"%s\" is not %s", option, a->text,
-                a->what == AIM_DRIVE ? "CREASE=DEG with an angle from -180 to 180, such as 5=60 or 0.5,0.2=60" : "a crease: its number, or x,y of a point on it");
+                a->what == AIM_DRIVE ? "CREASE=DEG with an angle from -180 to 180, such as 5=60 or 0.5,0.2=60"
+                                     : "a crease: its number, or x,y of a point on it");
             return ENDS_USAGE;
         }
         if (e < 0 || rg_pattern_get_plane(p)->assignment[e] == 'B') {
-            say("%s: --%s %s: there is no such crease; creases are 0 to %d, or x,y of a point on one", name, option, a->text,
-                (int)rg_pattern_get_info(p)->creases - 1);
+            say("%s: --%s %s: there is no such crease; creases are 0 to %d, or x,y of a point on one", name, option,
+                a->text, (int)rg_pattern_get_info(p)->creases - 1);
             return ENDS_USAGE;
         }
         if (a->what == AIM_DRIVE) driven[(*count)++] = (rg_driven){e, degrees * DEG};

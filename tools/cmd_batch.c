@@ -1,4 +1,5 @@
-/* rigami batch -- many files, each folded by itself: on all processors, to one table, going on where it was interrupted. */
+/* rigami batch -- many files, each folded by itself: on all processors, to one table, going on where it was
+ * interrupted. */
 #include "commands.h"
 #include "input.h"
 #include "interrupt.h"
@@ -24,18 +25,32 @@ enum { ROOM = 4096, ROW = 2048 };
 #define TO_BURY 0.2
 
 /* The columns; where the program reads them again, their places. */
-enum { EXIT = 3, OUTCOME = 4, PERCENT = 5, MOVED = 18, SECONDS = 21, CONTACT = 23, CROSSES_FROM = 24, VERIFY = 29, REASON = 30 };
-static const char COLUMNS[] = "key,file,sheet,exit,outcome,folded_percent,least_folded_percent,creases,interior_vertices,closed_vertices,added_creases,"
-                              "strategy,tries,adjust_gain,max_closure_residual,max_edge_strain,max_facet_gap,max_overfold_deg,max_adjustment,"
-                              "max_strain_from_original,layers,seconds,processor_seconds,contact,first_contact_percent,contact_frames,contact_pairs,"
-                              "contact_depth,contact_unproved,verify,reason";
+enum {
+    EXIT = 3,
+    OUTCOME = 4,
+    PERCENT = 5,
+    MOVED = 18,
+    SECONDS = 21,
+    CONTACT = 23,
+    CROSSES_FROM = 24,
+    VERIFY = 29,
+    REASON = 30
+};
+static const char COLUMNS[] =
+    "key,file,sheet,exit,outcome,folded_percent,least_folded_percent,creases,interior_vertices,closed_vertices,added_"
+    "creases,"
+    "strategy,tries,adjust_gain,max_closure_residual,max_edge_strain,max_facet_gap,max_overfold_deg,max_adjustment,"
+    "max_strain_from_original,layers,seconds,processor_seconds,contact,first_contact_percent,contact_frames,contact_"
+    "pairs,"
+    "contact_depth,contact_unproved,verify,reason";
 
 /* ----------------------------------------------------------------------------------------------------- a row ---- */
 
 /* A field of CSV: what would part it is replaced. */
 static void put_text(const char *text, FILE *out)
 {
-    for (; text && *text; text++) fputc(*text == ',' ? ';' : *text == '"' || (unsigned char)*text < 32 ? ' ' : *text, out);
+    for (; text && *text; text++)
+        fputc(*text == ',' ? ';' : *text == '"' || (unsigned char)*text < 32 ? ' ' : *text, out);
 }
 
 static void put_number(double x, FILE *out) { fprintf(out, ",%.9g", x); }
@@ -52,19 +67,26 @@ static void put_failure(const task *t, int exit, const char *outcome, const char
 }
 
 /* `verify`: what another judge says of the motion, empty: it was not asked. */
-static void put_report(const task *t, int exit, const rg_report *r, double processor_seconds, const char *verify, FILE *out)
+static void put_report(const task *t, int exit, const rg_report *r, double processor_seconds, const char *verify,
+                       FILE *out)
 {
-    static const char *const contact[] = {[RG_CONTACT_UNCHECKED] = "unchecked", [RG_CONTACT_FREE] = "free", [RG_CONTACT_CROSSES] = "crosses"};
+    static const char *const contact[] = {
+        [RG_CONTACT_UNCHECKED] = "unchecked", [RG_CONTACT_FREE] = "free", [RG_CONTACT_CROSSES] = "crosses"};
     fprintf(out, "%s,", t->key);
     put_text(t->file, out);
-    fprintf(out, ",%d,%d,%s", (int)t->sheet, exit, r->outcome == RG_FOLDED ? "folded" : r->outcome == RG_RESTS ? "rests" : "stopped");
+    fprintf(out, ",%d,%d,%s", (int)t->sheet, exit,
+            r->outcome == RG_FOLDED  ? "folded"
+            : r->outcome == RG_RESTS ? "rests"
+                                     : "stopped");
     put_number(r->folded_percent, out);
     put_number(r->least_folded_percent, out);
-    fprintf(out, ",%d,%d,%d,%d,", (int)r->pattern->creases, (int)r->pattern->interior_vertices, (int)r->pattern->closed_vertices, (int)r->added_creases);
+    fprintf(out, ",%d,%d,%d,%d,", (int)r->pattern->creases, (int)r->pattern->interior_vertices,
+            (int)r->pattern->closed_vertices, (int)r->added_creases);
     put_text(r->strategy, out);
     fprintf(out, ",%d", (int)r->tries);
-    const double numbers[] = {r->adjust_gain, r->max_closure_residual, r->max_edge_strain, r->max_facet_gap, r->max_overfold_deg, r->max_adjustment,
-                              r->max_strain_from_original};
+    const double numbers[] = {
+        r->adjust_gain,      r->max_closure_residual, r->max_edge_strain,         r->max_facet_gap,
+        r->max_overfold_deg, r->max_adjustment,       r->max_strain_from_original};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) put_number(numbers[i], out);
     fprintf(out, ",%s", r->layers);
     put_number(r->seconds_total, out);
@@ -107,7 +129,8 @@ static int kept(const char *folder, const task *t, char text[ROW])
     char path[ROOM];
     snprintf(path, sizeof path, "%s/rows/%s.csv", folder, t->name);
     FILE *f = fopen(path, "r");
-    const int there = f && fgets(text, ROW, f) && strncmp(text, t->key, strlen(t->key)) == 0 && text[strlen(t->key)] == ',';
+    const int there =
+        f && fgets(text, ROW, f) && strncmp(text, t->key, strlen(t->key)) == 0 && text[strlen(t->key)] == ',';
     if (f) fclose(f);
     return there;
 }
@@ -127,10 +150,14 @@ static void verify(const outcome *c, char text[300])
     options quiet = *c->o;
     quiet.quiet = 1; /* folding has passed the reader's warnings on */
     snprintf(path, sizeof path, "%s/%s.fold", c->folder, c->t->name);
-    if (input_read(&quiet, 0, &given) == ENDS_WELL && rg_certificate_create(path, given, NULL, &judged, &why) == RG_OK) {
-        if (rg_certificate_get_info(judged)->valid || rg_certificate_faults(judged, &fault) < 1) snprintf(text, 300, "valid");
+    if (input_read(&quiet, 0, &given) == ENDS_WELL &&
+        rg_certificate_create(path, given, NULL, &judged, &why) == RG_OK) {
+        if (rg_certificate_get_info(judged)->valid || rg_certificate_faults(judged, &fault) < 1)
+            snprintf(text, 300, "valid");
         else if (fault->frame < 0) snprintf(text, 300, "%s", fault->text);
-        else snprintf(text, 300, "frame %d: %s%s", (int)fault->frame, fault->facet[0] >= 0 ? "facets " : "", fault->text);
+        else
+            snprintf(text, 300, "frame %d: %s%s", (int)fault->frame, fault->facet[0] >= 0 ? "facets " : "",
+                     fault->text);
     } else snprintf(text, 300, "cannot be read: %s", why.text);
     rg_certificate_destroy(judged);
     rg_pattern_destroy(given);
@@ -187,7 +214,8 @@ static int child(const options *o, const char *folder, const task *t, int thread
     if (f && fgets(why, sizeof why, f)) why[strcspn(why, "\n")] = 0;
     if (f) fclose(f);
     if (row_begin(&c.row, folder, t) != ENDS_WELL) return ENDS_UNWRITTEN;
-    put_failure(t, status, status == ENDS_USAGE ? "refused" : "failed", strncmp(why, "rigami: ", 8) == 0 ? why + 8 : why, c.row.out);
+    put_failure(t, status, status == ENDS_USAGE ? "refused" : "failed",
+                strncmp(why, "rigami: ", 8) == 0 ? why + 8 : why, c.row.out);
     return row_end(&c.row) == ENDS_WELL ? status : ENDS_UNWRITTEN;
 }
 
@@ -222,9 +250,14 @@ static int bury(const options *o, const char *folder, const task *t, int status)
     if (WIFEXITED(status) && (kept(folder, t, text) || interrupt_came())) return WEXITSTATUS(status);
     const int late = WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM;
     char why[100];
-    snprintf(why, sizeof why, late ? "not done within %.0f seconds" : "the program ended with signal %.0f", late ? o->limit : (double)WTERMSIG(status));
+    snprintf(why, sizeof why, late ? "not done within %.0f seconds" : "the program ended with signal %.0f",
+             late ? o->limit : (double)WTERMSIG(status));
     if (row_begin(&r, folder, t) != ENDS_WELL) return ENDS_UNWRITTEN;
-    put_failure(t, late ? 124 : WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status), late ? "timeout" : "failed", why, r.out);
+    put_failure(t,
+                late                  ? 124
+                : WIFSIGNALED(status) ? 128 + WTERMSIG(status)
+                                      : WEXITSTATUS(status),
+                late ? "timeout" : "failed", why, r.out);
     return row_end(&r) == ENDS_WELL ? ENDS_SHORT : ENDS_UNWRITTEN;
 }
 
@@ -235,7 +268,8 @@ typedef struct pool { pid_t *pid; int *task; turn *order; int jobs, running, thr
 static int by_creases(const void *a, const void *b)
 {
     const turn *p = a, *q = b;
-    return p->creases != q->creases ? (p->creases < q->creases) - (p->creases > q->creases) : (p->task > q->task) - (p->task < q->task);
+    return p->creases != q->creases ? (p->creases < q->creases) - (p->creases > q->creases)
+                                    : (p->task > q->task) - (p->task < q->task);
 }
 
 /* A file has a processor to itself; where there are fewer files than processors, more of them. */
@@ -327,7 +361,8 @@ static int run_all(const options *o, const char *folder, const tasks *q)
 
 /* ------------------------------------------------------------------------------------------------------ table ---- */
 
-/* The rows that there are, in the order of the files: as CSV, and for people. Returns how many are not there; -1: not written. */
+/* The rows that there are, in the order of the files: as CSV, and for people. Returns how many are not there; -1: not
+ * written. */
 static int write_tables(const char *folder, const char *name, const tasks *q, int *bad)
 {
     char path[ROOM], text[ROW], a[ROW], b[ROW], c[ROW], d[ROW], e[ROW];
@@ -339,7 +374,8 @@ static int write_tables(const char *folder, const char *name, const tasks *q, in
     if (!people) say("%s: %s", path, strerror(errno));
     if (people) {
         fprintf(csv, "%s\n", COLUMNS);
-        fprintf(people, "%-44s %-9s %9s %9s %9s  %-12s %-8s %s\n", "file", "outcome", "percent", "moved", "seconds", "contact", "verify", "reason");
+        fprintf(people, "%-44s %-9s %9s %9s %9s  %-12s %-8s %s\n", "file", "outcome", "percent", "moved", "seconds",
+                "contact", "verify", "reason");
     }
     *bad = 0;
     for (int i = 0; people && i < q->count; i++) {
@@ -350,8 +386,8 @@ static int write_tables(const char *folder, const char *name, const tasks *q, in
         }
         fputs(text, csv);
         *bad += atoi(field(text, EXIT, a)) != ENDS_WELL;
-        fprintf(people, "%-44s %-9s %9.1f %9.2g %9.2f  ", t->file, field(text, OUTCOME, a), atof(field(text, PERCENT, b)), atof(field(text, MOVED, c)),
-                atof(field(text, SECONDS, d)));
+        fprintf(people, "%-44s %-9s %9.1f %9.2g %9.2f  ", t->file, field(text, OUTCOME, a),
+                atof(field(text, PERCENT, b)), atof(field(text, MOVED, c)), atof(field(text, SECONDS, d)));
         if (*field(text, CROSSES_FROM, b)) snprintf(a, sizeof a, "from %.0f %%", atof(b));
         else field(text, CONTACT, a);
         field(text, VERIFY, b);
@@ -378,9 +414,12 @@ static int finish(const options *o, const char *folder, const tasks *q)
     if (o->parts > 1 && !o->merge) snprintf(name, sizeof name, "part-%d-of-%d", (int)o->part, (int)o->parts);
     const int missing = write_tables(folder, name, q, &bad);
     if (missing < 0) return ENDS_UNWRITTEN;
-    if (missing && interrupt_came()) say("batch: interrupted: %d of %d are done; the same command goes on", q->count - missing, q->count);
+    if (missing && interrupt_came())
+        say("batch: interrupted: %d of %d are done; the same command goes on", q->count - missing, q->count);
     else if (missing) say("batch: %d of %d files have no row in %s yet", missing, q->count, folder);
-    if (!o->quiet) printf("%d files, %d folded, %d not; %s/%s.csv, %s/%s.txt\n", q->count - missing, q->count - missing - bad, bad, folder, name, folder, name);
+    if (!o->quiet)
+        printf("%d files, %d folded, %d not; %s/%s.csv, %s/%s.txt\n", q->count - missing, q->count - missing - bad, bad,
+               folder, name, folder, name);
     return missing || bad ? ENDS_SHORT : ENDS_WELL;
 }
 
@@ -389,8 +428,9 @@ int cmd_batch(const options *o)
     char folder[ROOM];
     tasks q;
     if (o->outputs != 1 || o->report) {
-        say(o->report ? "batch: every file has a report of its own in DIR: no --report" : o->outputs ? "batch: one -o DIR/ is enough"
-                                                                                                     : "batch: -o DIR/ is missing");
+        say(o->report    ? "batch: every file has a report of its own in DIR: no --report"
+            : o->outputs ? "batch: one -o DIR/ is enough"
+                         : "batch: -o DIR/ is missing");
         return ENDS_USAGE;
     }
     snprintf(folder, sizeof folder, "%s", o->output[0]);

@@ -25,7 +25,8 @@ int cmd_draw(const options *o)
     status = places_write(o, m, &bar);
     if (status == ENDS_WELL && !o->quiet) {
         verdict_files(o, "  written   ", files, sizeof files);
-        printf("%s: %d frames, to %.1f %%\n%s\n", o->operand[0], (int)rg_motion_report(m)->frame_count, rg_motion_report(m)->folded_percent, files);
+        printf("%s: %d frames, to %.1f %%\n%s\n", o->operand[0], (int)rg_motion_report(m)->frame_count,
+               rg_motion_report(m)->folded_percent, files);
     }
     rg_motion_destroy(m);
     return status;

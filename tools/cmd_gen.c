@@ -43,6 +43,7 @@ int cmd_gen(const options *o)
     }
     const rg_status s = rg_example_write(o->operand[0], &e, o->output[0], &why);
     if (s == RG_OK && e.unit > 0 && !says_units(o->output[0]) && !o->quiet)
-        say("%s: warning: the file has no place for the unit; .fold, .svg and .dxf do, or rigami fold --unit says it", o->output[0]);
+        say("%s: warning: the file has no place for the unit; .fold, .svg and .dxf do, or rigami fold --unit says it",
+            o->output[0]);
     return s == RG_OK ? ENDS_WELL : say_status(s, s == RG_EARG ? "gen" : NULL, &why);
 }

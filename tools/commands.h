@@ -15,7 +15,8 @@ int cmd_verify(const options *o);
 int cmd_draw(const options *o);
 int cmd_batch(const options *o);
 
-/* What cmd_fold does; `seen` (may be NULL) is called at the end with the motion, if there is one, and the exit status. */
+/* What cmd_fold does; `seen` (may be NULL) is called at the end with the motion, if there is one, and the exit status.
+ */
 typedef void (*fold_seen)(void *ctx, const rg_motion *m, int status);
 int fold_one(const options *o, fold_seen seen, void *ctx);
 

@@ -16,8 +16,14 @@
 #include <unistd.h>
 
 enum { WATCHER_STACK = 256 * 1024 };
-enum { NOTHING, AT_ONCE, WITH_GRACE, SET_TIME }; /* what wakes the watcher: a signal, with the phase that it came in, or a time */
-/* Seconds, and part of the time allowed, that folding may take to find out that it is over: more is a solve that cannot be asked. */
+enum {
+    NOTHING,
+    AT_ONCE,
+    WITH_GRACE,
+    SET_TIME
+}; /* what wakes the watcher: a signal, with the phase that it came in, or a time */
+/* Seconds, and part of the time allowed, that folding may take to find out that it is over: more is a solve that cannot
+ * be asked. */
 static const double TO_FIND_OUT = 2, PART_TO_FIND_OUT = 0.1;
 
 static atomic_int signals;              /* that came */
@@ -37,7 +43,8 @@ static void say_last(const char *why)
     char line[PATH_MAX + 200];
     struct pollfd err = {.fd = STDERR_FILENO, .events = POLLOUT};
     const char *what = doing;
-    const int n = snprintf(line, sizeof line, "rigami: %s%s%s%s\n", why, what ? ": " : "", what ? what : "", what ? " is not written" : "");
+    const int n = snprintf(line, sizeof line, "rigami: %s%s%s%s\n", why, what ? ": " : "", what ? what : "",
+                           what ? " is not written" : "");
     for (char *c = line; *c && c[1]; c++)
         if ((unsigned char)*c < 32 || *c == 127) *c = '?';
     if (poll(&err, 1, 0) > 0 && write(STDERR_FILENO, line, (size_t)n) < 0) return;

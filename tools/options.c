@@ -13,7 +13,10 @@
 #define DEG (3.14159265358979323846 / 180)
 
 /* How the value of an option is read, and where to. */
-typedef enum kind { SWITCH, WHOLE, REAL, ABOVE, CHOICE, TEXT, OUTPUT, KIND, FORM, PART, JOIN, FRAMES, SIZE, CAMERA, ADJUST, COLOURS, LINES, AIM, LENGTH } kind;
+typedef enum kind {
+    SWITCH, WHOLE, REAL, ABOVE, CHOICE, TEXT, OUTPUT, KIND, FORM, PART,
+    JOIN, FRAMES, SIZE, CAMERA, ADJUST, COLOURS, LINES, AIM, LENGTH
+} kind;
 
 typedef struct rule {
     int commands;            /* FOR_... */
@@ -43,9 +46,11 @@ static const char *const paces[] = {[RG_PACE_PERCENT] = "percent", [RG_PACE_STEA
 static const char *const efforts[] = {[RG_EFFORT_FAST] = "fast", [RG_EFFORT_NORMAL] = "normal",
                                       [RG_EFFORT_THOROUGH] = "thorough", NULL};
 
-static const char *const colourings[] = {[RG_COLOUR_PAPER] = "paper", [RG_COLOUR_STRAIN] = "strain", [RG_COLOUR_ROLL] = "roll",
-                                         [RG_COLOUR_SPEED] = "speed", [RG_COLOUR_LAYER] = "layer", NULL};
-static const char *const loops[] = {[RG_LOOP_BACK] = "back", [RG_LOOP_FORWARD] = "forward", [RG_LOOP_ONCE] = "once", NULL};
+static const char *const colourings[] = {
+    [RG_COLOUR_PAPER] = "paper", [RG_COLOUR_STRAIN] = "strain", [RG_COLOUR_ROLL] = "roll",
+    [RG_COLOUR_SPEED] = "speed", [RG_COLOUR_LAYER] = "layer",   NULL};
+static const char *const loops[] = {
+    [RG_LOOP_BACK] = "back", [RG_LOOP_FORWARD] = "forward", [RG_LOOP_ONCE] = "once", NULL};
 static const char *const contacts[] = {[RG_CONTACT_AVOID] = "avoid", [RG_CONTACT_REPORT] = "report",
                                        [RG_CONTACT_IGNORE] = "ignore", NULL};
 
@@ -59,7 +64,8 @@ static const double metres[] = {0, 1e-3, 0.01, 1, 0.0254, 0.0254 / 72}; /* by pl
 #define NOTHING 0, 0, 1, NULL
 
 static const rule rules[] = {
-    {FOR_FOLD | FOR_DRAW, "output", 'o', "OUT", OUTPUT, 0, NOTHING, "write the motion to OUT, see below; may be given many times"},
+    {FOR_FOLD | FOR_DRAW, "output", 'o', "OUT", OUTPUT, 0, NOTHING,
+     "write the motion to OUT, see below; may be given many times"},
     {FOR_CONVERT | FOR_GEN, "output", 'o', "OUT", OUTPUT, 0, NOTHING, "the file to write, - for standard output"},
     {FOR_CHART, "output", 'o', "DIR", OUTPUT, 0, NOTHING, "the folder to write to"},
     {FOR_FOLD | FOR_CHART, "frames", 0, "N", WHOLE, AT(settings.frames), 2, 1e6, 1, NULL,
@@ -68,15 +74,19 @@ static const rule rules[] = {
      "how far to fold, in percent; negative: mountain and valley exchanged (100)"},
     {FOR_FOLD | FOR_CHART, "targets", 0, NULL, SWITCH, AT(reading.targets), 1, 0, 1, NULL,
      "aim at the file's own fold angles where it has them (on)"},
-    {FOR_FOLD | FOR_CHART, "no-targets", 0, NULL, SWITCH, AT(reading.targets), 0, 0, 1, NULL, "aim at 180 degrees everywhere"},
+    {FOR_FOLD | FOR_CHART, "no-targets", 0, NULL, SWITCH, AT(reading.targets), 0, 0, 1, NULL,
+     "aim at 180 degrees everywhere"},
     {FOR_FOLD, "method", 0, "NAME", CHOICE, AT(method), 0, 0, 1, methods, "how steps are made (auto):"},
-    {FOR_FOLD, "step", 0, "DEG", ABOVE, AT(settings.step), 0, 180, DEG, NULL, "largest step of any crease, degrees (5)"},
-    {FOR_FOLD | FOR_CHART, "tol", 0, "T", REAL, AT(settings.tol), 1e-13, 0.1, 1, NULL, "closure tolerance, radians (1e-10)"},
+    {FOR_FOLD, "step", 0, "DEG", ABOVE, AT(settings.step), 0, 180, DEG, NULL,
+     "largest step of any crease, degrees (5)"},
+    {FOR_FOLD | FOR_CHART, "tol", 0, "T", REAL, AT(settings.tol), 1e-13, 0.1, 1, NULL,
+     "closure tolerance, radians (1e-10)"},
     {FOR_FOLD, "solver", 0, "NAME", CHOICE, AT(solver), 0, 0, 1, solvers, "linear solver (auto):"},
     {FOR_FOLD | FOR_CHART, "triangulate", 0, "WHAT", CHOICE, AT(triangulate), 0, 0, 1, triangulations,
      "added creases; auto: only what the pattern needs (auto):"},
     {FOR_FOLD, "adjust", 0, "GAIN", ADJUST, 0, 0, 1, 1, NULL,
-     "move vertices so that closed ones open: auto (where nothing else folds), off, or how strongly, such as 0.1 (auto)"},
+     "move vertices so that closed ones open: auto (where nothing else folds), off, or how strongly, such as 0.1 "
+     "(auto)"},
     {FOR_FOLD, "symmetry", 0, "WHAT", CHOICE, AT(symmetry), 0, 0, 1, symmetries,
      "fold a symmetric pattern by its symmetry, or by as much of it as folds (auto):"},
     {FOR_FOLD, "pace", 0, "WHAT", CHOICE, AT(pace), 0, 0, 1, paces,
@@ -84,15 +94,19 @@ static const rule rules[] = {
     {FOR_FOLD, "effort", 0, "HOW", CHOICE, AT(effort), 0, 0, 1, efforts,
      "how much is tried when the plain way stops short (normal):"},
     {FOR_FOLD, "contact", 0, "WHAT", CHOICE, AT(contact), 0, 0, 1, contacts,
-     "facets that pass through each other: look for a motion without, take the plain one and say, or do not look (avoid):"},
+     "facets that pass through each other: look for a motion without, take the plain one and say, or do not look "
+     "(avoid):"},
     {FOR_FOLD, "layers", 0, "N", WHOLE, AT(settings.layer_order), 0, INT32_MAX, 1, NULL,
      "which of the flat end's layer orders a motion without contact has, 0 the first (one that folds)"},
     {FOR_FOLD, "drive", 0, "CREASE=DEG", AIM, 0, AIM_DRIVE, 0, 1, NULL,
-     "drive this crease, by its number or x,y of a point on it, to an angle; frames are even in it, the others follow; may be given many times"},
+     "drive this crease, by its number or x,y of a point on it, to an angle; frames are even in it, the others follow; "
+     "may be given many times"},
     {FOR_FOLD, "pin", 0, "CREASE", AIM, 0, AIM_PIN, 0, 1, NULL, "this crease stays flat; may be given many times"},
-    {FOR_FOLD, "free", 0, "CREASE", AIM, 0, AIM_FREE, 0, 1, NULL, "nothing is wished of this crease, it follows the others; may be given many times"},
+    {FOR_FOLD, "free", 0, "CREASE", AIM, 0, AIM_FREE, 0, 1, NULL,
+     "nothing is wished of this crease, it follows the others; may be given many times"},
     {FOR_FOLD, "max-roll", 0, "PCT", REAL, AT(max_roll), 0, 100, 0.01, NULL,
-     "the farthest that creases may move through the sheet on the way, in percent of its size; more ends with 1 (no limit)"},
+     "the farthest that creases may move through the sheet on the way, in percent of its size; more ends with 1 (no "
+     "limit)"},
     {FOR_FOLD, "fixed", 0, "FACET", WHOLE, AT(settings.fixed_facet), 0, INT32_MAX, 1, NULL,
      "the facet that stays where it is (the one nearest the middle)"},
     {READS, "from", 0, "FORMAT", CHOICE, AT(format), 0, 0, 1, formats,
@@ -100,60 +114,77 @@ static const rule rules[] = {
     {FOR_CONVERT, "as", 0, "FORMAT", CHOICE, AT(as), 0, 0, 1, formats,
      "the output's format; auto: by its name; ori is read only (auto):"},
     {FOR_FOLD, "frame", 0, "K[-L]", FRAMES, 0, NOTHING,
-     "FOLD files: the frame to read, 0 is the key frame (the first crease pattern); several, such as 1-4, 1,3 or all, are states of one sheet"},
+     "FOLD files: the frame to read, 0 is the key frame (the first crease pattern); several, such as 1-4, 1,3 or all, "
+     "are states of one sheet"},
     {FOR_INFO | FOR_CONVERT | FOR_CHART, "frame", 0, "K", WHOLE, AT(reading.file_frame), 0, INT32_MAX, 1, NULL,
      "FOLD files: the frame to read, 0 is the key frame (the first crease pattern)"},
     {READS | FOR_DRAW, "flip", 0, NULL, SWITCH, AT(reading.flip), 1, 0, 1, NULL,
      "the file's y runs the other way than is usual for its format"},
     {FOR_BATCH, "merge", 0, "[=TOL]", JOIN, 0, 0, 0.1, 1, NULL,
-     "fold nothing: join what the parts have in DIR to one table; with =TOL, as in rigami fold: ends nearer than this are one vertex"},
+     "fold nothing: join what the parts have in DIR to one table; with =TOL, as in rigami fold: ends nearer than this "
+     "are one vertex"},
     {READS | FOR_DRAW, "merge", 0, "TOL", REAL, AT(reading.merge), 0, 0.1, 1, NULL,
      "ends nearer than this part of the sheet's size are one vertex (2e-5; .svg: 1e-3)"},
-    {READS, "aux", 0, NULL, SWITCH, AT(reading.aux_creases), 1, 0, 1, NULL, "auxiliary lines are creases that may fold"},
+    {READS, "aux", 0, NULL, SWITCH, AT(reading.aux_creases), 1, 0, 1, NULL,
+     "auxiliary lines are creases that may fold"},
     {READS, "line", 0, "KEY=KIND", KIND, 0, NOTHING,
-     "drawings: what lines of a colour, layer, name or dash are: border, cut, mountain, valley, unassigned, aux or none; may be given many times"},
+     "drawings: what lines of a colour, layer, name or dash are: border, cut, mountain, valley, unassigned, aux or "
+     "none; may be given many times"},
     {FOR_FOLD | FOR_INFO | FOR_CHART, "sheet", 0, "N", WHOLE, AT(reading.sheet), 1, INT32_MAX, 1, NULL,
      "of several sheets in a drawing the one to take, in the order of the file"},
     {PICTURES, "size", 0, "WxH", SIZE, 0, 1, 16384, 1, NULL, "pictures: width and height in pixels (960x720)"},
     {PICTURES, "camera", 0, "AZ,EL[,ZOOM[,X,Y]]", CAMERA, 0, NOTHING,
-     "pictures: azimuth and elevation in degrees, zoom (1: the sheet just fits), and a point of the pattern to look at (chosen from the "
+     "pictures: azimuth and elevation in degrees, zoom (1: the sheet just fits), and a point of the pattern to look at "
+     "(chosen from the "
      "motion, 1, the sheet's middle)"},
-    {PICTURES, "background", 0, "COLOUR", COLOURS, AT(picture.background), 1, 1, 1, NULL, "pictures: rrggbb or a name (323844)"},
-    {PICTURES, "paper", 0, "FRONT,BACK", COLOURS, AT(picture.front), 2, 2, 1, NULL, "pictures: the two sides (f6b850,fcf8f0)"},
+    {PICTURES, "background", 0, "COLOUR", COLOURS, AT(picture.background), 1, 1, 1, NULL,
+     "pictures: rrggbb or a name (323844)"},
+    {PICTURES, "paper", 0, "FRONT,BACK", COLOURS, AT(picture.front), 2, 2, 1, NULL,
+     "pictures: the two sides (f6b850,fcf8f0)"},
     {PICTURES, "lines", 0, "WHAT[,WIDTH]", LINES, 0, 0.1, 10, 1, NULL,
      "pictures: creases (mountains red, valleys blue), edges (all alike) or none, and how wide (creases,1)"},
     {PICTURES, "see-through", 0, "PCT", REAL, AT(picture.see_through), 0, 90, 0.01, NULL,
      "pictures: how much light passes a facet, in percent (0)"},
     {PICTURES, "no-shadow", 0, NULL, SWITCH, AT(picture.shadow), 0, 0, 1, NULL, "pictures: no shadow on the floor"},
-    {PICTURES, "caption", 0, NULL, SWITCH, AT(picture.caption), 1, 0, 1, NULL, "pictures: title and percent at their lower edge"},
-    {PICTURES, "image", 0, "FILE", TEXT, AT(picture.image), NOTHING, "pictures, .html, .glb, .gltf: a PNG printed on the paper's front"},
-    {PICTURES, "colour", 0, "BY", CHOICE, AT(colour), 0, 0, 1, colourings, "pictures: what the colours of facets tell (paper):"},
+    {PICTURES, "caption", 0, NULL, SWITCH, AT(picture.caption), 1, 0, 1, NULL,
+     "pictures: title and percent at their lower edge"},
+    {PICTURES, "image", 0, "FILE", TEXT, AT(picture.image), NOTHING,
+     "pictures, .html, .glb, .gltf: a PNG printed on the paper's front"},
+    {PICTURES, "colour", 0, "BY", CHOICE, AT(colour), 0, 0, 1, colourings,
+     "pictures: what the colours of facets tell (paper):"},
     {PICTURES, "resume", 0, NULL, SWITCH, AT(picture.resume), 1, 0, 1, NULL,
      "DIR/, NAME-%04d.png: go on where the same command was interrupted; frames that are there are not drawn again"},
     {PICTURES, "thickness", 0, "T", REAL, AT(picture.thickness), 0, 1e9, 1, NULL,
      ".stl: plates so thick, in units of the file, joined at the creases: one closed solid to print (0: a surface)"},
     {READS | FOR_DRAW, "unit", 0, "UNIT", CHOICE, AT(unit), 0, 0, 1, units,
-     "what a unit of the file is, where it does not say so; models, drawings and cutters' files come out in that size (file):"},
+     "what a unit of the file is, where it does not say so; models, drawings and cutters' files come out in that size "
+     "(file):"},
     {PICTURES, "fps", 0, "N", REAL, AT(picture.fps), 0.01, 1000, 1, NULL, "animations: frames a second (30)"},
     {PICTURES, "loop", 0, "HOW", CHOICE, AT(loop), 0, 0, 1, loops,
      "animations: there and back, forward over and over, or once (back):"},
     {PICTURES, "hold", 0, "SEC", REAL, AT(picture.hold), 0, 60, 1, NULL, "animations: seconds to stay at the end (1)"},
     {FOR_FOLD, "report", 0, "FILE", TEXT, AT(report), NOTHING, "write a report as JSON, - for standard output"},
-    {FOR_BATCH, "write", 0, "FORM", FORM, 0, NOTHING, "for each file also DIR/NAME.FORM: gif, fold, html, ...; may be given many times"},
-    {FOR_BATCH, "jobs", 0, "N", WHOLE, AT(jobs), 1, 4096, 1, NULL, "files at a time, each on a processor of its own (as many as there are)"},
-    {FOR_BATCH, "limit", 0, "SEC", REAL, AT(limit), 1, 1e6, 1, NULL, "seconds for one file, then it is told as a timeout (none)"},
+    {FOR_BATCH, "write", 0, "FORM", FORM, 0, NOTHING,
+     "for each file also DIR/NAME.FORM: gif, fold, html, ...; may be given many times"},
+    {FOR_BATCH, "jobs", 0, "N", WHOLE, AT(jobs), 1, 4096, 1, NULL,
+     "files at a time, each on a processor of its own (as many as there are)"},
+    {FOR_BATCH, "limit", 0, "SEC", REAL, AT(limit), 1, 1e6, 1, NULL,
+     "seconds for one file, then it is told as a timeout (none)"},
     {FOR_BATCH, "part", 0, "K/N", PART, 0, NOTHING, "only every N-th file, from the K-th on: for several machines"},
     {FOR_BATCH, "verify", 0, NULL, SWITCH, AT(verify), 1, 0, 1, NULL,
      "judge each motion as rigami verify does, from DIR/NAME.fold, which is written"},
     {FOR_BATCH, "fresh", 0, NULL, SWITCH, AT(fresh), 1, 0, 1, NULL, "do not go on from what DIR has"},
     {FOR_INFO | FOR_VERIFY, "json", 0, NULL, SWITCH, AT(json), 1, 0, 1, NULL, "print one JSON object instead of text"},
     {FOR_GEN, "angle", 0, "DEG", ABOVE, AT(example.angle), 0, 180, DEG, NULL, "the kind's angle, degrees (its own)"},
-    {FOR_GEN, "size", 0, "LENGTH", LENGTH, AT(example.side), 0, 1e9, 1, NULL, "the sheet's longer side, such as 150mm or 8.5in; without a unit the file says none (400)"},
-    {FOR_GEN, "cell", 0, "LENGTH", LENGTH, AT(example.cell), 0, 1e9, 1, NULL, "instead: the side of one part, see below"},
+    {FOR_GEN, "size", 0, "LENGTH", LENGTH, AT(example.side), 0, 1e9, 1, NULL,
+     "the sheet's longer side, such as 150mm or 8.5in; without a unit the file says none (400)"},
+    {FOR_GEN, "cell", 0, "LENGTH", LENGTH, AT(example.cell), 0, 1e9, 1, NULL,
+     "instead: the side of one part, see below"},
     {EVERY, "max-seconds", 0, "SEC", REAL, AT(seconds), 0.001, 1e9, 1, NULL,
      "end after so long, as if interrupted: what there is then is written (any)"},
     {EVERY, "max-memory", 0, "MB", REAL, AT(megabytes), 1, 1e9, 1, NULL, "do with so much address space (any)"},
-    {FOR_FOLD | FOR_INFO, "verbose", 'v', NULL, SWITCH, AT(verbose), 1, 0, 1, NULL, "everything that is known, with lists"},
+    {FOR_FOLD | FOR_INFO, "verbose", 'v', NULL, SWITCH, AT(verbose), 1, 0, 1, NULL,
+     "everything that is known, with lists"},
     {EVERY, "quiet", 'q', NULL, SWITCH, AT(quiet), 1, 0, 1, NULL, "no warnings, no summary, no progress"},
     {FOR_FOLD | FOR_CHART | FOR_DRAW, "progress", 0, NULL, SWITCH, AT(progress), 1, 0, 1, NULL,
      "show progress on standard error (on a terminal)"},
@@ -176,7 +207,8 @@ static int number(const char *text, double *value, const char **end)
     *end = text;
     if (n == 0 || n > LONGEST_NUMBER || strlen(sign) > 16) return 0;
     const int before = (int)(point ? point - text : (ptrdiff_t)n);
-    snprintf(copy, sizeof copy, "%.*s%s%.*s", before, text, point ? sign : "", point ? (int)n - before - 1 : 0, point ? point + 1 : "");
+    snprintf(copy, sizeof copy, "%.*s%s%.*s", before, text, point ? sign : "", point ? (int)n - before - 1 : 0,
+             point ? point + 1 : "");
     *value = strtod(copy, &stop);
     *end = text + n;
     return *stop == 0 && isfinite(*value);
@@ -260,7 +292,8 @@ static int set_camera(const rule *r, const char *text, rg_picture *p)
         if (*end != ',') break;
         c = end + 1;
     }
-    return refuse(r, text, "AZ,EL or AZ,EL,ZOOM or AZ,EL,ZOOM,X,Y: -360 to 360 and -90 to 90 degrees, zoom 0.01 to 100");
+    return refuse(r, text,
+                  "AZ,EL or AZ,EL,ZOOM or AZ,EL,ZOOM,X,Y: -360 to 360 and -90 to 90 degrees, zoom 0.01 to 100");
 }
 
 /* A name or six hexadecimal digits, with or without a #. */
@@ -289,7 +322,8 @@ static int set_colours(const rule *r, const char *text, unsigned char *to)
     for (int i = 0; i < (int)r->low; i++) {
         const size_t n = strcspn(c, ",");
         if (!colour(c, n, to + 3 * i) || (c[n] != 0) != (i + 1 < (int)r->low))
-            return refuse(r, text, r->low > 1 ? "two colours such as d04038,white" : "a colour such as 323844 or white");
+            return refuse(r, text,
+                          r->low > 1 ? "two colours such as d04038,white" : "a colour such as 323844 or white");
         c += n + (c[n] != 0);
     }
     return ENDS_WELL;
@@ -297,7 +331,8 @@ static int set_colours(const rule *r, const char *text, unsigned char *to)
 
 static int set_lines(const rule *r, const char *text, rg_picture *p)
 {
-    static const char *const what[] = {[RG_LINES_NONE] = "none", [RG_LINES_CREASES] = "creases", [RG_LINES_EDGES] = "edges"};
+    static const char *const what[] = {
+        [RG_LINES_NONE] = "none", [RG_LINES_CREASES] = "creases", [RG_LINES_EDGES] = "edges"};
     const size_t n = strcspn(text, ",");
     double wide = p->line_width;
     for (int i = 0; i < 3; i++) {
@@ -315,7 +350,8 @@ static int set_length(const rule *r, const char *text, options *o, double *to)
 {
     const char *end;
     double *unit = r->at == AT(example.side) ? &o->side_unit : &o->cell_unit;
-    if (!number(text, to, &end) || !(*to > r->low && *to <= r->high)) return refuse(r, text, "a length such as 150, 150mm or 8.5in");
+    if (!number(text, to, &end) || !(*to > r->low && *to <= r->high))
+        return refuse(r, text, "a length such as 150, 150mm or 8.5in");
     *unit = 0;
     for (int i = 1; *end && units[i]; i++)
         if (strcmp(units[i], end) == 0) *unit = metres[i];
@@ -325,7 +361,8 @@ static int set_length(const rule *r, const char *text, options *o, double *to)
 static int set_adjust(const rule *r, const char *text, rg_settings *s)
 {
     double v = strcmp(text, "auto") == 0 ? RG_ADJUST_AUTO : 0;
-    if (strcmp(text, "auto") != 0 && strcmp(text, "off") != 0 && (!whole_text(text, &v) || !(v >= r->low && v <= r->high)))
+    if (strcmp(text, "auto") != 0 && strcmp(text, "off") != 0 &&
+        (!whole_text(text, &v) || !(v >= r->low && v <= r->high)))
         return refuse(r, text, "auto, off, or a number from 0 to 1");
     s->adjust = v;
     return ENDS_WELL;
@@ -335,7 +372,9 @@ static int set_adjust(const rule *r, const char *text, rg_settings *s)
 static int set_join(const rule *r, const char *text, options *o)
 {
     o->merge = text == NULL;
-    return text ? set_number(&(rule){.name = r->name, .kind = REAL, .low = r->low, .high = r->high, .unit = 1}, text, &o->reading.merge) : ENDS_WELL;
+    return text ? set_number(&(rule){.name = r->name, .kind = REAL, .low = r->low, .high = r->high, .unit = 1}, text,
+                             &o->reading.merge)
+                : ENDS_WELL;
 }
 
 static int set_part(const rule *r, const char *text, options *o)
@@ -390,7 +429,9 @@ static int set(options *o, const rule *r, const char *text)
     case TEXT: *(const char **)to = text; return ENDS_WELL;
     case OUTPUT: o->output[o->outputs++] = text; return ENDS_WELL;
     case KIND: o->kind[o->reading.kinds++] = text; return ENDS_WELL;
-    case AIM: o->aim[o->aims++] = (aim){r->low == AIM_DRIVE ? AIM_DRIVE : r->low == AIM_PIN ? AIM_PIN : AIM_FREE, text}; return ENDS_WELL;
+    case AIM:
+        o->aim[o->aims++] = (aim){r->low == AIM_DRIVE ? AIM_DRIVE : r->low == AIM_PIN ? AIM_PIN : AIM_FREE, text};
+        return ENDS_WELL;
     case FORM: o->form[o->forms++] = text; return ENDS_WELL;
     case JOIN: return set_join(r, text, o);
     case PART: return set_part(r, text, o);
@@ -424,7 +465,9 @@ static void tell_getopt(int bit, struct option *longs, char *shorts)
     shorts += sprintf(shorts, "-:"); /* operands in their order, whatever POSIXLY_CORRECT says; errors left to us */
     for (int i = 0; i < RULES; i++) {
         if (!is_of(bit, i)) continue;
-        const int has_value = rules[i].kind == JOIN ? optional_argument : rules[i].value ? required_argument : no_argument;
+        const int has_value = rules[i].kind == JOIN ? optional_argument
+                              : rules[i].value      ? required_argument
+                                                    : no_argument;
         longs[n++] = (struct option){rules[i].name, has_value, NULL, FIRST + i};
         if (rules[i].letter) shorts += sprintf(shorts, "%c%s", rules[i].letter, rules[i].value ? ":" : "");
     }
@@ -471,7 +514,8 @@ static int refuse_option(const command *c, int code, const char *word)
     else if (r) say("--%s takes no value", r->name);
     else if (optopt && strncmp(word, "--", 2) != 0) say("unknown option -%c; try rigami %s --help", optopt, c->name);
     else if (beginning(c->bit, word) > 1) say("option %s could be several; try rigami %s --help", word, c->name);
-    else if (nearest(c->bit, word)) say("unknown option %s: did you mean --%s? rigami %s --help lists all", word, nearest(c->bit, word), c->name);
+    else if (nearest(c->bit, word))
+        say("unknown option %s: did you mean --%s? rigami %s --help lists all", word, nearest(c->bit, word), c->name);
     else say("unknown option %s; try rigami %s --help", word, c->name);
     return ENDS_USAGE;
 }
@@ -492,7 +536,8 @@ static void note(options *o, const rule *r, const char *text)
 {
     const size_t n = strlen(o->said);
     const int matters = (r->commands & FOR_FOLD) || r->kind == FORM || (r->kind == JOIN && text) || r->at == AT(verify);
-    if (matters && r->kind != OUTPUT && strcmp(r->name, "quiet") != 0 && strcmp(r->name, "progress") != 0 && strcmp(r->name, "no-progress") != 0)
+    if (matters && r->kind != OUTPUT && strcmp(r->name, "quiet") != 0 && strcmp(r->name, "progress") != 0 &&
+        strcmp(r->name, "no-progress") != 0)
         snprintf(o->said + n, sizeof o->said - n, "--%s %s ", r->name, text ? text : "");
 }
 
@@ -533,7 +578,13 @@ int options_parse(options *o, const command *c, int argc, char **argv)
 {
     struct option longs[RULES + 1];
     char shorts[3 * RULES + 3];
-    *o = (options){.settings = rg_settings_default(), .reading = rg_reading_default(), .picture = rg_picture_default(), .example = rg_example_default(), .progress = -1, .pace = -1, .max_roll = INFINITY,
+    *o = (options){.settings = rg_settings_default(),
+                   .reading = rg_reading_default(),
+                   .picture = rg_picture_default(),
+                   .example = rg_example_default(),
+                   .progress = -1,
+                   .pace = -1,
+                   .max_roll = INFINITY,
                    .effort = RG_EFFORT_NORMAL};
     o->operand = calloc((size_t)argc + 1, sizeof *o->operand);
     o->output = calloc((size_t)argc + 1, sizeof *o->output);

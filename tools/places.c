@@ -32,7 +32,8 @@ static int same_place(const char *a, const char *b)
     if (n != m || memcmp(name, its, n) != 0 || strcmp(a, "-") == 0 || strcmp(b, "-") == 0) return 0;
     snprintf(folder[0], sizeof folder[0], "%.*s%s", (int)(name - a), a, name == a ? "." : "");
     snprintf(folder[1], sizeof folder[1], "%.*s%s", (int)(its - b), b, its == b ? "." : "");
-    return stat(folder[0], &is) == 0 && stat(folder[1], &other) == 0 && is.st_dev == other.st_dev && is.st_ino == other.st_ino;
+    return stat(folder[0], &is) == 0 && stat(folder[1], &other) == 0 && is.st_dev == other.st_dev &&
+           is.st_ino == other.st_ino;
 }
 
 static int same_file(const char *a, const char *b)

@@ -32,7 +32,8 @@ static const char fold_notes[] =
     "the first, folded, through all of them.\n\n" STATUSES;
 
 static const command commands[] = {
-    {"fold", FOR_FOLD, "IN [IN]... [-o OUT]...", 1, 1000, "Folds a crease pattern and writes the motion.", fold_notes, cmd_fold},
+    {"fold", FOR_FOLD, "IN [IN]... [-o OUT]...", 1, 1000, "Folds a crease pattern and writes the motion.", fold_notes,
+     cmd_fold},
     {"info", FOR_INFO, "IN", 1, 1, "Says what a crease pattern is, and whether and why it may not fold.",
      "IN is a crease pattern, - standard input. Exit status: 0 when it was read, whatever is\n"
      "said of it; 2 when not.\n",
@@ -43,7 +44,8 @@ static const command commands[] = {
      "for joining ends. Exit status: 0 when it was written; 2 when IN cannot be read; 3 when OUT\n"
      "cannot be written.\n",
      cmd_convert},
-    {"gen", FOR_GEN, "KIND [N [M]] -o OUT", 1, 3, "Writes an example crease pattern of N by M parts, as .opx, .cp, .fold, .svg or .dxf.",
+    {"gen", FOR_GEN, "KIND [N [M]] -o OUT", 1, 3,
+     "Writes an example crease pattern of N by M parts, as .opx, .cp, .fold, .svg or .dxf.",
      "What N, M, --angle and --cell are, with their usual values:\n"
      "  miura      N columns, M rows of rhombs (8); their acute angle, 10 to 85 degrees (60); a side of one\n"
      "  waterbomb  N by M units (6); between a diagonal and the rows, 30 to 80 degrees (45); a unit's width\n"
@@ -55,14 +57,18 @@ static const command commands[] = {
      "  random     N by N rhombs (8), M the seed\n"
      "Without --size and --cell the sheet's longer side is 400. A unit is said in .fold, .svg and .dxf.\n",
      cmd_gen},
-    {"draw", FOR_DRAW, "MOTION.fold -o OUT [-o OUT]...", 1, 1, "Draws a motion that was written before, without folding.",
+    {"draw", FOR_DRAW, "MOTION.fold -o OUT [-o OUT]...", 1, 1,
+     "Draws a motion that was written before, without folding.",
      "MOTION is a FOLD file with a flat crease pattern and frames that have vertices_coords: what rigami fold\n"
      "writes as .fold, or another program; - is standard input. OUT is as for rigami fold. Exit status: 0 when\n"
      "all was written; 2 when MOTION cannot be read; 3 when an output cannot be written.\n",
      cmd_draw},
-    {"batch", FOR_FOLD | FOR_BATCH, "IN [IN]... -o DIR/", 1, 1000000, "Folds many crease patterns, each by itself, to one table.",
-     "Each IN has DIR/NAME.json, its report, and DIR/NAME.log, what was said of it; all together have DIR/table.csv and\n"
-     "DIR/table.txt. A drawing of several sheets is folded sheet by sheet. What DIR has already, of the same files, options\n"
+    {"batch", FOR_FOLD | FOR_BATCH, "IN [IN]... -o DIR/", 1, 1000000,
+     "Folds many crease patterns, each by itself, to one table.",
+     "Each IN has DIR/NAME.json, its report, and DIR/NAME.log, what was said of it; all together have DIR/table.csv "
+     "and\n"
+     "DIR/table.txt. A drawing of several sheets is folded sheet by sheet. What DIR has already, of the same files, "
+     "options\n"
      "and program, is kept: an interrupted batch goes on when it is called again. On several machines that share DIR:\n"
      "--part 1/8 on the first, ... --part 8/8 on the last, then once --merge with all files. Exit status: 0 when all\n"
      "fold; 1 when some do not, or are not done yet; 2 for wrong usage; 3 for output that cannot be written.\n",
@@ -73,7 +79,8 @@ static const command commands[] = {
      "Exit status: 0 when it was made, whatever it says; 2 when IN cannot be read or holds nothing to\n"
      "solve; 3 when an output cannot be written.\n",
      cmd_chart},
-    {"verify", FOR_VERIFY, "MOTION.fold [IN]", 1, 2, "Says whether a motion that was written is one that paper can make.",
+    {"verify", FOR_VERIFY, "MOTION.fold [IN]", 1, 2,
+     "Says whether a motion that was written is one that paper can make.",
      "MOTION.fold is judged by itself, by code that shares nothing with what folds: one and the same\n"
      "sheet, rigid facets, closed vertices, angles as the places have them, mountains and valleys, a\n"
      "steady path, no facets through each other in frames or on rigid ways between them, possible\n"
@@ -167,8 +174,11 @@ static int refuse_command(const char *word)
         best = &commands[i];
     }
     if (best) say("\"%s\" is no command: did you mean rigami %s?", word, best->name);
-    else if (guess_is_near(word, "help", guess_distance(word, "help"))) say("\"%s\" is no command: did you mean rigami help?", word);
-    else if (access(word, R_OK) == 0) say("\"%s\" is a file and no command: did you mean rigami fold %s? rigami --help lists what else there is", word, word);
+    else if (guess_is_near(word, "help", guess_distance(word, "help")))
+        say("\"%s\" is no command: did you mean rigami help?", word);
+    else if (access(word, R_OK) == 0)
+        say("\"%s\" is a file and no command: did you mean rigami fold %s? rigami --help lists what else there is",
+            word, word);
     else say("\"%s\" is no command; try rigami --help", word);
     return ENDS_USAGE;
 }
@@ -180,7 +190,8 @@ static int help_command(int argc, char **argv)
     argc -= words, argv += words;
     const command *c = argc > 0 ? find(argv[0]) : NULL;
     if (argc > 0 && !c && strcmp(argv[0], "help") != 0) return refuse_command(argv[0]);
-    if (words && c) return options_words(c->bit, argc > 1 ? argv[1] + strspn(argv[1], "-") : NULL, stdout) ? ENDS_WELL : ENDS_USAGE;
+    if (words && c)
+        return options_words(c->bit, argc > 1 ? argv[1] + strspn(argv[1], "-") : NULL, stdout) ? ENDS_WELL : ENDS_USAGE;
     if (words)
         for (int i = 0; i < COMMANDS; i++) puts(commands[i].name);
     if (words) puts("help");

@@ -15,7 +15,8 @@ typedef struct task {
 
 typedef struct tasks { task *task; int count; } tasks;
 
-/* Those of o->part; all of them with o->merge. Returns an exit status; what went wrong has been said. Owner: the caller, tasks_free. */
+/* Those of o->part; all of them with o->merge. Returns an exit status; what went wrong has been said. Owner: the
+ * caller, tasks_free. */
 int tasks_find(const options *o, tasks *q);
 void tasks_free(tasks *q);
 

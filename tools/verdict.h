@@ -1,4 +1,5 @@
-/* verdict.h -- what came of a fold, as a folder would say it: what, where in the coordinates of the file, why, what to do next.
+/* verdict.h -- what came of a fold, as a folder would say it: what, where in the coordinates of the file, why, what to
+ * do next.
  * Uses  say.h        Used by  cmd_fold.c */
 #ifndef VERDICT_H
 #define VERDICT_H

@@ -25,7 +25,8 @@ static const double SAME_AREA = 1e-9;
 /* Lines are there: half of the work. */
 static const double LINES_READ = 0.5;
 
-/* --------------------------------------------------------------------------------------- what a format can't hold ---- */
+/* --------------------------------------------------------------------------------------- what a format can't hold ----
+ */
 
 static rg_status lose(rg_lines *l, int32_t where, int32_t count, const char *format, const char *what)
 {
@@ -49,7 +50,8 @@ static rg_status warn_of_losses(rg_lines *l, rg_format to, const char *name)
     if (s == RG_OK && to != RG_FORMAT_FOLD) s = lose(l, first[2], targets, name, "such fold angles");
     const int texts = (l->title != NULL) + (l->author != NULL) + (l->memo != NULL);
     const int more = (l->editor != NULL) + (l->reference != NULL);
-    if (s == RG_OK && (to == RG_FORMAT_CP || to == RG_FORMAT_DXF)) s = lose(l, 0, texts + more, name, "title, author and other texts");
+    if (s == RG_OK && (to == RG_FORMAT_CP || to == RG_FORMAT_DXF))
+        s = lose(l, 0, texts + more, name, "title, author and other texts");
     if (s == RG_OK && to == RG_FORMAT_SVG) s = lose(l, 0, more, name, "editor and reference");
     return s;
 }
@@ -69,7 +71,8 @@ typedef struct plane {
 
 static void free_plane(plane *p, const rg_memory *mem)
 {
-    void *block[] = {p->X, p->E, p->face_start, p->face_vertex, p->face_edge, p->letter, p->angle, p->vertex_source, p->edge_source};
+    void *block[] = {p->X,      p->E,     p->face_start,    p->face_vertex, p->face_edge,
+                     p->letter, p->angle, p->vertex_source, p->edge_source};
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(mem, block[i]);
     rg_graph_free(&p->g);
     rg_star_free(&p->star);
@@ -112,7 +115,8 @@ static rg_status find_faces(plane *p, const rg_memory *mem)
     return RG_OK;
 }
 
-/* -------------------------------------------------------------------------------------------- letters and angles ---- */
+/* -------------------------------------------------------------------------------------------- letters and angles ----
+ */
 
 static rg_status letter_edges(plane *p, const rg_memory *mem)
 {
@@ -124,13 +128,15 @@ static rg_status letter_edges(plane *p, const rg_memory *mem)
         const char a = edge->assignment;
         const int inside = p->faces.area[p->faces.face[2 * e]] > 0 && p->faces.area[p->faces.face[2 * e + 1]] > 0;
         p->letter[e] = a == RG_CUT ? RG_FLAT : a == RG_BORDER && inside ? 'C' : a;
-        if (isfinite(edge->target) && a != RG_BORDER && a != RG_FLAT && a != RG_CUT) p->angle[e] = rg_number_degrees(edge->target);
+        if (isfinite(edge->target) && a != RG_BORDER && a != RG_FLAT && a != RG_CUT)
+            p->angle[e] = rg_number_degrees(edge->target);
         else if (a == RG_MOUNTAIN || a == RG_VALLEY) p->angle[e] = NAN; /* free */
     }
     return RG_OK;
 }
 
-/* ----------------------------------------------------------------------------------------- numbers of the old frame ---- */
+/* ----------------------------------------------------------------------------------------- numbers of the old frame
+ * ---- */
 
 /* The number that each vertex had; 0: they were others. */
 static int old_numbers(const plane *p, const rg_lines *l, int32_t *old)
@@ -263,7 +269,8 @@ typedef struct part { const rg_reading *of; double from, to; } part;
 static int ask(void *ctx, double progress)
 {
     const part *p = ctx;
-    return p->of->progress(p->of->progress_ctx, p->from + (p->to - p->from) * (progress - LINES_READ) / (1 - LINES_READ));
+    return p->of->progress(p->of->progress_ctx,
+                           p->from + (p->to - p->from) * (progress - LINES_READ) / (1 - LINES_READ));
 }
 
 /* The graph to write. Where nobody asked for a tolerance, lines stay where they are, unless the drawing's own format is
@@ -289,9 +296,12 @@ static rg_status draw(rg_lines *l, const rg_reading *s, rg_graph *g, int *gaps, 
             *g = joined;
             joined = t;
         }
-        status = *gaps ? rg_lines_warn(l, 0, "ends miss each other by up to %.3g and stay apart, so that no faces are"
-                                             " written: --merge %g joins them", far, usual)
-                       : rg_lines_warn(l, 0, "ends that miss each other by up to %.3g are joined (%g of the size)", far, usual);
+        status = *gaps ? rg_lines_warn(l, 0,
+                                       "ends miss each other by up to %.3g and stay apart, so that no faces are"
+                                       " written: --merge %g joins them",
+                                       far, usual)
+                       : rg_lines_warn(l, 0, "ends that miss each other by up to %.3g are joined (%g of the size)", far,
+                                       usual);
     }
     rg_graph_free(&joined);
     return status;
@@ -317,7 +327,8 @@ static rg_status write_fold(rg_lines *l, const rg_reading *settings, const rg_de
     if (s == RG_OK && p.g.ne < lines)
         s = rg_lines_warn(l, 0, "%d lines that lie on others, or have no length, are left out", (int)(lines - p.g.ne));
     rg_fold_sheet *f = &p.sheet;
-    *f = (rg_fold_sheet){p.g.nv, p.g.ne, gaps ? 0 : f->nf, p.X, p.E, p.letter, p.angle, p.face_start, p.face_vertex, p.face_edge,
+    *f = (rg_fold_sheet){p.g.nv,          p.g.ne,        gaps ? 0 : f->nf, p.X,           p.E,
+                         p.letter,        p.angle,       p.face_start,     p.face_vertex, p.face_edge,
                          p.vertex_source, p.edge_source, f->same_vertices, f->same_edges, f->same_faces && !gaps};
     if (s == RG_OK) s = rg_fold_write(l, f, to, &lost, why);
     if (s == RG_OK && lost) s = rg_lines_warn(l, 0, "%d keys of the file no longer hold and are left out", (int)lost);
@@ -349,15 +360,20 @@ static int is_written(rg_format f)
 rg_status rg_convert_check(rg_format f, const char *out, rg_diag *why)
 {
     if (is_written(f)) return RG_OK;
-    return rg_fail(RG_EARG, why, 0, strcmp(out, "-") == 0 ? "%s: standard output has no name to tell the format by"
-                                                          : "%s: crease patterns are written as .opx, .cp, .fold, .svg or .dxf", out);
+    return rg_fail(RG_EARG, why, 0,
+                   strcmp(out, "-") == 0 ? "%s: standard output has no name to tell the format by"
+                                         : "%s: crease patterns are written as .opx, .cp, .fold, .svg or .dxf",
+                   out);
 }
 
-rg_status rg_convert_lines(rg_lines *l, rg_format format, const rg_reading *r, const rg_dest *to, rg_warning warn, void *ctx, rg_diag *why)
+rg_status rg_convert_lines(rg_lines *l, rg_format format, const rg_reading *r, const rg_dest *to, rg_warning warn,
+                           void *ctx, rg_diag *why)
 {
-    rg_status s = r->progress && r->progress(r->progress_ctx, LINES_READ) ? rg_fail(RG_ECANCELLED, why, 0, "%s", rg_status_text(RG_ECANCELLED))
-                  : l->count == 0 ? rg_fail(RG_EFORMAT, why, 0, "there are no lines") /* most formats have no such file */
-                                  : write(l, format, r, to, why);
+    rg_status s = r->progress && r->progress(r->progress_ctx, LINES_READ)
+                      ? rg_fail(RG_ECANCELLED, why, 0, "%s", rg_status_text(RG_ECANCELLED))
+                  : l->count == 0
+                      ? rg_fail(RG_EFORMAT, why, 0, "there are no lines") /* most formats have no such file */
+                      : write(l, format, r, to, why);
     if (s == RG_ENOMEM) rg_fail(s, why, 0, "out of memory");
     for (int32_t i = 0; warn && s != RG_ECANCELLED && i < l->warnings; i++) warn(ctx, &l->warning[i]);
     rg_lines_free(l);
@@ -377,13 +393,14 @@ rg_status rg_convert(const char *in, const char *out, rg_format to, const rg_rea
     return s == RG_OK ? rg_convert_lines(&l, to, &r, &(rg_dest){out, NULL}, warn, ctx, why) : s;
 }
 
-rg_status rg_convert_to(const void *bytes, size_t size, rg_format to, const rg_sink *sink, const rg_reading *given, rg_warning warn, void *ctx,
-                        rg_diag *why)
+rg_status rg_convert_to(const void *bytes, size_t size, rg_format to, const rg_sink *sink, const rg_reading *given,
+                        rg_warning warn, void *ctx, rg_diag *why)
 {
     rg_reading r;
     rg_lines l;
     rg_status s = rg_reading_take(given, &r, why);
-    if (s == RG_OK && !is_written(to)) s = rg_fail(RG_EARG, why, 0, "crease patterns are written as .opx, .cp, .fold, .svg or .dxf");
+    if (s == RG_OK && !is_written(to))
+        s = rg_fail(RG_EARG, why, 0, "crease patterns are written as .opx, .cp, .fold, .svg or .dxf");
     if (s == RG_OK) s = rg_read_bytes(bytes, size, NULL, &r, to == RG_FORMAT_FOLD, &l, why);
     return s == RG_OK ? rg_convert_lines(&l, to, &r, &(rg_dest){NULL, sink}, warn, ctx, why) : s;
 }

@@ -20,9 +20,11 @@ static rg_status take(const rg_example *given, rg_example *out, rg_diag *why)
     rg_example mine = usual_example();
     const rg_status s = given ? rg_take(&mine, sizeof mine, given, given->size, sizeof mine, why) : RG_OK;
     if (s != RG_OK) return s;
-    if (!(mine.side >= 0 && mine.side <= 1e9) || !(mine.cell >= 0 && mine.cell <= 1e9) || !(mine.unit >= 0 && mine.unit <= 1e9))
+    if (!(mine.side >= 0 && mine.side <= 1e9) || !(mine.cell >= 0 && mine.cell <= 1e9) ||
+        !(mine.unit >= 0 && mine.unit <= 1e9))
         return rg_fail(RG_EARG, why, 0, "a length is above 0 and at most 1e9");
-    if (mine.side > 0 && mine.cell > 0) return rg_fail(RG_EARG, why, 0, "either the sheet's side or that of a part can be asked for");
+    if (mine.side > 0 && mine.cell > 0)
+        return rg_fail(RG_EARG, why, 0, "either the sheet's side or that of a part can be asked for");
     *out = mine;
     return RG_OK;
 }

@@ -1,6 +1,6 @@
-/* A motion that is given by positions: written before, by this program or another one. Fold angles are those between facets as they
- * lie; where they and the flat pattern say all that the positions say, these are forgotten and the motion is one of plates as any
- * other. Else (sheets that stretch or bend) the positions are kept. */
+/* A motion that is given by positions: written before, by this program or another one. Fold angles are those between
+ * facets as they lie; where they and the flat pattern say all that the positions say, these are forgotten and the
+ * motion is one of plates as any other. Else (sheets that stretch or bend) the positions are kept. */
 #include "base/clock.h"
 #include "base/settings.h"
 #include "base/status.h"
@@ -45,9 +45,12 @@ static rg_status find_frames(given *g)
     g->frame = rg_mem_array(&g->m->mem, n + 1, sizeof *g->frame);
     if (!g->frame) return RG_ENOMEM;
     for (size_t i = 0; i < n; i++)
-        if (rg_value_count(rg_value_get(rg_value_at(frames, i), "vertices_coords")) > 0) g->frame[g->count++] = (int32_t)i;
+        if (rg_value_count(rg_value_get(rg_value_at(frames, i), "vertices_coords")) > 0)
+            g->frame[g->count++] = (int32_t)i;
     if (g->count == 0)
-        return rg_fail(RG_EFORMAT, g->why, 0, "file_frames: no frame has vertices_coords: this is no motion, but rigami fold makes one of a crease pattern");
+        return rg_fail(RG_EFORMAT, g->why, 0,
+                       "file_frames: no frame has vertices_coords: this is no motion, but rigami fold makes one of a "
+                       "crease pattern");
     if (g->count == 1) { /* from flat to there */
         g->frame[1] = g->frame[0];
         g->frame[0] = -1;
@@ -63,7 +66,8 @@ static rg_status positions(const given *g, int32_t k, rg_vec3 *x)
     if (!frame)
         for (int32_t v = 0; v < m->mesh.nv; v++) x[v] = (rg_vec3){m->mesh.X[v].x, m->mesh.X[v].y, 0};
     if (frame && rg_value_count(list) != (size_t)g->nv)
-        return rg_fail(RG_EFORMAT, g->why, 0, "file_frames[%d].vertices_coords: %zu of them, and %d in the crease pattern", (int)g->frame[k],
+        return rg_fail(RG_EFORMAT, g->why, 0,
+                       "file_frames[%d].vertices_coords: %zu of them, and %d in the crease pattern", (int)g->frame[k],
                        rg_value_count(list), (int)g->nv);
     for (int32_t v = 0; frame && v < m->mesh.nv; v++) {
         const rg_value *row = rg_value_at(list, (size_t)m->source.vertex[v]);
@@ -72,7 +76,8 @@ static rg_status positions(const given *g, int32_t k, rg_vec3 *x)
         int good = n == 2 || n == 3;
         for (size_t i = 0; good && i < n; i++) good = rg_value_number(rg_value_at(row, i), &q[i]);
         if (!good)
-            return rg_fail(RG_EFORMAT, g->why, 0, "file_frames[%d].vertices_coords[%d]: not two or three numbers", (int)g->frame[k], (int)m->source.vertex[v]);
+            return rg_fail(RG_EFORMAT, g->why, 0, "file_frames[%d].vertices_coords[%d]: not two or three numbers",
+                           (int)g->frame[k], (int)m->source.vertex[v]);
         /* A file that draws downwards is turned over, as its pattern was: half a turn about x. */
         x[v] = m->source.y_down ? (rg_vec3){q[0], -q[1], -q[2]} : (rg_vec3){q[0], q[1], q[2]};
     }
@@ -95,7 +100,8 @@ static rg_status pattern_of(given *g, int32_t k)
         const rg_value *row = rg_value_at(list, (size_t)m->source.vertex[v]);
         rg_vec2 q;
         if (!rg_value_number(rg_value_at(row, 0), &q.x) || !rg_value_number(rg_value_at(row, 1), &q.y))
-            return rg_fail(RG_EFORMAT, g->why, 0, "file_frames[%d].rigami:vertices_flatCoords: not two numbers", (int)g->frame[k]);
+            return rg_fail(RG_EFORMAT, g->why, 0, "file_frames[%d].rigami:vertices_flatCoords: not two numbers",
+                           (int)g->frame[k]);
         m->flat[(size_t)k * nv + (size_t)v] = q;
     }
     return RG_OK;
@@ -120,7 +126,8 @@ static rg_status read_frames(given *g)
         m->frame[k].percent = 100.0 * k / (g->count - 1);
         rg_value_number(rg_value_get(frame_of(g, k), "rigami:percent"), &m->frame[k].percent);
         rg_value_number(rg_value_get(frame_of(g, k), "rigami:closure_residual"), &m->frame[k].closure_residual);
-        m->report.max_edge_strain = fmax(m->report.max_edge_strain, rg_pose_strain(&m->mesh, rg_motion_pattern(m, k), x));
+        m->report.max_edge_strain =
+            fmax(m->report.max_edge_strain, rg_pose_strain(&m->mesh, rg_motion_pattern(m, k), x));
     }
     rg_mem_free(&m->mem, normal);
     m->report.frame_count = g->count;
@@ -128,7 +135,8 @@ static rg_status read_frames(given *g)
     return s;
 }
 
-/* ------------------------------------------------------------------------------------------------------- plates ---- */
+/* ------------------------------------------------------------------------------------------------------- plates ----
+ */
 
 /* The facet that rests, which is the one that was fixed; -1: they all move. */
 static int32_t at_rest(const rg_motion *m)
@@ -160,7 +168,8 @@ static rg_status as_plates(rg_motion *m)
     m->space = NULL;
     for (int32_t k = 0; s == RG_OK && fixed >= 0 && k < m->report.frame_count; k++) {
         s = rg_motion_place(m, k, x);
-        for (int32_t v = 0; v < m->mesh.nv; v++) most = fmax(most, rg_vec3_length(rg_vec3_sub(x[v], told[(size_t)k * nv + (size_t)v])));
+        for (int32_t v = 0; v < m->mesh.nv; v++)
+            most = fmax(most, rg_vec3_length(rg_vec3_sub(x[v], told[(size_t)k * nv + (size_t)v])));
     }
     rg_mem_free(&m->mem, x);
     if (fixed >= 0 && most <= RIGID * m->mesh.size) rg_mem_free(&m->mem, told);
@@ -168,7 +177,8 @@ static rg_status as_plates(rg_motion *m)
     return s;
 }
 
-/* Lines that were read as creases so that they may bend are flat ones again; the last of them are those that were added. */
+/* Lines that were read as creases so that they may bend are flat ones again; the last of them are those that were
+ * added. */
 static void name_flat_lines(rg_motion *m)
 {
     const rg_value *letters = rg_value_get(m->source.frame, "edges_assignment");
@@ -193,7 +203,8 @@ static rg_status build(rg_motion *m, const rg_value *root, const rg_pattern *p, 
     if (s == RG_OK && !m->source.frame) s = rg_fail(RG_EFORMAT, why, 0, "no FOLD file: only those hold motions");
     for (int32_t v = 0; s == RG_OK && v < m->mesh.nv; v++)
         if (m->source.vertex[v] < 0)
-            s = rg_fail(RG_EFORMAT, why, 0, "lines of the pattern cross at (%.6g, %.6g) where the file has no vertex", m->mesh.X[v].x, m->mesh.X[v].y);
+            s = rg_fail(RG_EFORMAT, why, 0, "lines of the pattern cross at (%.6g, %.6g) where the file has no vertex",
+                        m->mesh.X[v].x, m->mesh.X[v].y);
     if (s != RG_OK) return s;
     name_flat_lines(m);
     if (s == RG_OK) s = rg_motion_lend(m);

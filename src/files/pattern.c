@@ -37,7 +37,8 @@ rg_status rg_pattern_read(const char *path, const rg_reading *given, rg_pattern 
     return s == RG_OK ? build(&lines, &r, pattern, why) : s;
 }
 
-rg_status rg_generate_pattern(const char *kind, int32_t n, int32_t m, double angle, const rg_reading *given, rg_pattern **pattern, rg_diag *why)
+rg_status rg_generate_pattern(const char *kind, int32_t n, int32_t m, double angle, const rg_reading *given,
+                              rg_pattern **pattern, rg_diag *why)
 {
     rg_reading r;
     rg_lines lines;

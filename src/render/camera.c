@@ -4,8 +4,8 @@
 
 #include <float.h>
 
-/* A sheet that just fills the picture's shorter side is that many halves of it away: perspective is felt and parallel folds still
- * look parallel. */
+/* A sheet that just fills the picture's shorter side is that many halves of it away: perspective is felt and parallel
+ * folds still look parallel. */
 static const double LENS = 7;
 /* Part of the picture left free on each side. */
 static const double MARGIN = 0.06;
@@ -17,8 +17,8 @@ static const double FLOOR = 0.01;
 static const double REACH = 0.1;
 /* ---- where the sheet is seen */
 
-/* Along the camera's axes: what is seen of a point at (r, u, b) from the eye at (0, 0, d) is at r / (d - b), u / (d - b). The sheet
- * fits between -w and w where d >= b + |r| / w for all of it. */
+/* Along the camera's axes: what is seen of a point at (r, u, b) from the eye at (0, 0, d) is at r / (d - b), u / (d -
+ * b). The sheet fits between -w and w where d >= b + |r| / w for all of it. */
 typedef struct extent {
     double right, left, top, bottom; /* most of b + r / w, b - r / w, b + u / h, b - u / h */
     double front, back;              /* most and least of b */
@@ -41,7 +41,8 @@ static extent extent_of(const track *t, double r0, double u0)
     const int32_t nv = t->stage->motion->mesh.nv;
     extent e = {-DBL_MAX, -DBL_MAX, -DBL_MAX, -DBL_MAX, -DBL_MAX, DBL_MAX, DBL_MAX};
     for (int32_t v = 0; v < nv; v++) {
-        const double r = (rg_vec3_dot(c->right, t->x[v]) - r0) / t->wide, u = (rg_vec3_dot(c->up, t->x[v]) - u0) / t->high;
+        const double r = (rg_vec3_dot(c->right, t->x[v]) - r0) / t->wide,
+                     u = (rg_vec3_dot(c->up, t->x[v]) - u0) / t->high;
         const double b = rg_vec3_dot(c->back, t->x[v]);
         e.right = fmax(e.right, b + r), e.left = fmax(e.left, b - r);
         e.top = fmax(e.top, b + u), e.bottom = fmax(e.bottom, b - u);
@@ -51,8 +52,8 @@ static extent extent_of(const track *t, double r0, double u0)
     return e;
 }
 
-/* The nearest eye that sees all of it. Where the picture is not filled across one of its sides, that side's middle is found anew from
- * there. */
+/* The nearest eye that sees all of it. Where the picture is not filled across one of its sides, that side's middle is
+ * found anew from there. */
 static void middle_of(const track *t, double eye[3])
 {
     const rg_camera *c = &t->camera;
@@ -67,7 +68,8 @@ static void middle_of(const track *t, double eye[3])
         for (int k = 0; k < 2; k++) low[k] = DBL_MAX, high[k] = -DBL_MAX;
         for (int32_t v = 0; v < t->stage->motion->mesh.nv; v++) {
             const double away = eye[2] - rg_vec3_dot(c->back, t->x[v]);
-            const double seen[2] = {(rg_vec3_dot(c->right, t->x[v]) - eye[0]) / away, (rg_vec3_dot(c->up, t->x[v]) - eye[1]) / away};
+            const double seen[2] = {(rg_vec3_dot(c->right, t->x[v]) - eye[0]) / away,
+                                    (rg_vec3_dot(c->up, t->x[v]) - eye[1]) / away};
             for (int k = 0; k < 2; k++) low[k] = fmin(low[k], seen[k]), high[k] = fmax(high[k], seen[k]);
         }
         const int slack = by_width < by_height ? 0 : 1;
@@ -105,16 +107,19 @@ static void smooth_above(const track *t, double *a, int32_t reach)
     smooth(t, a, reach);
 }
 
-/* The facet that has a point of the pattern in it or on its rim, else -1; corners are counter-clockwise, facets need not be convex. */
+/* The facet that has a point of the pattern in it or on its rim, else -1; corners are counter-clockwise, facets need
+ * not be convex. */
 static int32_t facet_with(const rg_mesh *m, rg_vec2 p)
 {
     for (int32_t f = 0; f < m->nf; f++) {
         const int32_t first = m->facet_start[f], last = m->facet_start[f + 1];
         int inside = 0;
         for (int32_t j = first, i = last - 1; j < last; i = j++) {
-            const rg_vec2 a = m->X[m->facet_vertex[i]], b = m->X[m->facet_vertex[j]], d = rg_vec2_sub(b, a), q = rg_vec2_sub(p, a);
+            const rg_vec2 a = m->X[m->facet_vertex[i]], b = m->X[m->facet_vertex[j]], d = rg_vec2_sub(b, a),
+                          q = rg_vec2_sub(p, a);
             const double length = rg_vec2_length(d), along = rg_vec2_dot(q, d) / length;
-            if (fabs(rg_vec2_cross(d, q)) <= 1e-9 * m->size * length && along >= -1e-9 * m->size && along <= length + 1e-9 * m->size)
+            if (fabs(rg_vec2_cross(d, q)) <= 1e-9 * m->size * length && along >= -1e-9 * m->size &&
+                along <= length + 1e-9 * m->size)
                 return f;
             if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
         }
@@ -183,7 +188,8 @@ static rg_status follow(track *t, const rg_picture *p, rg_camera *camera, rg_dia
         rg_camera *c = &camera[k];
         const double away = t->at[2][k];
         c->near = away - c->near - room, c->far = away - c->far + room;
-        if (!(c->near > 0) || !isfinite(c->far)) return rg_fail(RG_EARG, why, 0, "there is nothing to take a picture of");
+        if (!(c->near > 0) || !isfinite(c->far))
+            return rg_fail(RG_EARG, why, 0, "there is nothing to take a picture of");
         c->eye = rg_vec3_axpy(t->at[0][k], c->right, rg_vec3_axpy(t->at[1][k], c->up, rg_vec3_scale(away, c->back)));
         c->ground = -t->at[3][k] - FLOOR * m->size;
     }
@@ -209,7 +215,8 @@ rg_status rg_camera_follow(const rg_stage *stage, const rg_picture *p, rg_camera
     const size_t frames = (size_t)stage->motion->report.frame_count;
     track t = {.stage = stage, .frames = (int32_t)frames};
     const int32_t below = p->caption ? rg_caption_height(p->width, p->height) : 0;
-    t.camera.half_width = 0.5 * p->width, t.camera.half_height = 0.5 * (p->height > 2 * below ? p->height - below : p->height);
+    t.camera.half_width = 0.5 * p->width,
+    t.camera.half_height = 0.5 * (p->height > 2 * below ? p->height - below : p->height);
     const double scale = LENS * fmin(t.camera.half_width, t.camera.half_height);
     aim(&t.camera, stage->azimuth, stage->elevation, stage->roll);
     t.camera.scale = p->zoom * scale;

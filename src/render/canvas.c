@@ -61,7 +61,8 @@ static int settle_in(int socket)
     return OURS;
 }
 
-/* Draws what it is asked for until there is no one to ask. Leaves without what is done at an exit: that is the parent's. */
+/* Draws what it is asked for until there is no one to ask. Leaves without what is done at an exit: that is the
+ * parent's. */
 static void serve(const rg_canvas *c, int socket)
 {
     rg_gl *gl = NULL;
@@ -76,7 +77,8 @@ static void serve(const rg_canvas *c, int socket)
         int32_t pitch;
         const char done = rg_gl_draw(gl, &scene, j.x, j.y, j.width, j.height, &mark, &pitch, NULL) == RG_OK;
         for (int32_t row = 0; done && row < j.height; row++)
-            memcpy(c->mark + (size_t)row * (size_t)c->width, mark + (size_t)row * (size_t)pitch, (size_t)j.width * sizeof *mark);
+            memcpy(c->mark + (size_t)row * (size_t)c->width, mark + (size_t)row * (size_t)pitch,
+                   (size_t)j.width * sizeof *mark);
         if (!tell(socket, &done, 1) || !done) break;
     }
     _exit(0);
@@ -129,7 +131,8 @@ static int ask_child(rg_canvas *c, const job *j)
     return 0;
 }
 
-rg_status rg_canvas_init(const rg_memory *mem, int32_t width, int32_t height, size_t vertices, size_t corners, int by_gl, rg_canvas *c)
+rg_status rg_canvas_init(const rg_memory *mem, int32_t width, int32_t height, size_t vertices, size_t corners,
+                         int by_gl, rg_canvas *c)
 {
     const size_t samples = (size_t)width * (size_t)height;
     *c = (rg_canvas){.mem = *mem, .width = width, .height = height, .socket = -1};

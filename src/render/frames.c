@@ -74,7 +74,8 @@ static int next_frame(painter *p, int32_t *frame)
         s->status = rg_lift_next(s->layers, p->x, p->lift);
         if (s->status != RG_OK) rg_fail(s->status, s->why, 0, "%s", rg_status_text(s->status));
         *frame = s->next++;
-        found = s->status == RG_OK && is_wanted(s->wish, *frame) && !(s->wish->has && s->wish->has(s->wish->ctx, *frame));
+        found =
+            s->status == RG_OK && is_wanted(s->wish, *frame) && !(s->wish->has && s->wish->has(s->wish->ctx, *frame));
     }
     if (s->status != RG_OK) pthread_cond_broadcast(&s->moved);
     pthread_mutex_unlock(&s->lock);
@@ -155,14 +156,17 @@ static rg_status painter_init(painter *p, studio *s)
 {
     const rg_picture *picture = &s->wish->picture;
     *p = (painter){.studio = s};
-    const rg_status status = rg_render_create(&s->mem, &s->motion->mesh, &s->triangles, picture, s->wish->print, &p->render, s->why);
+    const rg_status status =
+        rg_render_create(&s->mem, &s->motion->mesh, &s->triangles, picture, s->wish->print, &p->render, s->why);
     if (status != RG_OK) return status;
     p->x = rg_mem_array(&s->mem, (size_t)s->motion->mesh.nv, sizeof *p->x);
     p->lift = rg_mem_array(&s->mem, (size_t)s->motion->mesh.nf, sizeof *p->lift);
     p->rgb = rg_mem_array(&s->mem, (size_t)picture->width * (size_t)picture->height, 3);
     const int tinted = s->tint.by != RG_COLOUR_PAPER;
     if (tinted) p->tint = rg_mem_array(&s->mem, (size_t)s->motion->mesh.nf, sizeof *p->tint);
-    return p->x && p->lift && p->rgb && (p->tint || !tinted) ? RG_OK : rg_fail(RG_ENOMEM, s->why, 0, "out of memory for the picture");
+    return p->x && p->lift && p->rgb && (p->tint || !tinted)
+               ? RG_OK
+               : rg_fail(RG_ENOMEM, s->why, 0, "out of memory for the picture");
 }
 
 static void painter_free(painter *p)

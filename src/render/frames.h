@@ -15,8 +15,8 @@ typedef struct rg_frames {
     /* rgb: rows of picture.width pixels of 3 bytes, top row first, borrowed. mem: the motion's allocator, to be used by
      * one thread at a time. A status other than RG_OK ends it all. */
     rg_status (*take)(void *ctx, const rg_memory *mem, int32_t frame, const unsigned char *rgb, rg_diag *why);
-    int (*has)(void *ctx, int32_t frame); /* non-zero: this frame need not be drawn; under a lock, one at a time. NULL: all are drawn.
-                                           * Not with in_order */
+    int (*has)(void *ctx, int32_t frame); /* non-zero: this frame need not be drawn; under a lock, one at a time. NULL:
+                                           * all are drawn. Not with in_order */
     void *ctx;
 } rg_frames;
 

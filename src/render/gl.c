@@ -15,8 +15,9 @@
 
 #ifdef RG_GL
 
-/* What is called of OpenGL, by address: its library is opened only where something is drawn, so that a program that draws nothing does not
- * carry a compiler with it, and one in which the library is missing draws all the same (render/canvas.h). */
+/* What is called of OpenGL, by address: its library is opened only where something is drawn, so that a program that
+ * draws nothing does not carry a compiler with it, and one in which the library is missing draws all the same
+ * (render/canvas.h). */
 #define CALLS(X)                                                               \
     X(void, Clear, (GLbitfield))                                               \
     X(void, ClearColor, (GLclampf, GLclampf, GLclampf, GLclampf))              \
@@ -70,7 +71,8 @@ static rg_status context_open(context *c, calls *gl, int32_t width, int32_t heig
     OSMesaContext (*create)(const int *, OSMesaContext) = NULL;
     OSMESAproc (*address)(const char *) = NULL;
     (void)width, (void)height;
-    for (size_t i = 0; !c->library && i < sizeof names / sizeof *names; i++) c->library = dlopen(names[i], RTLD_NOW | RTLD_LOCAL);
+    for (size_t i = 0; !c->library && i < sizeof names / sizeof *names; i++)
+        c->library = dlopen(names[i], RTLD_NOW | RTLD_LOCAL);
     if (!c->library) return rg_fail(RG_EABSENT, why, 0, "OSMesa cannot be loaded");
     find(c->library, "OSMesaCreateContextAttribs", &create);
     find(c->library, "OSMesaMakeCurrent", &c->make_current);
@@ -137,7 +139,8 @@ static rg_status context_open(context *c, calls *gl, int32_t width, int32_t heig
     if (!eglBindAPI(EGL_OPENGL_API)) return absent("OpenGL", why);
     c->handle = eglCreateContext(c->display, config, EGL_NO_CONTEXT, NULL);
     if (c->handle == EGL_NO_CONTEXT) return absent("OpenGL context", why);
-#define X(type, name, args) if (!(gl->name = (type(*) args)(void (*)(void))eglGetProcAddress("gl" #name))) return absent("gl" #name, why);
+#define X(type, name, args)                                                                                            \
+    if (!(gl->name = (type(*) args)(void (*)(void))eglGetProcAddress("gl" #name))) return absent("gl" #name, why);
     CALLS(X)
 #undef X
     c->surface = eglCreatePbufferSurface(c->display, config, size);

@@ -28,8 +28,8 @@ rg_status rg_gl_check(rg_diag *why);
 rg_status rg_gl_create(const rg_memory *mem, int32_t width, int32_t height, rg_gl **gl, rg_diag *why);
 void rg_gl_size(const rg_gl *gl, int32_t *width, int32_t *height);
 /* Draws the part of the scene whose upper left sample is (x, y), `width` x `height` samples, no larger than the canvas.
- * mark: out, rows of *pitch samples, top row first: the mark of what is seen there, 0: nothing. Lent until the next call
- * on this handle; may be written on. */
+ * mark: out, rows of *pitch samples, top row first: the mark of what is seen there, 0: nothing. Lent until the next
+ * call on this handle; may be written on. */
 rg_status rg_gl_draw(rg_gl *gl, const rg_gl_scene *scene, int32_t x, int32_t y, int32_t width, int32_t height,
                      uint32_t **mark, int32_t *pitch, rg_diag *why);
 void rg_gl_destroy(rg_gl *gl);

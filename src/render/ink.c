@@ -1,8 +1,10 @@
 #include "render/ink.h"
 
-/* Half a line, in parts of the picture's shorter side: on a 720 pixel picture each facet shows 1 pixel of its crease. */
+/* Half a line, in parts of the picture's shorter side: on a 720 pixel picture each facet shows 1 pixel of its crease.
+ */
 static const double HALF = 1.0 / 720;
-/* No line takes more of a facet than that part of its width as seen, to each side: small facets keep more paper than ink. */
+/* No line takes more of a facet than that part of its width as seen, to each side: small facets keep more paper than
+ * ink. */
 static const double SHARE = 0.06;
 /* Below half a sample lines fall apart into dots; then only outlines are drawn. */
 static const double LEAST = 0.5;
@@ -17,8 +19,8 @@ void rg_ink_colours(uint64_t *colour)
     for (int i = 0; i < INKS; i++) colour[i] = rg_samples_colour(INK[i]);
 }
 
-/* What the edge at place j of facet f is drawn with. Where two facets turn different sides to the eye, the edge between them is the
- * sheet's outline there: also an added crease is then a line, which otherwise shows by its light alone. */
+/* What the edge at place j of facet f is drawn with. Where two facets turn different sides to the eye, the edge between
+ * them is the sheet's outline there: also an added crease is then a line, which otherwise shows by its light alone. */
 static uint32_t ink_of(const rg_seen *s, const rg_picture *p, int32_t f, int32_t j)
 {
     const rg_mesh *m = s->mesh;
@@ -33,7 +35,8 @@ static uint32_t ink_of(const rg_seen *s, const rg_picture *p, int32_t f, int32_t
     }
 }
 
-static void draw_facet(const rg_seen *s, const rg_picture *p, int32_t f, double most, int behind, const rg_samples *tile)
+static void draw_facet(const rg_seen *s, const rg_picture *p, int32_t f, double most, int behind,
+                       const rg_samples *tile)
 {
     const rg_mesh *m = s->mesh;
     const int32_t first = m->facet_start[f], last = m->facet_start[f + 1];
@@ -43,7 +46,10 @@ static void draw_facet(const rg_seen *s, const rg_picture *p, int32_t f, double 
             const uint32_t ink = ink_of(s, p, f, j);
             if (ink == NO_INK || (ink == RIM) != rim || (!rim && !(half >= LEAST))) continue;
             const rg_gl_vertex *a = &s->corner[j], *b = &s->corner[j + 1 < last ? j + 1 : first];
-            const rg_samples_line line = {{a->x, b->x}, {a->y, b->y}, (float)fmax(half, LEAST), behind ? RG_SAMPLES_ANY : a->mark,
+            const rg_samples_line line = {{a->x, b->x},
+                                          {a->y, b->y},
+                                          (float)fmax(half, LEAST),
+                                          behind ? RG_SAMPLES_ANY : a->mark,
                                           behind ? BEHIND : ink};
             rg_samples_draw(tile, &line);
         }

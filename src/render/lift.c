@@ -64,7 +64,8 @@ static void look_back(rg_lift *l, const rg_vec2 *X)
     for (int32_t i = 0; i < m->N; i++) most = fmax(most, fabs(now[i] - (before ? before[i] : 0)));
     const double part = most > LOOK_BACK ? LOOK_BACK / most : 1;
     for (int32_t i = 0; i < m->N; i++) l->rho[i] = now[i] + part * ((before ? before[i] : 0) - now[i]);
-    if (l->motion->space) rg_motion_facets(l->motion, l->frame > 0 ? l->frame - 1 : 0, l->was); /* no angles make such a sheet */
+    if (l->motion->space)
+        rg_motion_facets(l->motion, l->frame > 0 ? l->frame - 1 : 0, l->was); /* no angles make such a sheet */
     else rg_pose_facets(m, X, &l->motion->tree, l->rho, l->was);
     for (int32_t f = 0; f < m->nf; f++) {
         const rg_mat3 R = l->place[f].R, B = l->was[f].R;

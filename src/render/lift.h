@@ -2,8 +2,8 @@
  * Paper    section 4        Uses  motion.h ending.h coplanar.h stack.h        Used by  frames.c html.c
  *
  * Who is on top follows from the motion: facets that come to lie in one plane are ordered by where they lay a little
- * before, and stay in that order for as long as they lie there. So frames are taken one after the other. A flat end is shown in
- * an order that paper can have, where there is one. */
+ * before, and stay in that order for as long as they lie there. So frames are taken one after the other. A flat end is
+ * shown in an order that paper can have, where there is one. */
 #ifndef RG_LIFT_H
 #define RG_LIFT_H
 

@@ -56,14 +56,17 @@ rg_status rg_picture_check(const rg_picture *p, rg_diag *why)
     if (!(p->fps >= MIN_RATE && p->fps <= MAX_RATE))
         return rg_fail(RG_EARG, why, 0, "%g frames a second: it may be %g to %g", p->fps, MIN_RATE, MAX_RATE);
     if (!(p->line_width >= MIN_LINE && p->line_width <= MAX_LINE))
-        return rg_fail(RG_EARG, why, 0, "lines %g times as wide as usual: it may be %g to %g", p->line_width, MIN_LINE, MAX_LINE);
+        return rg_fail(RG_EARG, why, 0, "lines %g times as wide as usual: it may be %g to %g", p->line_width, MIN_LINE,
+                       MAX_LINE);
     if (!(p->see_through >= 0 && p->see_through <= MOST_CLEAR))
-        return rg_fail(RG_EARG, why, 0, "facets that let %g of the light pass: it may be 0 to %g", p->see_through, MOST_CLEAR);
+        return rg_fail(RG_EARG, why, 0, "facets that let %g of the light pass: it may be 0 to %g", p->see_through,
+                       MOST_CLEAR);
     if (!(p->hold >= 0 && p->hold <= LONGEST_HOLD))
         return rg_fail(RG_EARG, why, 0, "an end that is held for %g seconds: it may be 0 to %g", p->hold, LONGEST_HOLD);
     if (!(p->thickness >= 0 && p->thickness <= MOST_THICKNESS))
         return rg_fail(RG_EARG, why, 0, "paper %g thick: it may be 0 to %g", p->thickness, MOST_THICKNESS);
-    if (!is_among(p->lines, RG_LINES_EDGES) || !is_among(p->colour, RG_COLOUR_LAYER) || !is_among(p->loop, RG_LOOP_ONCE))
+    if (!is_among(p->lines, RG_LINES_EDGES) || !is_among(p->colour, RG_COLOUR_LAYER) ||
+        !is_among(p->loop, RG_LOOP_ONCE))
         return rg_fail(RG_EARG, why, 0, "a setting of the picture is none of its kind");
     return RG_OK;
 }

@@ -12,6 +12,9 @@ rg_status rg_picture_take(const rg_picture *given, rg_picture *out, rg_diag *why
 /* RG_EARG: a size, an angle, the zoom or the rate is out of range, why->text says which. */
 rg_status rg_picture_check(const rg_picture *p, rg_diag *why);
 /* Does who watches end it? done: 0 ... 1. */
-static inline int rg_picture_ended(const rg_picture *p, double done) { return p->progress && p->progress(p->progress_ctx, done) != 0; }
+static inline int rg_picture_ended(const rg_picture *p, double done)
+{
+    return p->progress && p->progress(p->progress_ctx, done) != 0;
+}
 
 #endif

@@ -40,13 +40,16 @@ static void take(void *ctx, uint32_t mark, int32_t row, int32_t first, int32_t l
             if (!p->from_above) above = -above;
         }
         const double x = p->tile->x + i + 0.5, y = p->tile->y + row + 0.5;
-        if (above > 0 || (above == 0 && depth(p->seen, (int32_t)mark - 1, x, y) < depth(p->seen, (int32_t)other - 1, x, y))) at[i] = mark;
+        if (above > 0 ||
+            (above == 0 && depth(p->seen, (int32_t)mark - 1, x, y) < depth(p->seen, (int32_t)other - 1, x, y)))
+            at[i] = mark;
     }
 }
 
 void rg_piled_draw(const rg_layers *l, const rg_seen *s, const rg_gl_scene *scene, const rg_samples *tile)
 {
     pile p = {l, s, tile, s->front[l->flat.part[l->flat.part_start[l->flat.root]]]};
-    for (int32_t row = 0; row < tile->height; row++) memset(tile->at + (size_t)row * (size_t)tile->pitch, 0, (size_t)tile->width * sizeof *tile->at);
+    for (int32_t row = 0; row < tile->height; row++)
+        memset(tile->at + (size_t)row * (size_t)tile->pitch, 0, (size_t)tile->width * sizeof *tile->at);
     rg_raster_cover(scene, tile->x, tile->y, tile->width, tile->height, take, &p);
 }

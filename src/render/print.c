@@ -8,26 +8,31 @@ enum { FINE = RG_SAMPLES_FINE };
 
 /* ---- a picture on the paper */
 
-/* From a place in the picture, (x, y, 1) in samples, to one on the pattern's box, (u w, v w, w), both 0 ... 1 and v down. */
+/* From a place in the picture, (x, y, 1) in samples, to one on the pattern's box, (u w, v w, w), both 0 ... 1 and v
+ * down. */
 typedef struct map { double row[3][3]; } map;
 
-/* The ray through a sample meets the facet's plane at P + a (Q - P) + b (R - P) with (a, b, 1) ~ [Q - P, R - P, P - eye]^-1 ray; the
- * inverse by cross products. */
+/* The ray through a sample meets the facet's plane at P + a (Q - P) + b (R - P) with (a, b, 1) ~ [Q - P, R - P, P -
+ * eye]^-1 ray; the inverse by cross products. */
 static map map_of(const rg_mesh *m, const rg_shot *shot, const rg_triangles *t, int32_t f, rg_vec2 low, rg_vec2 size)
 {
     const rg_camera *c = shot->camera;
     const int32_t *v = t->v[t->largest[f]];
-    const rg_vec3 lift = shot->lift ? shot->lift[f] : (rg_vec3){0, 0, 0}, p = rg_vec3_sub(rg_vec3_add(shot->x[v[0]], lift), c->eye);
+    const rg_vec3 lift = shot->lift ? shot->lift[f] : (rg_vec3){0, 0, 0},
+                  p = rg_vec3_sub(rg_vec3_add(shot->x[v[0]], lift), c->eye);
     const rg_vec3 a = rg_vec3_sub(shot->x[v[1]], shot->x[v[0]]), b = rg_vec3_sub(shot->x[v[2]], shot->x[v[0]]);
     const rg_vec3 row[3] = {rg_vec3_cross(b, p), rg_vec3_cross(p, a), rg_vec3_cross(a, b)};
     /* ray = ((x / FINE - half width) right - (y / FINE - half height) up) / scale - back */
-    const rg_vec3 dx = rg_vec3_scale(1 / (FINE * c->scale), c->right), dy = rg_vec3_scale(-1 / (FINE * c->scale), c->up);
-    const rg_vec3 d0 = rg_vec3_sub(rg_vec3_axpy(-c->half_width / c->scale, c->right, rg_vec3_scale(c->half_height / c->scale, c->up)), c->back);
+    const rg_vec3 dx = rg_vec3_scale(1 / (FINE * c->scale), c->right),
+                  dy = rg_vec3_scale(-1 / (FINE * c->scale), c->up);
+    const rg_vec3 d0 = rg_vec3_sub(
+        rg_vec3_axpy(-c->half_width / c->scale, c->right, rg_vec3_scale(c->half_height / c->scale, c->up)), c->back);
     const rg_vec2 X = m->X[v[0]], A = rg_vec2_sub(m->X[v[1]], X), B = rg_vec2_sub(m->X[v[2]], X);
     map out;
     const rg_vec3 along[3] = {dx, dy, d0};
     for (int i = 0; i < 3; i++) {
-        const double ha = rg_vec3_dot(row[0], along[i]), hb = rg_vec3_dot(row[1], along[i]), h = rg_vec3_dot(row[2], along[i]);
+        const double ha = rg_vec3_dot(row[0], along[i]), hb = rg_vec3_dot(row[1], along[i]),
+                     h = rg_vec3_dot(row[2], along[i]);
         out.row[0][i] = (h * (X.x - low.x) + ha * A.x + hb * B.x) / size.x;
         out.row[1][i] = h - (h * (X.y - low.y) + ha * A.y + hb * B.y) / size.y;
         out.row[2][i] = h;
@@ -40,12 +45,13 @@ static const unsigned char *pixel_at(const rg_print *p, const map *g, double x, 
     double h[3];
     for (int i = 0; i < 3; i++) h[i] = g->row[i][0] * x + g->row[i][1] * y + g->row[i][2];
     const double u = h[0] / h[2] * p->width, v = h[1] / h[2] * p->height;
-    const int32_t i = u > 0 ? u < p->width ? (int32_t)u : p->width - 1 : 0, j = v > 0 ? v < p->height ? (int32_t)v : p->height - 1 : 0;
+    const int32_t i = u > 0 ? u < p->width ? (int32_t)u : p->width - 1 : 0,
+                  j = v > 0 ? v < p->height ? (int32_t)v : p->height - 1 : 0;
     return p->rgba + 4 * ((size_t)j * (size_t)p->width + (size_t)i);
 }
 
-void rg_print_paint(const rg_print *print, const rg_seen *s, const rg_shot *shot, const rg_triangles *t, const rg_picture *p,
-                    const rg_samples *tile)
+void rg_print_paint(const rg_print *print, const rg_seen *s, const rg_shot *shot, const rg_triangles *t,
+                    const rg_picture *p, const rg_samples *tile)
 {
     const rg_mesh *m = s->mesh;
     rg_vec2 low = m->X[0], high = m->X[0];
@@ -67,7 +73,8 @@ void rg_print_paint(const rg_print *print, const rg_seen *s, const rg_shot *shot
             const unsigned char *c = pixel_at(print, &g, tile->x + x + 0.5, tile->y + y + 0.5);
             const double *light = s->light[mark - 1];
             unsigned char rgb[3];
-            for (int k = 0; k < 3; k++) rgb[k] = (unsigned char)(light[k] * (c[3] * c[k] + (255 - c[3]) * p->front[k]) / 255 + 0.5);
+            for (int k = 0; k < 3; k++)
+                rgb[k] = (unsigned char)(light[k] * (c[3] * c[k] + (255 - c[3]) * p->front[k]) / 255 + 0.5);
             tile->colour[at] = rg_samples_colour(rgb);
         }
 }
@@ -94,8 +101,8 @@ static void add(void *ctx, uint32_t mark, int32_t row, int32_t first, int32_t la
         }
 }
 
-/* The mean colour of n layers with their light, seen before what is behind: T^n of that comes through, and each layer takes some of the
- * light from those behind it. */
+/* The mean colour of n layers with their light, seen before what is behind: T^n of that comes through, and each layer
+ * takes some of the light from those behind it. */
 static uint64_t through(uint64_t sum, uint32_t n, double clear, const unsigned char *behind)
 {
     unsigned char rgb[3];
@@ -107,8 +114,8 @@ static uint64_t through(uint64_t sum, uint32_t n, double clear, const unsigned c
     return rg_samples_colour(rgb);
 }
 
-void rg_print_see_through(const rg_seen *s, const rg_gl_scene *scene, const rg_picture *p, const rg_samples *tile, uint32_t *count,
-                          const unsigned char *rgb, size_t stride)
+void rg_print_see_through(const rg_seen *s, const rg_gl_scene *scene, const rg_picture *p, const rg_samples *tile,
+                          uint32_t *count, const unsigned char *rgb, size_t stride)
 {
     layers l = {s, tile, count};
     for (int32_t y = 0; y < tile->height; y++)

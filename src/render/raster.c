@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A triangle's corners from the top row down, and from left to right in one row, so that an edge gives the same places for both of its
- * triangles. */
+/* A triangle's corners from the top row down, and from left to right in one row, so that an edge gives the same places
+ * for both of its triangles. */
 typedef struct triangle { double x[3], y[3]; } triangle;
 
 static int above(const rg_gl_vertex *a, const rg_gl_vertex *b) { return a->y < b->y || (a->y == b->y && a->x <= b->x); }
@@ -44,16 +44,18 @@ static void span(const triangle *t, int32_t row, int32_t width, int32_t *first, 
     *last = first_from(fmax(far, near), width);
 }
 
-void rg_raster_draw(const rg_gl_scene *s, int32_t x, int32_t y, int32_t width, int32_t height, uint32_t *mark, double *depth,
-                    int32_t pitch)
+void rg_raster_draw(const rg_gl_scene *s, int32_t x, int32_t y, int32_t width, int32_t height, uint32_t *mark,
+                    double *depth, int32_t pitch)
 {
     for (int32_t row = 0; row < height; row++) {
         memset(mark + (size_t)row * (size_t)pitch, 0, (size_t)width * sizeof *mark);
         for (int32_t i = 0; i < width; i++) depth[(size_t)row * (size_t)pitch + (size_t)i] = 1;
     }
     for (int32_t k = 0; k + 2 < s->corners; k += 3) {
-        const rg_gl_vertex *a = &s->vertex[s->corner[k]], *b = &s->vertex[s->corner[k + 1]], *c = &s->vertex[s->corner[k + 2]];
-        const double ux = (double)b->x - a->x, uy = (double)b->y - a->y, vx = (double)c->x - a->x, vy = (double)c->y - a->y;
+        const rg_gl_vertex *a = &s->vertex[s->corner[k]], *b = &s->vertex[s->corner[k + 1]],
+                           *c = &s->vertex[s->corner[k + 2]];
+        const double ux = (double)b->x - a->x, uy = (double)b->y - a->y, vx = (double)c->x - a->x,
+                     vy = (double)c->y - a->y;
         const double turn = ux * vy - uy * vx, uz = (double)b->z - a->z, vz = (double)c->z - a->z;
         if (!(fabs(turn) > 0)) continue;
         const double by_x = (uz * vy - vz * uy) / turn, by_y = (vz * ux - uz * vx) / turn;
@@ -75,7 +77,8 @@ void rg_raster_draw(const rg_gl_scene *s, int32_t x, int32_t y, int32_t width, i
     }
 }
 
-void rg_raster_cover(const rg_gl_scene *s, int32_t x, int32_t y, int32_t width, int32_t height, rg_raster_take take, void *ctx)
+void rg_raster_cover(const rg_gl_scene *s, int32_t x, int32_t y, int32_t width, int32_t height, rg_raster_take take,
+                     void *ctx)
 {
     for (int32_t k = 0; k + 2 < s->corners; k += 3) {
         const rg_gl_vertex *a = &s->vertex[s->corner[k]];

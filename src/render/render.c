@@ -47,8 +47,8 @@ static rg_status allocate(rg_render *r)
     const rg_picture *p = &r->picture;
     const size_t corners = 3 * (size_t)r->triangles->start[m->nf];
     if (corners > INT32_MAX || m->nf >= 1 << RG_SAMPLES_MARK_BITS) return RG_ENOMEM;
-    rg_status s = rg_canvas_init(&r->mem, FINE * r->tile_width, FINE * r->tile_height, (size_t)m->facet_start[m->nf], corners, 1,
-                                 &r->canvas);
+    rg_status s = rg_canvas_init(&r->mem, FINE * r->tile_width, FINE * r->tile_height, (size_t)m->facet_start[m->nf],
+                                 corners, 1, &r->canvas);
     if (s == RG_OK) s = rg_seen_init(&r->mem, m, r->canvas.vertex, &r->seen);
     if (s == RG_OK && p->shadow) s = rg_shadow_init(&r->mem, &r->shadow);
     if (s != RG_OK) return s;
@@ -63,8 +63,8 @@ static rg_status allocate(rg_render *r)
     return all ? RG_OK : RG_ENOMEM;
 }
 
-rg_status rg_render_create(const rg_memory *memory, const rg_mesh *m, const rg_triangles *t, const rg_picture *p, const rg_print *print,
-                           rg_render **render, rg_diag *why)
+rg_status rg_render_create(const rg_memory *memory, const rg_mesh *m, const rg_triangles *t, const rg_picture *p,
+                           const rg_print *print, rg_render **render, rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(memory);
     rg_status s = rg_picture_check(p, why);
@@ -100,7 +100,8 @@ typedef struct area { /* pixels */
 static void draw_tile(rg_render *r, const rg_shot *shot, area a, unsigned char *rgb)
 {
     const rg_triangles *t = r->triangles;
-    const rg_box here = {(float)(FINE * a.x), (float)(FINE * a.y), (float)(FINE * (a.x + a.width)), (float)(FINE * (a.y + a.height))};
+    const rg_box here = {(float)(FINE * a.x), (float)(FINE * a.y), (float)(FINE * (a.x + a.width)),
+                         (float)(FINE * (a.y + a.height))};
     size_t corners = 0;
     for (int32_t f = 0; f < r->mesh->nf; f++) {
         if (!rg_box_meet(r->seen.box[f], here)) continue;
@@ -109,7 +110,8 @@ static void draw_tile(rg_render *r, const rg_shot *shot, area a, unsigned char *
         corners += n;
     }
     if (corners == 0) return;
-    const rg_samples tile = {r->canvas.mark, r->canvas.width, FINE * a.width, FINE * a.height, FINE * a.x, FINE * a.y, r->colour};
+    const rg_samples tile = {r->canvas.mark, r->canvas.width, FINE * a.width, FINE * a.height,
+                             FINE * a.x,     FINE * a.y,      r->colour};
     const rg_gl_scene scene = {r->canvas.vertex, r->canvas.corner, (int32_t)corners};
     if (shot->layers) rg_piled_draw(shot->layers, &r->seen, &scene, &tile);
     else rg_canvas_draw(&r->canvas, (int32_t)corners, tile.x, tile.y, tile.width, tile.height);
@@ -140,7 +142,8 @@ void rg_render_frame(rg_render *r, const rg_shot *shot, unsigned char *rgb)
     const int32_t top = within(floor(all.top / FINE), p->height), bottom = within(ceil(all.bottom / FINE), p->height);
     fill(p, rgb);
     if (p->shadow)
-        rg_shadow_draw(&r->shadow, r->mesh, r->triangles, shot->x, shot->camera, rg_seen_lamp(shot->camera), p->width, p->height, rgb);
+        rg_shadow_draw(&r->shadow, r->mesh, r->triangles, shot->x, shot->camera, rg_seen_lamp(shot->camera), p->width,
+                       p->height, rgb);
     for (area a = {.y = top}; a.y < bottom; a.y += r->tile_height)
         for (a.x = left; a.x < right; a.x += r->tile_width) {
             a.width = right - a.x < r->tile_width ? right - a.x : r->tile_width;

@@ -17,8 +17,8 @@ static int32_t centre_beyond(double x, int32_t most)
     return x > -0.5 ? x < most ? (int32_t)(x + 0.5) : most : 0;
 }
 
-/* On a row a line is what its long sides and what its ends leave of it: |along x - at| <= reach for both. A side that the
- * row is parallel to leaves all; the first and the last row have seen to it. */
+/* On a row a line is what its long sides and what its ends leave of it: |along x - at| <= reach for both. A side that
+ * the row is parallel to leaves all; the first and the last row have seen to it. */
 typedef struct strip { double slope, reach; } strip;
 
 static strip strip_of(double d, double by, double reach)
@@ -41,7 +41,8 @@ void rg_samples_draw(const rg_samples *s, const rg_samples_line *l)
         const int32_t to = centre_beyond(mx + lesser(a + side.reach, b + end.reach), s->width);
         uint32_t *at = s->at + (size_t)row * (size_t)s->pitch;
         for (int32_t i = centre_beyond(mx + greater(a - side.reach, b - end.reach), s->width); i < to; i++)
-            if (l->mark ? (at[i] & MARK) == l->mark : at[i] != 0) at[i] = (at[i] & MARK) | l->ink << RG_SAMPLES_MARK_BITS;
+            if (l->mark ? (at[i] & MARK) == l->mark : at[i] != 0)
+                at[i] = (at[i] & MARK) | l->ink << RG_SAMPLES_MARK_BITS;
     }
 }
 
@@ -81,7 +82,10 @@ void rg_samples_mean(const rg_samples *s, const uint64_t *paper, const uint64_t 
                 for (int j = 0; j < n; j++) {
                     const size_t at = first + (size_t)i * (size_t)s->pitch + (size_t)j;
                     const uint32_t p = s->at[at];
-                    sum += p > MARK ? ink[p >> RG_SAMPLES_MARK_BITS] : !p ? behind : s->colour ? s->colour[at] : paper[p];
+                    sum += p > MARK    ? ink[p >> RG_SAMPLES_MARK_BITS]
+                           : !p        ? behind
+                           : s->colour ? s->colour[at]
+                                       : paper[p];
                 }
             if (n == 1) sum *= FINE * FINE;
             for (int k = 0; k < 3; k++) to[k] = mean_of(sum, k);

@@ -31,7 +31,9 @@ void rg_samples_draw(const rg_samples *s, const rg_samples_line *line);
 uint64_t rg_samples_colour(const unsigned char rgb[3]);
 unsigned char rg_samples_channel(uint64_t colour, int k);
 /* paper[]: the colour of each mark; ink[RG_SAMPLES_INKS]: of each ink.
- * rgb: height / RG_SAMPLES_FINE rows of width / RG_SAMPLES_FINE pixels, `stride` bytes from row to row; in: what is behind. */
-void rg_samples_mean(const rg_samples *s, const uint64_t *paper, const uint64_t *ink, unsigned char *rgb, size_t stride);
+ * rgb: height / RG_SAMPLES_FINE rows of width / RG_SAMPLES_FINE pixels, `stride` bytes from row to row; in: what is
+ * behind. */
+void rg_samples_mean(const rg_samples *s, const uint64_t *paper, const uint64_t *ink, unsigned char *rgb,
+                     size_t stride);
 
 #endif

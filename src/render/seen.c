@@ -33,8 +33,8 @@ static rg_vec3 normal_of(const rg_mesh *m, int32_t f, const rg_vec3 *x)
     return length > 0 ? rg_vec3_scale(1 / length, n) : (rg_vec3){0, 0, 1};
 }
 
-/* Where the lamps are, along the camera's right, up and back: one from the upper left, a weaker one from the right. They go with the
- * camera, so that every azimuth looks alike. */
+/* Where the lamps are, along the camera's right, up and back: one from the upper left, a weaker one from the right.
+ * They go with the camera, so that every azimuth looks alike. */
 static const double KEY[3] = {-0.48, 0.55, 0.68}, FILL[3] = {0.75, -0.20, 0.63};
 
 /* Steeper than the key lamp, so that the shadow stays near what throws it. */
@@ -45,8 +45,8 @@ rg_vec3 rg_seen_lamp(const rg_camera *c)
     return rg_vec3_axpy(aside, c->right, rg_vec3_axpy(behind, away, (rg_vec3){0, 0, 1}));
 }
 
-/* n: towards the viewer. So much light is all around that either side of the paper, in its darkest place, stands out from the
- * background by 3 : 1, the least contrast of what has a meaning (WCAG 2.1, 1.4.11). */
+/* n: towards the viewer. So much light is all around that either side of the paper, in its darkest place, stands out
+ * from the background by 3 : 1, the least contrast of what has a meaning (WCAG 2.1, 1.4.11). */
 static double light(const rg_camera *c, rg_vec3 n)
 {
     static const double around = 0.68, key = 0.32, fill = 0.12;

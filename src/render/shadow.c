@@ -47,7 +47,8 @@ static void darken(rg_shadow *s, rg_vec2 a, rg_vec2 b, rg_vec2 c)
     for (int row = cell_of((bottom - s->y) / s->cell); row < cell_of((top - s->y) / s->cell + 1); row++)
         for (int i = cell_of((low - s->x) / s->cell); i < cell_of((high - s->x) / s->cell + 1); i++) {
             const rg_vec2 p = {s->x + (i + 0.5) * s->cell, s->y + (row + 0.5) * s->cell};
-            if (sign * rg_vec2_turn(a, b, p) >= 0 && sign * rg_vec2_turn(b, c, p) >= 0 && sign * rg_vec2_turn(c, a, p) >= 0)
+            if (sign * rg_vec2_turn(a, b, p) >= 0 && sign * rg_vec2_turn(b, c, p) >= 0 &&
+                sign * rg_vec2_turn(c, a, p) >= 0)
                 s->dark[row * SIDE + i] = 1;
         }
 }
@@ -77,7 +78,8 @@ static void cast(rg_shadow *s, const rg_mesh *m, const rg_triangles *t, const rg
     s->x = 0.5 * (low.x + high.x - SIDE * s->cell), s->y = 0.5 * (low.y + high.y - SIDE * s->cell);
     memset(s->dark, 0, SIDE * SIDE * sizeof *s->dark);
     for (int32_t i = 0; i < t->start[m->nf]; i++)
-        darken(s, fall(x[t->v[i][0]], lamp, ground), fall(x[t->v[i][1]], lamp, ground), fall(x[t->v[i][2]], lamp, ground));
+        darken(s, fall(x[t->v[i][0]], lamp, ground), fall(x[t->v[i][1]], lamp, ground),
+               fall(x[t->v[i][2]], lamp, ground));
     for (int time = 0; time < TIMES; time++)
         for (int i = 0; i < SIDE; i++) run(s, s->dark + i * SIDE, 1);
     for (int time = 0; time < TIMES; time++)
@@ -95,8 +97,8 @@ static double dark_at(const rg_shadow *s, double x, double y)
     return (1 - b) * ((1 - a) * d[0] + a * d[1]) + b * ((1 - a) * d[SIDE] + a * d[SIDE + 1]);
 }
 
-void rg_shadow_draw(rg_shadow *s, const rg_mesh *m, const rg_triangles *t, const rg_vec3 *x, const rg_camera *c, rg_vec3 lamp,
-                    int32_t width, int32_t height, unsigned char *rgb)
+void rg_shadow_draw(rg_shadow *s, const rg_mesh *m, const rg_triangles *t, const rg_vec3 *x, const rg_camera *c,
+                    rg_vec3 lamp, int32_t width, int32_t height, unsigned char *rgb)
 {
     if (!(c->back.z > sin(FLATTEST)) || !(lamp.z > sin(FLATTEST))) return;
     cast(s, m, t, x, lamp, c->ground);
@@ -106,7 +108,8 @@ void rg_shadow_draw(rg_shadow *s, const rg_mesh *m, const rg_triangles *t, const
             const double u = (i + 0.5 - c->half_width) / c->scale;
             const rg_vec3 d = rg_vec3_sub(rg_vec3_axpy(u, c->right, rg_vec3_scale(v, c->up)), c->back);
             if (!(d.z < 0)) continue;
-            const double far = (c->ground - c->eye.z) / d.z, dark = dark_at(s, c->eye.x + far * d.x, c->eye.y + far * d.y);
+            const double far = (c->ground - c->eye.z) / d.z,
+                         dark = dark_at(s, c->eye.x + far * d.x, c->eye.y + far * d.y);
             if (!(dark > 0)) continue;
             unsigned char *p = rgb + 3 * ((size_t)row * (size_t)width + (size_t)i);
             for (int k = 0; k < 3; k++) p[k] = (unsigned char)(p[k] * (1 - DARKEST * dark) + 0.5);

@@ -269,8 +269,8 @@ static int32_t lowest(const rg_stack *s, const int32_t *facet, int32_t n)
     return best;
 }
 
-/* Level by level from the bottom: a facet's turn comes when all right under it have had theirs. Returns how many circles
- * were cut. */
+/* Level by level from the bottom: a facet's turn comes when all right under it have had theirs. Returns how many
+ * circles were cut. */
 static int32_t climb(rg_stack *s, const int32_t *facet, int32_t n, int32_t *level, int32_t *levels)
 {
     int32_t head = 0, tail = 0, top = 0, cuts = 0;

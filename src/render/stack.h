@@ -35,10 +35,9 @@ rg_status rg_stack_init(rg_stack *s, const rg_memory *mem, const rg_mesh *m, con
  *   back[nf]   from where a facet is to where it was when the facets were apart
  *   level[nf]  out, for these facets only: 0 the lowest; every facet is above all that it lies upon
  *   levels     out, how many levels there are; 1: no facet lies on another
- * Facets are compared on a grid of about 40 000 + 16 nf points for all of the sheet: overlaps that no point falls on are
- * not seen. Where the order runs in a circle (as the flaps of a closed box do), it is cut at the facet that lay lowest;
- * also then no two facets that lie on each other have the same level.
- * RG_ENOMEM. */
+ * Facets are compared on a grid of about 40 000 + 16 nf points for all of the sheet: overlaps that no point falls on
+ * are not seen. Where the order runs in a circle (as the flaps of a closed box do), it is cut at the facet that lay
+ * lowest; also then no two facets that lie on each other have the same level. RG_ENOMEM. */
 rg_status rg_stack_order(rg_stack *s, const int32_t *facet, int32_t n, rg_vec3 base, rg_vec3 up, const rg_vec3 *x,
                          const rg_place *back, int32_t *level, int32_t *levels);
 void rg_stack_free(rg_stack *s);

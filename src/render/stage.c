@@ -3,23 +3,24 @@
 
 #include <string.h>
 
-/* How much staying as it is counts beside the fit, in parts of the sheet's own inertia: it decides only where the fit does not
- * care, as for a sheet that has become a line. */
+/* How much staying as it is counts beside the fit, in parts of the sheet's own inertia: it decides only where the fit
+ * does not care, as for a sheet that has become a line. */
 static const double STAY = 1e-6;
-/* So much of where the sheet lay when it was flat has a say too, shared out over the frames: what one half of it did alone does not leave
- * the model aslant. */
+/* So much of where the sheet lay when it was flat has a say too, shared out over the frames: what one half of it did
+ * alone does not leave the model aslant. */
 static const double UPRIGHT_PULL = 6;
 /* The rim is below the middle by more than that part of the sheet's size: then the sheet is put on its other side. */
 static const double FALLS = 0.01;
 /* Views that are tried: from where one sees the paper's face at first, and still sees it when it has come to stand. */
 static const double LOWEST = 25, HIGHEST = 50, STEP = 5, USUAL = 35, AROUND = 15;
-/* From the side that the file has below one knows one's drawing again, and from a plane of symmetry both halves are seen alike: so much
- * these views are preferred. */
+/* From the side that the file has below one knows one's drawing again, and from a plane of symmetry both halves are
+ * seen alike: so much these views are preferred. */
 static const double UPRIGHT = 0.1, ALIKE = 0.4;
-/* The end is to fill at least that part of the picture, by the box around it, before margins are taken from it and the camera has come
- * near: less of it counts as so much less seen. */
+/* The end is to fill at least that part of the picture, by the box around it, before margins are taken from it and the
+ * camera has come near: less of it counts as so much less seen. */
 static const double FILLED = 0.3;
-/* What stands or lies as a stick is seen across the picture by a camera that is held aslant; the floor is then aslant too. */
+/* What stands or lies as a stick is seen across the picture by a camera that is held aslant; the floor is then aslant
+ * too. */
 static const double ROLLS[] = {0, -15, 15, -30, 30};
 static const double LEVEL = 0.1; /* so much less is liked of it for each STEEP of roll */
 static const double STEEP = 15;
@@ -61,16 +62,18 @@ static rg_mat3 turn_of(const double q[4])
                       {2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z}}};
 }
 
-/* The rotation that takes x[], about its middle, nearest to `before` and, `pull` times as much, to `flat`; their middles are the origin.
- * weight[nv]: sum 1. */
-static rg_place nearest(const double *weight, const rg_vec3 *x, const rg_vec3 *before, const rg_vec3 *flat, double pull, int32_t nv)
+/* The rotation that takes x[], about its middle, nearest to `before` and, `pull` times as much, to `flat`; their
+ * middles are the origin. weight[nv]: sum 1. */
+static rg_place nearest(const double *weight, const rg_vec3 *x, const rg_vec3 *before, const rg_vec3 *flat, double pull,
+                        int32_t nv)
 {
     rg_vec3 middle = {0, 0, 0};
     for (int32_t v = 0; v < nv; v++) middle = rg_vec3_axpy(weight[v], x[v], middle);
     double S[3][3] = {{0}}, inertia = 0;
     for (int32_t v = 0; v < nv; v++) {
         const rg_vec3 d = rg_vec3_sub(x[v], middle);
-        const double a[3] = {d.x, d.y, d.z}, b[3] = {before[v].x + pull * flat[v].x, before[v].y + pull * flat[v].y, before[v].z};
+        const double a[3] = {d.x, d.y, d.z},
+                     b[3] = {before[v].x + pull * flat[v].x, before[v].y + pull * flat[v].y, before[v].z};
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++) S[i][j] += weight[v] * a[i] * b[j];
         inertia += weight[v] * rg_vec3_dot(d, d);
@@ -90,7 +93,8 @@ static rg_place nearest(const double *weight, const rg_vec3 *x, const rg_vec3 *b
 
 /* ---- what is seen */
 
-/* Of the motion, and of its end: sum of area * normal * normal. d' paper d is the paper that faces direction d, by its cosine. */
+/* Of the motion, and of its end: sum of area * normal * normal. d' paper d is the paper that faces direction d, by its
+ * cosine. */
 typedef struct show {
     double paper[2][3][3];
     double rise;            /* of the rim over the middle, over the sheet's size, in the mean */
@@ -143,7 +147,8 @@ static rg_status find_maps(const rg_mesh *m, const rg_memory *mem, rg_maps *maps
     if (!E) return RG_ENOMEM;
     for (int32_t e = 0; e < m->ne; e++)
         if (m->edge_crease[e] < m->N - m->added)
-            E[n++] = (rg_edge){.v = {m->edge[e][0], m->edge[e][1]}, .assignment = m->assignment[e], .target = m->target[e]};
+            E[n++] =
+                (rg_edge){.v = {m->edge[e][0], m->edge[e][1]}, .assignment = m->assignment[e], .target = m->target[e]};
     const rg_status s = rg_maps_find(maps, mem, m->nv, m->X, n, E, RG_SAME_PLACE * m->size);
     rg_mem_free(mem, E);
     return s;
@@ -167,7 +172,8 @@ static double filled(const show *s, int32_t nv, rg_vec3 back, double roll)
     const rg_vec3 right = {-back.y / level, back.x / level, 0}, up = rg_vec3_cross(back, right);
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (int32_t v = 0; v < nv; v++) {
-        const double r = rg_vec3_dot(right, s->x[v]), u = rg_vec3_dot(up, s->x[v]), at[2] = {c * r + si * u, c * u - si * r};
+        const double r = rg_vec3_dot(right, s->x[v]), u = rg_vec3_dot(up, s->x[v]),
+                     at[2] = {c * r + si * u, c * u - si * r};
         for (int i = 0; i < 2; i++) low[i] = fmin(low[i], at[i]), high[i] = fmax(high[i], at[i]);
     }
     const double w = (high[0] - low[0]) / s->wide, h = (high[1] - low[1]) / s->high;
@@ -236,7 +242,8 @@ static rg_status put_all(rg_stage *s, const double *weight, rg_vec3 *x, rg_vec3 
     const rg_motion *m = s->motion;
     const int32_t nv = m->mesh.nv, last = m->report.frame_count - 1;
     rg_vec3 middle = {0, 0, 0};
-    for (int32_t v = 0; v < nv; v++) middle = rg_vec3_axpy(weight[v], (rg_vec3){m->mesh.X[v].x, m->mesh.X[v].y, 0}, middle);
+    for (int32_t v = 0; v < nv; v++)
+        middle = rg_vec3_axpy(weight[v], (rg_vec3){m->mesh.X[v].x, m->mesh.X[v].y, 0}, middle);
     for (int32_t v = 0; v < nv; v++) before[v] = rg_vec3_sub((rg_vec3){m->mesh.X[v].x, m->mesh.X[v].y, 0}, middle);
     memcpy(flat, before, (size_t)nv * sizeof *flat);
     for (int32_t k = 0; k <= last; k++) {

@@ -3,8 +3,10 @@
 
 #include <stdio.h>
 
-/* From blue by green to yellow, ever brighter, so that also who does not tell red from green, and a printer, shows the order. */
-static const unsigned char COLOURS[][3] = {{104, 140, 224}, {64, 168, 208}, {72, 190, 160}, {140, 210, 110}, {214, 222, 84}, {255, 240, 150}};
+/* From blue by green to yellow, ever brighter, so that also who does not tell red from green, and a printer, shows the
+ * order. */
+static const unsigned char COLOURS[][3] = {{104, 140, 224}, {64, 168, 208}, {72, 190, 160},
+                                           {140, 210, 110}, {214, 222, 84}, {255, 240, 150}};
 enum { COLOUR_COUNT = sizeof COLOURS / sizeof *COLOURS };
 /* What is less than this is rounding: all of it has the first colour. */
 static const double NOTHING = 1e-9;
@@ -13,7 +15,8 @@ static void colour_at(double part, unsigned char rgb[3])
 {
     const double at = fmax(0, fmin(1, part)) * (COLOUR_COUNT - 1);
     const int i = at < COLOUR_COUNT - 1 ? (int)at : COLOUR_COUNT - 2;
-    for (int k = 0; k < 3; k++) rgb[k] = (unsigned char)(COLOURS[i][k] + (at - i) * (COLOURS[i + 1][k] - COLOURS[i][k]) + 0.5);
+    for (int k = 0; k < 3; k++)
+        rgb[k] = (unsigned char)(COLOURS[i][k] + (at - i) * (COLOURS[i + 1][k] - COLOURS[i][k]) + 0.5);
 }
 
 /* An edge in frame k against the pattern given. */
@@ -56,7 +59,9 @@ rg_tint_scale rg_tint_of(const rg_motion *m, rg_colouring by)
 /* How a facet is moved against those that lie in its plane, -1 ... 1, upwards on the stage. */
 static double layer(const rg_vec3 *lift, int32_t f, double most)
 {
-    const double length = rg_vec3_length(lift[f]), up = lift[f].z != 0 ? lift[f].z : lift[f].x != 0 ? lift[f].x : lift[f].y;
+    const double length = rg_vec3_length(lift[f]), up = lift[f].z != 0   ? lift[f].z
+                                                        : lift[f].x != 0 ? lift[f].x
+                                                                         : lift[f].y;
     return most > 0 ? (up < 0 ? -1 : 1) * length / most : 0;
 }
 
@@ -66,8 +71,11 @@ void rg_tint_facets(const rg_tint_scale *t, const rg_motion *m, int32_t k, const
     for (int32_t f = 0; t->by == RG_COLOUR_LAYER && f < m->mesh.nf; f++) most = fmax(most, rg_vec3_length(lift[f]));
     for (int32_t f = 0; f < m->mesh.nf; f++) {
         double value = 0;
-        for (int32_t j = m->mesh.facet_start[f]; j < m->mesh.facet_start[f + 1]; j++) value = fmax(value, value_at(t, m, k, j));
-        const double part = t->by == RG_COLOUR_LAYER ? 0.5 + 0.5 * layer(lift, f, most) : t->most > NOTHING ? value / t->most : 0;
+        for (int32_t j = m->mesh.facet_start[f]; j < m->mesh.facet_start[f + 1]; j++)
+            value = fmax(value, value_at(t, m, k, j));
+        const double part = t->by == RG_COLOUR_LAYER ? 0.5 + 0.5 * layer(lift, f, most)
+                            : t->most > NOTHING      ? value / t->most
+                                                     : 0;
         colour_at(part, rgb[f]);
     }
 }

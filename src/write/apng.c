@@ -37,7 +37,8 @@ static rg_status put_chunk(rg_apng *a, const char *kind, const unsigned char *da
     memcpy(big_endian(head, (uint32_t)n, 4), kind, 4);
     big_endian(tail, (uint32_t)crc, 4);
     errno = 0;
-    const int done = fwrite(head, 1, 8, a->file) == 8 && fwrite(data, 1, n, a->file) == n && fwrite(tail, 1, 4, a->file) == 4;
+    const int done =
+        fwrite(head, 1, 8, a->file) == 8 && fwrite(data, 1, n, a->file) == n && fwrite(tail, 1, 4, a->file) == 4;
     return done ? RG_OK : rg_fail(RG_EWRITE, why, 0, "%s", strerror(errno));
 }
 
@@ -60,7 +61,8 @@ static rg_status put_head(rg_apng *a, int32_t frames, int for_ever, rg_diag *why
 static void set_delay(rg_apng *a, double fps)
 {
     unsigned times = 1;
-    while (times < 1000 && fabs(fps * times - floor(fps * times + 0.5)) > 1e-9 && 10 * fps * times <= 65535) times *= 10;
+    while (times < 1000 && fabs(fps * times - floor(fps * times + 0.5)) > 1e-9 && 10 * fps * times <= 65535)
+        times *= 10;
     a->delay = times;
     a->unit = (unsigned)(fps * times + 0.5);
 }
@@ -103,7 +105,8 @@ static size_t gather(rg_apng *a, const unsigned char *rgb, const rg_change *c)
 /* The delay times `times`, as a fraction of two numbers of 16 bits: hundredths where it is long. */
 static unsigned char *put_delay(const rg_apng *a, double times, unsigned char *to)
 {
-    const double n = floor(a->delay * times + 0.5), hundredths = fmin(65535, floor(100.0 * a->delay / a->unit * times + 0.5));
+    const double n = floor(a->delay * times + 0.5),
+                 hundredths = fmin(65535, floor(100.0 * a->delay / a->unit * times + 0.5));
     if (n <= 65535) return big_endian(big_endian(to, (uint32_t)n, 2), a->unit, 2);
     return big_endian(big_endian(to, (uint32_t)hundredths, 2), 100, 2);
 }

@@ -2,7 +2,8 @@
 
 #include <string.h>
 
-rg_change rg_change_find(const unsigned char *now, const unsigned char *before, int32_t width, int32_t height, int bytes)
+rg_change rg_change_find(const unsigned char *now, const unsigned char *before, int32_t width, int32_t height,
+                         int bytes)
 {
     const size_t row = (size_t)width * (size_t)bytes;
     int32_t top = height, bottom = -1;

@@ -10,6 +10,7 @@ typedef struct rg_change { int32_t left, top, width, height; } rg_change;
 
 /* Pictures of `bytes` bytes a pixel, width and height above 0. before NULL: all of it. Where nothing changed it is the
  * first pixel: animations have no empty frames. */
-rg_change rg_change_find(const unsigned char *now, const unsigned char *before, int32_t width, int32_t height, int bytes);
+rg_change rg_change_find(const unsigned char *now, const unsigned char *before, int32_t width, int32_t height,
+                         int bytes);
 
 #endif

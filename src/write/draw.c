@@ -26,7 +26,8 @@ static rg_status draw(const rg_motion *one, const rg_picture *p, unsigned char *
     rg_status s = p->image ? rg_png_read(&one->mem, p->image, &print.width, &print.height, &rgba, why) : RG_OK;
     if (s != RG_OK) return s;
     print.rgba = rgba;
-    const rg_frames f = {.picture = *p, .print = p->image ? &print : NULL, .step = 1, .threads = 1, .take = take, .ctx = &to};
+    const rg_frames f = {
+        .picture = *p, .print = p->image ? &print : NULL, .step = 1, .threads = 1, .take = take, .ctx = &to};
     s = rg_frames_draw(one, &f, why);
     rg_mem_free(&one->mem, rgba);
     return s;
@@ -37,7 +38,8 @@ rg_status rg_motion_draw(const rg_motion *m, int32_t frame, const rg_picture *pi
     rg_picture p;
     rg_status s = rg_picture_take(picture, &p, why);
     if (s != RG_OK) return s;
-    if (frame < 0 || frame >= m->report.frame_count) return rg_fail(RG_EARG, why, 0, "there is no frame %d", (int)frame);
+    if (frame < 0 || frame >= m->report.frame_count)
+        return rg_fail(RG_EARG, why, 0, "there is no frame %d", (int)frame);
     rg_motion one = *m;
     const size_t k = (size_t)frame, N = (size_t)m->mesh.N, nv = (size_t)m->mesh.nv;
     one.rho += k * N;

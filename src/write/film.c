@@ -65,8 +65,8 @@ static rg_status name_it(rg_status s, const char *path, rg_diag *why)
 
 /* ---- pictures, each in its file */
 
-static rg_status write_png(const rg_memory *mem, const rg_dest *to, const rg_picture *p, const unsigned char *rgb, const char *run,
-                           rg_diag *why)
+static rg_status write_png(const rg_memory *mem, const rg_dest *to, const rg_picture *p, const unsigned char *rgb,
+                           const char *run, rg_diag *why)
 {
     rg_file file;
     rg_status s = rg_file_begin_to_swept(&file, mem, to, why);
@@ -182,7 +182,8 @@ static rg_status write_folder(const rg_motion *m, const char *path, rg_frames *f
     rg_status s = RG_OK;
     const int made = mkdir(path, 0777) == 0, reason = errno;
     if (!made && (stat(path, &is) != 0 || !S_ISDIR(is.st_mode)))
-        s = rg_fail(RG_EWRITE, why, 0, "%.150s: cannot make this folder: %s", path, strerror(reason == EEXIST ? ENOTDIR : reason));
+        s = rg_fail(RG_EWRITE, why, 0, "%.150s: cannot make this folder: %s", path,
+                    strerror(reason == EEXIST ? ENOTDIR : reason));
     if (s == RG_OK) s = write_numbered(m, pattern, f, why);
     if (s != RG_OK && made) rmdir(path); /* stays if there is something in it */
     rg_mem_free(&m->mem, pattern);
@@ -242,8 +243,11 @@ static strip strip_of(const rg_motion *m, const rg_picture *p)
 {
     const int32_t last = m->report.frame_count - 1;
     const double rest = p->hold * p->fps;
-    return (strip){.last = last, .first_times = last > 0 && p->loop != RG_LOOP_ONCE ? 1 + 0.5 * rest : 1, .last_times = 1 + rest,
-                   .goes_back = p->loop == RG_LOOP_BACK, .reel = {.pixels = (size_t)p->width * (size_t)p->height}};
+    return (strip){.last = last,
+                   .first_times = last > 0 && p->loop != RG_LOOP_ONCE ? 1 + 0.5 * rest : 1,
+                   .last_times = 1 + rest,
+                   .goes_back = p->loop == RG_LOOP_BACK,
+                   .reel = {.pixels = (size_t)p->width * (size_t)p->height}};
 }
 
 static int32_t pictures_of(const strip *f) { return f->last + 1 + (f->goes_back && f->last > 1 ? f->last - 1 : 0); }
@@ -272,7 +276,10 @@ static rg_status run_strip(const rg_motion *m, rg_frames *f, strip *film, rg_dia
     return s;
 }
 
-static rg_status add_gif(void *to, const unsigned char *rgb, double times, rg_diag *why) { return rg_gif_add(to, rgb, times, why); }
+static rg_status add_gif(void *to, const unsigned char *rgb, double times, rg_diag *why)
+{
+    return rg_gif_add(to, rgb, times, why);
+}
 
 static rg_status write_gif(const rg_motion *m, rg_file *file, rg_frames *f, rg_diag *why)
 {
@@ -281,7 +288,9 @@ static rg_status write_gif(const rg_motion *m, rg_file *file, rg_frames *f, rg_d
     strip film = strip_of(m, p);
     rg_gif *gif = NULL;
     rg_status s = choose_colours(m, f, &palette, why);
-    if (s == RG_OK) s = rg_gif_create(&m->mem, file->stream, p->width, p->height, p->fps, p->loop != RG_LOOP_ONCE, &palette, &gif, why);
+    if (s == RG_OK)
+        s = rg_gif_create(&m->mem, file->stream, p->width, p->height, p->fps, p->loop != RG_LOOP_ONCE, &palette, &gif,
+                          why);
     film.add = add_gif;
     film.to = gif;
     if (s == RG_OK) s = run_strip(m, f, &film, why);
@@ -291,15 +300,18 @@ static rg_status write_gif(const rg_motion *m, rg_file *file, rg_frames *f, rg_d
     return s;
 }
 
-static rg_status add_apng(void *to, const unsigned char *rgb, double times, rg_diag *why) { return rg_apng_add(to, rgb, times, why); }
+static rg_status add_apng(void *to, const unsigned char *rgb, double times, rg_diag *why)
+{
+    return rg_apng_add(to, rgb, times, why);
+}
 
 static rg_status write_apng(const rg_motion *m, rg_file *file, rg_frames *f, rg_diag *why)
 {
     const rg_picture *p = &f->picture;
     strip film = strip_of(m, p);
     rg_apng *apng = NULL;
-    rg_status s = rg_apng_create(&m->mem, file->stream, p->width, p->height, p->fps, pictures_of(&film), p->loop != RG_LOOP_ONCE, &apng,
-                                 why);
+    rg_status s = rg_apng_create(&m->mem, file->stream, p->width, p->height, p->fps, pictures_of(&film),
+                                 p->loop != RG_LOOP_ONCE, &apng, why);
     film.add = add_apng;
     film.to = apng;
     if (s == RG_OK) s = run_strip(m, f, &film, why);
@@ -369,8 +381,8 @@ static rg_status write_animation(const rg_motion *m, shape is, const rg_dest *to
     return name_it(s, to->path, why);
 }
 
-static rg_status write_any(const rg_motion *m, const char *path, int32_t frame, const rg_dest *to, const rg_picture *p, int32_t threads,
-                           rg_diag *why)
+static rg_status write_any(const rg_motion *m, const char *path, int32_t frame, const rg_dest *to, const rg_picture *p,
+                           int32_t threads, rg_diag *why)
 {
     rg_status s = rg_film_check(path, why);
     if (s == RG_OK) s = rg_picture_check(p, why);
@@ -392,11 +404,12 @@ static rg_status write_any(const rg_motion *m, const char *path, int32_t frame, 
     return s;
 }
 
-rg_status rg_film_write_to(const rg_motion *m, const char *form, int32_t frame, const rg_dest *to, const rg_picture *p, int32_t threads,
-                           rg_diag *why)
+rg_status rg_film_write_to(const rg_motion *m, const char *form, int32_t frame, const rg_dest *to, const rg_picture *p,
+                           int32_t threads, rg_diag *why)
 {
     const shape is = shape_of(form);
-    if (is == FOLDER || is == NUMBERED) return rg_fail(RG_EARG, why, 0, "%.150s: many files, and there is one place for them", form);
+    if (is == FOLDER || is == NUMBERED)
+        return rg_fail(RG_EARG, why, 0, "%.150s: many files, and there is one place for them", form);
     return write_any(m, form, frame, to, p, threads, why);
 }
 

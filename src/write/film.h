@@ -29,7 +29,7 @@ rg_status rg_film_write(const rg_motion *m, const char *path, const rg_picture *
 rg_status rg_film_write_by(const rg_motion *m, const char *path, const rg_picture *p, int32_t threads, rg_diag *why);
 
 /* One that is a single file, to any destination: `form` is a name that ends as it does. frame: of a single picture. */
-rg_status rg_film_write_to(const rg_motion *m, const char *form, int32_t frame, const rg_dest *to, const rg_picture *p, int32_t threads,
-                           rg_diag *why);
+rg_status rg_film_write_to(const rg_motion *m, const char *form, int32_t frame, const rg_dest *to, const rg_picture *p,
+                           int32_t threads, rg_diag *why);
 
 #endif

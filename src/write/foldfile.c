@@ -58,8 +58,10 @@ static void edges(rg_json *j, const rg_mesh *m)
     /* Border, flat and undecided edges have 0 in FOLD. */
     rg_json_open_line(j, "edges_foldAngle", '[');
     for (int32_t e = 0; e < m->ne; e++) {
-        const int folds = m->assignment[e] == RG_MOUNTAIN || m->assignment[e] == RG_VALLEY; /* free where nothing says how far: null */
-        rg_json_number(j, NULL, m->edge_crease[e] < 0 || (isnan(m->target[e]) && !folds) ? 0 : rg_number_degrees(m->target[e]));
+        const int folds = m->assignment[e] == RG_MOUNTAIN ||
+                          m->assignment[e] == RG_VALLEY; /* free where nothing says how far: null */
+        rg_json_number(j, NULL,
+                       m->edge_crease[e] < 0 || (isnan(m->target[e]) && !folds) ? 0 : rg_number_degrees(m->target[e]));
     }
     rg_json_close(j);
 }
@@ -118,10 +120,31 @@ static void sources(rg_json *j, const char *key, const int32_t *source, int32_t 
 /* What else the file that was read says, and which of its vertices, edges and faces ours are. */
 static rg_status rest(rg_json *j, const rg_motion *m)
 {
-    static const char *const ours[] = {"file_spec", "file_creator", "file_author", "file_title", "file_description", "file_classes", "file_frames",
-        "frame_classes", "frame_attributes", "frame_parent", "frame_inherit", "vertices_coords", "edges_vertices", "edges_assignment",
-        "edges_foldAngle", "edges_foldAngles", "edges_faces", "faces_vertices", "faces_edges", "faceOrders", "rigami:edges_added",
-        "rigami:vertices_source", "rigami:edges_source", "rigami:faces_source", NULL};
+    static const char *const ours[] = {"file_spec",
+                                       "file_creator",
+                                       "file_author",
+                                       "file_title",
+                                       "file_description",
+                                       "file_classes",
+                                       "file_frames",
+                                       "frame_classes",
+                                       "frame_attributes",
+                                       "frame_parent",
+                                       "frame_inherit",
+                                       "vertices_coords",
+                                       "edges_vertices",
+                                       "edges_assignment",
+                                       "edges_foldAngle",
+                                       "edges_foldAngles",
+                                       "edges_faces",
+                                       "faces_vertices",
+                                       "faces_edges",
+                                       "faceOrders",
+                                       "rigami:edges_added",
+                                       "rigami:vertices_source",
+                                       "rigami:edges_source",
+                                       "rigami:faces_source",
+                                       NULL};
     const rg_source *s = &m->source;
     const rg_mesh *mesh = &m->mesh;
     if (!s->frame) return RG_OK;

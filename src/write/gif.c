@@ -84,7 +84,8 @@ static int delay_of(const rg_gif *g, double times)
 
 static int put_frame(rg_gif *g, const rg_change *c, double times)
 {
-    const GraphicsControlBlock control = {DISPOSE_DO_NOT, false, delay_of(g, times), g->frames > 0 ? CLEAR : NO_TRANSPARENT_COLOR};
+    const GraphicsControlBlock control = {DISPOSE_DO_NOT, false, delay_of(g, times),
+                                          g->frames > 0 ? CLEAR : NO_TRANSPARENT_COLOR};
     GifByteType block[4];
     EGifGCBToExtension(&control, block);
     int ok = EGifPutExtension(g->gif, GRAPHICS_EXT_FUNC_CODE, sizeof block, block);

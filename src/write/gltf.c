@@ -17,9 +17,22 @@ enum { MOUNTAINS, VALLEYS, OTHERS, KINDS, FIRST_LINES = BACK + 1, LINES_MODE = 1
 static const unsigned char INK[KINDS][3] = {{200, 44, 44}, {36, 84, 190}, {120, 112, 108}}, EDGE_INK[3] = {84, 72, 66};
 static const double ROUGHNESS = 0.9;
 
-/* Parts of the buffer. What moves is turns and shifts of facets, or displacements of vertices and their weights. The last two are there
- * where a picture is printed on the front: where it is on the paper, and its file. */
-enum { POSITIONS, NORMALS, TRIANGLES, CREASES, TIMES, TURNS, SHIFTS, PRINT, IMAGE, PARTS, DISPLACEMENTS = TURNS, WEIGHTS = SHIFTS };
+/* Parts of the buffer. What moves is turns and shifts of facets, or displacements of vertices and their weights. The
+ * last two are there where a picture is printed on the front: where it is on the paper, and its file. */
+enum {
+    POSITIONS,
+    NORMALS,
+    TRIANGLES,
+    CREASES,
+    TIMES,
+    TURNS,
+    SHIFTS,
+    PRINT,
+    IMAGE,
+    PARTS,
+    DISPLACEMENTS = TURNS,
+    WEIGHTS = SHIFTS
+};
 
 typedef struct model {
     const rg_motion *m;
@@ -63,12 +76,26 @@ static unsigned char *vector(unsigned char *to, double x, double y, double z)
 
 static void lay_out(model *g)
 {
-    const size_t nf = (size_t)g->mesh->nf, nv = (size_t)g->mesh->nv, nt = (size_t)g->t.start[nf], frames = (size_t)g->frames;
-    const size_t size_of_facets[PARTS] = {12 * (size_t)g->mesh->facet_start[nf], 24 * (size_t)g->most, 24 * nt, 8 * (size_t)g->creases, 4 * frames,
-                                          16 * nf * frames, 12 * nf * frames, g->image ? 8 * (size_t)g->mesh->facet_start[nf] : 0,
+    const size_t nf = (size_t)g->mesh->nf, nv = (size_t)g->mesh->nv, nt = (size_t)g->t.start[nf],
+                 frames = (size_t)g->frames;
+    const size_t size_of_facets[PARTS] = {12 * (size_t)g->mesh->facet_start[nf],
+                                          24 * (size_t)g->most,
+                                          24 * nt,
+                                          8 * (size_t)g->creases,
+                                          4 * frames,
+                                          16 * nf * frames,
+                                          12 * nf * frames,
+                                          g->image ? 8 * (size_t)g->mesh->facet_start[nf] : 0,
                                           (g->image_bytes + 3) / 4 * 4};
-    const size_t size_of_morphs[PARTS] = {12 * nv, 0, 24 * nt, 8 * (size_t)g->creases, 4 * frames, 12 * nv * (frames - 1), 4 * (frames - 1) * frames,
-                                          g->image ? 8 * nv : 0, (g->image_bytes + 3) / 4 * 4};
+    const size_t size_of_morphs[PARTS] = {12 * nv,
+                                          0,
+                                          24 * nt,
+                                          8 * (size_t)g->creases,
+                                          4 * frames,
+                                          12 * nv * (frames - 1),
+                                          4 * (frames - 1) * frames,
+                                          g->image ? 8 * nv : 0,
+                                          (g->image_bytes + 3) / 4 * 4};
     for (int k = 0; k < PARTS; k++)
         g->start[k + 1] = g->start[k] + (g->morphs ? size_of_morphs[k] : size_of_facets[k]);
 }
@@ -126,7 +153,8 @@ static void triangles(model *g)
     }
 }
 
-/* The two ends of each crease: corners of the facet on its first side, which it goes with; or vertices of the sheet, kind by kind. */
+/* The two ends of each crease: corners of the facet on its first side, which it goes with; or vertices of the sheet,
+ * kind by kind. */
 static void crease_ends(model *g)
 {
     const rg_mesh *mesh = g->mesh;
@@ -157,7 +185,8 @@ static rg_status turns_and_shifts(model *g)
             const size_t at = (size_t)f * (size_t)g->frames + (size_t)k;
             const rg_vec3 centre = {g->centre[f].x, g->centre[f].y, 0};
             const rg_turn q = rg_turn_from_matrix(&g->place[f].R, g->last_turn[f]);
-            const rg_vec3 shift = rg_vec3_sub(rg_vec3_add(rg_mat3_mul_vec(g->place[f].R, centre), g->place[f].t), middle);
+            const rg_vec3 shift =
+                rg_vec3_sub(rg_vec3_add(rg_mat3_mul_vec(g->place[f].R, centre), g->place[f].t), middle);
             rg_bytes_f32(vector(g->bytes + g->start[TURNS] + 16 * at, q.x, q.y, q.z), q.w);
             vector(g->bytes + g->start[SHIFTS] + 12 * at, shift.x, shift.y, shift.z);
             g->last_turn[f] = q;
@@ -167,8 +196,8 @@ static rg_status turns_and_shifts(model *g)
     return RG_OK;
 }
 
-/* The mesh is the last frame, for viewers without morphs; displacements are from there as it was rounded, so that roundings
- * don't add up. Weight k is 1 in frame k. */
+/* The mesh is the last frame, for viewers without morphs; displacements are from there as it was rounded, so that
+ * roundings don't add up. Weight k is 1 in frame k. */
 static rg_status displacements(model *g)
 {
     rg_status s = rg_motion_place_centred(g->m, g->frames - 1, g->last);
@@ -219,7 +248,8 @@ static rg_status fill(model *g)
 static void model_free(model *g)
 {
     const rg_memory *mem = &g->m->mem;
-    void *block[] = {g->bytes, g->centre, g->place, g->x, g->last, g->last_turn, g->last_shift, g->normals_of, g->image};
+    void *block[] = {g->bytes,     g->centre,     g->place,      g->x,    g->last,
+                     g->last_turn, g->last_shift, g->normals_of, g->image};
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(mem, block[i]);
     rg_triangles_free(&g->t);
 }
@@ -296,7 +326,8 @@ static void accessor(rg_json *j, model *g, int part, size_t offset, size_t n, in
     g->accessors++;
 }
 
-/* Accessor 0 is the times; then five a facet: corners, front, back, turns, shifts; then normals by number of corners. */
+/* Accessor 0 is the times; then five a facet: corners, front, back, turns, shifts; then normals by number of corners.
+ */
 static int32_t accessor_of(int32_t f) { return 1 + 5 * f; }
 
 static void facet_accessors(rg_json *j, model *g)
@@ -363,7 +394,8 @@ static void views(rg_json *j, const model *g)
         rg_json_open_line(j, NULL, '{');
         rg_json_integer(j, "buffer", 0);
         rg_json_integer(j, "byteOffset", (int64_t)g->start[k]);
-        rg_json_integer(j, "byteLength", k == IMAGE ? (int64_t)g->image_bytes : (int64_t)(g->start[k + 1] - g->start[k]));
+        rg_json_integer(j, "byteLength",
+                        k == IMAGE ? (int64_t)g->image_bytes : (int64_t)(g->start[k + 1] - g->start[k]));
         if (vertices) rg_json_integer(j, "byteStride", k == PRINT ? 8 : 12);
         if (vertices || target[k]) rg_json_integer(j, "target", vertices ? VERTICES : target[k]);
         rg_json_close(j);
@@ -428,7 +460,8 @@ static void name_of(const rg_mesh *mesh, int32_t crease, char name[24])
     snprintf(name, 24, "c%d_%c", (int)crease, mesh->assignment[mesh->crease_edge[crease]]);
 }
 
-/* Lines without normals, which viewers show in their own colour whatever the light. Those of a kind are named in their order. */
+/* Lines without normals, which viewers show in their own colour whatever the light. Those of a kind are named in their
+ * order. */
 static void lines(rg_json *j, const model *g, int kind, int32_t position, int32_t indices)
 {
     rg_json_open_line(j, NULL, '{');
@@ -455,7 +488,8 @@ static void lines(rg_json *j, const model *g, int kind, int32_t position, int32_
 }
 
 /* print: accessor of places in the picture, -1: none. */
-static void primitive(rg_json *j, const model *g, int side, int32_t position, int32_t normal, int32_t indices, int32_t print)
+static void primitive(rg_json *j, const model *g, int side, int32_t position, int32_t normal, int32_t indices,
+                      int32_t print)
 {
     rg_json_open_line(j, NULL, '{');
     rg_json_open(j, "attributes", '{');
@@ -478,7 +512,9 @@ static void meshes(rg_json *j, const model *g)
         for (int side = FRONT; side <= BACK; side++) {
             const int32_t print = g->image && side == FRONT ? g->print + f : -1;
             if (g->morphs) primitive(j, g, side, MORPH_POSITION, 0, MORPH_FRONT + side, print);
-            else primitive(j, g, side, accessor_of(f), g->normals_of[corners(g->mesh, f)] + side, accessor_of(f) + 1 + side, print);
+            else
+                primitive(j, g, side, accessor_of(f), g->normals_of[corners(g->mesh, f)] + side,
+                          accessor_of(f) + 1 + side, print);
         }
         for (int k = 0, next = g->lines; g->morphs && k < KINDS; k++)
             if (g->of_kind[k + 1] > g->of_kind[k]) lines(j, g, k, MORPH_POSITION, next++);
@@ -617,7 +653,11 @@ static size_t describe(model *g, const char *uri, FILE *out)
     material(j, "front", g->p->front, g->image != NULL);
     material(j, "back", g->p->back, 0);
     for (int k = 0; g->creases > 0 && k < KINDS; k++)
-        material(j, k == MOUNTAINS ? "mountain" : k == VALLEYS ? "valley" : "crease", g->p->lines == RG_LINES_EDGES ? EDGE_INK : INK[k], 0);
+        material(j,
+                 k == MOUNTAINS ? "mountain"
+                 : k == VALLEYS ? "valley"
+                                : "crease",
+                 g->p->lines == RG_LINES_EDGES ? EDGE_INK : INK[k], 0);
     rg_json_close(j);
     if (g->image) picture(j, g);
     rg_json_open(j, "accessors", '[');

@@ -50,12 +50,13 @@ static rg_status bytes(rg_json *j, const book *b, const char *key, const unsigne
 static rg_status points(rg_json *j, const book *b, const char *key, const rg_vec2 *X)
 {
     unsigned char *to = b->bytes;
-    for (int32_t v = 0; v < b->mesh->nv; v++) to = rg_bytes_f32(rg_bytes_f32(to, X[v].x - b->middle.x), X[v].y - b->middle.y);
+    for (int32_t v = 0; v < b->mesh->nv; v++)
+        to = rg_bytes_f32(rg_bytes_f32(to, X[v].x - b->middle.x), X[v].y - b->middle.y);
     return bytes(j, b, key, to);
 }
 
-/* The sheet: how many corners each facet has, the vertex and the edge that begin at each, triangles by places among the corners; the
- * edges' ends and assignments; the pattern given. */
+/* The sheet: how many corners each facet has, the vertex and the edge that begin at each, triangles by places among the
+ * corners; the edges' ends and assignments; the pattern given. */
 static rg_status sheet(rg_json *j, book *b)
 {
     const rg_mesh *m = b->mesh;
@@ -110,8 +111,9 @@ static rg_status one_frame(rg_json *j, book *b, int32_t k)
     return s;
 }
 
-/* What the last frame, whose places and lifts are in b, needs besides where its layers lie in a circle: pieces of facets, with the side
- * that begins at each corner, where that is in the pattern, and how far each piece is moved from its facet. */
+/* What the last frame, whose places and lifts are in b, needs besides where its layers lie in a circle: pieces of
+ * facets, with the side that begins at each corner, where that is in the pattern, and how far each piece is moved from
+ * its facet. */
 static rg_status patches(rg_json *j, const book *b)
 {
     const rg_layers *l = rg_ending_layers(b->m, b->m->report.frame_count - 1);
@@ -153,11 +155,13 @@ static void told(rg_json *j, const rg_motion *m, const rg_tint_scale *t)
     const rg_report *r = &m->report;
     const int first = (int)strcspn(r->reason, ";"); /* what follows is for those who look into it */
     char stopped[sizeof r->reason + 60] = "", crosses[80] = "", colours[80], text[sizeof stopped + 200];
-    if (r->outcome == RG_STOPPED) rg_text(stopped, sizeof stopped, "Stopped short at %.1f %%: %.*s. ", r->folded_percent, first, r->reason);
+    if (r->outcome == RG_STOPPED)
+        rg_text(stopped, sizeof stopped, "Stopped short at %.1f %%: %.*s. ", r->folded_percent, first, r->reason);
     if (r->contact == RG_CONTACT_CROSSES)
         rg_text(crosses, sizeof crosses, "It passes through itself from %.1f %% on. ", r->first_contact_percent);
     rg_tint_words(t, colours, sizeof colours);
-    rg_text(text, sizeof text, "%s%s%s%s%s", stopped, crosses, *colours ? "Colours: " : "", colours, *colours ? "." : "");
+    rg_text(text, sizeof text, "%s%s%s%s%s", stopped, crosses, *colours ? "Colours: " : "", colours,
+            *colours ? "." : "");
     rg_json_string(j, "told", text);
     rg_json_number(j, "crosses", r->contact == RG_CONTACT_CROSSES ? r->first_contact_percent : NAN); /* null: nowhere */
 }
@@ -223,7 +227,11 @@ static rg_status book_init(book *b, const rg_motion *m, const rg_picture *p)
 {
     const rg_memory *mem = &m->mem;
     const size_t nf = (size_t)m->mesh.nf, nv = (size_t)m->mesh.nv;
-    *b = (book){.m = m, .mesh = &m->mesh, .rigid = m->space == NULL, .middle = rg_motion_middle(m), .tint = rg_tint_of(m, p->colour)};
+    *b = (book){.m = m,
+                .mesh = &m->mesh,
+                .rigid = m->space == NULL,
+                .middle = rg_motion_middle(m),
+                .tint = rg_tint_of(m, p->colour)};
     for (int32_t k = 0; k < m->report.frame_count; k++)
         b->rigid &= memcmp(rg_motion_pattern(m, k), m->mesh.X, nv * sizeof *m->mesh.X) == 0;
     rg_status s = rg_triangles_init(mem, &m->mesh, &b->t);

@@ -40,7 +40,10 @@ static int32_t unfoldable_vertices(const rg_pattern *p)
 
 /* ------------------------------------------------------------------------------------------------- JSON ---- */
 
-static rg_vec2 own(const rg_pattern *p, double x, double y) { return rg_lines_own(&p->lines, (rg_vec2){x, y}, p->info.size); }
+static rg_vec2 own(const rg_pattern *p, double x, double y)
+{
+    return rg_lines_own(&p->lines, (rg_vec2){x, y}, p->info.size);
+}
 
 /* In the file's coordinates. */
 static void point(rg_json *j, const char *key, const rg_pattern *p, double x, double y)
@@ -208,26 +211,30 @@ static void title(const rg_pattern_info *i, FILE *out)
 static void counts(const rg_pattern_info *i, int32_t ways, FILE *out)
 {
     const char *unit = rg_unit_name(i->unit);
-    rg_text_to(out, "graph       %d %s, %d %s, %d %s; size %.6g%s%s\n", (int)i->vertices, plural(i->vertices, "vertex", "vertices"),
-            (int)i->edges, plural(i->edges, "edge", "edges"), (int)i->facets, plural(i->facets, "facet", "facets"), i->size,
-            unit ? " " : "", unit ? unit : "");
+    rg_text_to(out, "graph       %d %s, %d %s, %d %s; size %.6g%s%s\n", (int)i->vertices,
+               plural(i->vertices, "vertex", "vertices"), (int)i->edges, plural(i->edges, "edge", "edges"),
+               (int)i->facets, plural(i->facets, "facet", "facets"), i->size, unit ? " " : "", unit ? unit : "");
     rg_text_to(out, "creases     %d: %d mountain, %d valley", (int)i->creases, (int)i->mountains, (int)i->valleys);
     if (i->unassigned) rg_text_to(out, ", %d unassigned", (int)i->unassigned);
     if (i->flat) rg_text_to(out, ", %d flat", (int)i->flat);
     if (i->cuts) rg_text_to(out, ", %d %s", (int)i->cuts, plural(i->cuts, "slit", "slits"));
-    if (i->lost_creases) rg_text_to(out, "; %d more %s drawn, left out or taken for border", (int)i->lost_creases, plural(i->lost_creases, "is", "are"));
+    if (i->lost_creases)
+        rg_text_to(out, "; %d more %s drawn, left out or taken for border", (int)i->lost_creases,
+                   plural(i->lost_creases, "is", "are"));
     fputc('\n', out);
-    if (ways >= 0) rg_text_to(out, "mobility    %d %s to move once it has left flat\n", (int)ways, plural(ways, "way", "ways"));
+    if (ways >= 0)
+        rg_text_to(out, "mobility    %d %s to move once it has left flat\n", (int)ways, plural(ways, "way", "ways"));
 }
 
 static void model(const rg_pattern_info *i, FILE *out)
 {
-    rg_text_to(out, "model       M = %d interior %s, N = %d, N0 = %d border %s; N - 3M = %d\n", (int)i->interior_vertices,
-            plural(i->interior_vertices, "vertex", "vertices"), (int)i->creases, (int)i->boundary_edges,
-            plural(i->boundary_edges, "edge", "edges"), (int)i->degrees_of_freedom);
+    rg_text_to(out, "model       M = %d interior %s, N = %d, N0 = %d border %s; N - 3M = %d\n",
+               (int)i->interior_vertices, plural(i->interior_vertices, "vertex", "vertices"), (int)i->creases,
+               (int)i->boundary_edges, plural(i->boundary_edges, "edge", "edges"), (int)i->degrees_of_freedom);
     if (i->is_disk)
-        rg_text_to(out, "            cut into triangles: %d more %s, N0 - 3 = %d degrees of freedom\n", (int)triangulating_adds(i),
-                plural(triangulating_adds(i), "crease", "creases"), (int)i->boundary_edges - 3);
+        rg_text_to(out, "            cut into triangles: %d more %s, N0 - 3 = %d degrees of freedom\n",
+                   (int)triangulating_adds(i), plural(triangulating_adds(i), "crease", "creases"),
+                   (int)i->boundary_edges - 3);
     rg_text_to(out, "drawing     largest gap closed %.3g, smallest distance kept %.3g\n", i->merged_max, i->kept_min);
 }
 
@@ -238,7 +245,8 @@ static void likeness(const rg_likeness *l, int32_t all, FILE *out)
     if (l->turns && all > 1 && l->mirrors) rg_text_to(out, ", ");
     if (l->mirrors > listed(l)) rg_text_to(out, "%d ", (int)l->mirrors);
     for (int32_t i = 0; i < listed(l); i++)
-        rg_text_to(out, "%s%.4g", i ? ", " : plural(l->mirrors, "mirror at ", "mirrors at "), round(1e4 * l->mirror[i]) / 1e4);
+        rg_text_to(out, "%s%.4g", i ? ", " : plural(l->mirrors, "mirror at ", "mirrors at "),
+                   round(1e4 * l->mirror[i]) / 1e4);
     if (l->mirrors) rg_text_to(out, "%s degrees", l->mirrors > listed(l) ? " ..." : "");
 }
 
@@ -264,18 +272,24 @@ void rg_unfoldable_text(const rg_pattern *p, const rg_unfoldable *u, char text[2
     const size_t room = (size_t)(240 - n);
     switch (u->theorem) {
     case RG_KAWASAKI:
-        rg_text(text + n, room, "every other angle should add up to 180 degrees, and is %.4g degrees off (Kawasaki's theorem)", u->by);
+        rg_text(text + n, room,
+                "every other angle should add up to 180 degrees, and is %.4g degrees off (Kawasaki's theorem)", u->by);
         break;
     case RG_MAEKAWA:
         rg_text(text + n, room, "mountains and valleys differ by %.0f, and should by 2 (Maekawa's theorem)", u->by);
         break;
     case RG_DEGREE: rg_text(text + n, room, "%.0f creases meet, an odd number", u->by); break;
     case RG_BIG_LITTLE_BIG:
-        rg_text(text + n, room, "the smallest angle, by %.4g degrees, lies between two creases of one kind: one of them has to be the other (big-little-big)",
-                 u->by);
+        rg_text(text + n, room,
+                "the smallest angle, by %.4g degrees, lies between two creases of one kind: one of them has to be the "
+                "other (big-little-big)",
+                u->by);
         break;
     case RG_TARGETS:
-        rg_text(text + n, room, "the fold angles of the file contradict each other: with all of them the paper misses itself by %.4g degrees", u->by);
+        rg_text(text + n, room,
+                "the fold angles of the file contradict each other: with all of them the paper misses itself by %.4g "
+                "degrees",
+                u->by);
         break;
     }
 }
@@ -287,7 +301,8 @@ static const rg_unfoldable *worst(const rg_pattern *p)
     for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
         const rg_unfoldable *found = NULL;
         for (int32_t k = 0; k < p->unfoldables; k++)
-            if (p->unfoldable[k].theorem == order[i] && (!found || p->unfoldable[k].by > found->by)) found = &p->unfoldable[k];
+            if (p->unfoldable[k].theorem == order[i] && (!found || p->unfoldable[k].by > found->by))
+                found = &p->unfoldable[k];
         if (found) return found;
     }
     return NULL;
@@ -299,7 +314,9 @@ static void vertices(const rg_pattern *p, int32_t bad, int lists, FILE *out)
     const int32_t M = p->info.interior_vertices;
     if (M == 0) rg_text_to(out, "vertices    none inside the sheet\n");
     else if (bad == 0) rg_text_to(out, "vertices    each of %d inside the sheet can fold flat by itself\n", (int)M);
-    else rg_text_to(out, "vertices    %d of %d inside the sheet cannot fold flat%s\n", (int)bad, (int)M, lists || bad < 2 ? "" : "; -v lists them");
+    else
+        rg_text_to(out, "vertices    %d of %d inside the sheet cannot fold flat%s\n", (int)bad, (int)M,
+                   lists || bad < 2 ? "" : "; -v lists them");
     for (int32_t k = 0; lists && k < p->unfoldables; k++) {
         rg_unfoldable_text(p, &p->unfoldable[k], text);
         rg_text_to(out, "            %s\n", text);
@@ -310,13 +327,17 @@ static void closed_vertices(const rg_pattern *p, int lists, FILE *out)
 {
     const int32_t n = p->info.closed_vertices;
     if (n > 0)
-        rg_text_to(out, "closed      %d %s: a crease halves the angle of two that fold opposite ways, which locks them%s\n", (int)n,
-                plural(n, "vertex", "vertices"), lists ? "" : "; -v lists them");
+        rg_text_to(out,
+                   "closed      %d %s: a crease halves the angle of two that fold opposite ways, which locks them%s\n",
+                   (int)n, plural(n, "vertex", "vertices"), lists ? "" : "; -v lists them");
     for (int32_t k = 0; lists && k < p->closed_triples; k++) {
         const rg_closed *c = &p->closed[k];
-        const rg_vec2 at[] = {own(p, c->x, c->y), own(p, c->a[0], c->a[1]), own(p, c->c[0], c->c[1]), own(p, c->b[0], c->b[1])};
-        rg_text_to(out, "            (%.6g, %.6g): creases to (%.6g, %.6g), (%.6g, %.6g), (%.6g, %.6g), inside angle %.4g degrees\n", at[0].x, at[0].y,
-                at[1].x, at[1].y, at[2].x, at[2].y, at[3].x, at[3].y, c->inside_angle / RG_DEG);
+        const rg_vec2 at[] = {own(p, c->x, c->y), own(p, c->a[0], c->a[1]), own(p, c->c[0], c->c[1]),
+                              own(p, c->b[0], c->b[1])};
+        rg_text_to(out,
+                   "            (%.6g, %.6g): creases to (%.6g, %.6g), (%.6g, %.6g), (%.6g, %.6g), inside angle %.4g "
+                   "degrees\n",
+                   at[0].x, at[0].y, at[1].x, at[1].y, at[2].x, at[2].y, at[3].x, at[3].y, c->inside_angle / RG_DEG);
     }
 }
 
@@ -328,8 +349,8 @@ static void flat_folding(const rg_layers *l, FILE *out)
     rg_text_to(out, "folded flat ");
     switch (i.state) {
     case RG_LAYERS_VALID:
-        rg_text_to(out, "%s %s of its %d %s", i.count, strcmp(i.count, "1") == 0 ? "layer order" : "layer orders", (int)i.facets,
-                plural(i.facets, "facet", "facets"));
+        rg_text_to(out, "%s %s of its %d %s", i.count, strcmp(i.count, "1") == 0 ? "layer order" : "layer orders",
+                   (int)i.facets, plural(i.facets, "facet", "facets"));
         for (int32_t k = 0; i.parts > 1 && k < i.parts; k++)
             rg_text_to(out, "%s%.0f", k ? " x " : ": ", (double)rg_layers_part(l, k));
         fputc('\n', out);
@@ -372,7 +393,8 @@ static void traits(const rg_pattern *p, FILE *out)
         for (int32_t k = 0; k < p->lines.traits; k++) {
             const rg_trait *t = &p->lines.trait[k];
             if ((int)t->sort == sort)
-                rg_text_to(out, "%s%s: %d %s", n++ ? ", " : names[sort], t->name, (int)t->count, letter_name(t->assignment));
+                rg_text_to(out, "%s%s: %d %s", n++ ? ", " : names[sort], t->name, (int)t->count,
+                           letter_name(t->assignment));
         }
         if (n) fputc('\n', out);
     }
@@ -383,8 +405,9 @@ static void sheets(const rg_pattern *p, FILE *out)
     if (p->info.sheets < 2) return;
     rg_text_to(out, "sheets      %d; --sheet N takes one\n", (int)p->info.sheets);
     for (int32_t k = 0; k < p->info.sheets; k++)
-        rg_text_to(out, "            %d: %.6g x %.6g at (%.6g, %.6g), %d lines\n", (int)k + 1, p->piece[k].high[0] - p->piece[k].low[0],
-                p->piece[k].high[1] - p->piece[k].low[1], p->piece[k].low[0], p->piece[k].low[1], (int)p->piece[k].lines);
+        rg_text_to(out, "            %d: %.6g x %.6g at (%.6g, %.6g), %d lines\n", (int)k + 1,
+                   p->piece[k].high[0] - p->piece[k].low[0], p->piece[k].high[1] - p->piece[k].low[1],
+                   p->piece[k].low[0], p->piece[k].low[1], (int)p->piece[k].lines);
 }
 
 /* Creases by the numbers that they have in every output, as long as none are added. */
@@ -395,8 +418,8 @@ static void crease_list(const rg_pattern *p, FILE *out)
         const rg_edge *E = &p->E[e];
         if (E->assignment == RG_BORDER) continue;
         const rg_vec2 a = own(p, p->X[E->v[0]].x, p->X[E->v[0]].y), b = own(p, p->X[E->v[1]].x, p->X[E->v[1]].y);
-        rg_text_to(out, "            c%d %c, vertices %d and %d: (%.6g, %.6g) to (%.6g, %.6g)", (int)number++, E->assignment, (int)E->v[0], (int)E->v[1], a.x,
-                a.y, b.x, b.y);
+        rg_text_to(out, "            c%d %c, vertices %d and %d: (%.6g, %.6g) to (%.6g, %.6g)", (int)number++,
+                   E->assignment, (int)E->v[0], (int)E->v[1], a.x, a.y, b.x, b.y);
         if (isfinite(E->target)) rg_text_to(out, ", target %.6g", rg_number_degrees(E->target));
         if (E->where) rg_text_to(out, ", line %d", (int)E->where);
         fputc('\n', out);
@@ -406,13 +429,15 @@ static void crease_list(const rg_pattern *p, FILE *out)
 /* A sheet of more creases is not set in motion only to be counted. */
 enum { MOST_MOVED = 600 };
 
-/* Ways to move, by the rank of C a little off flat; -1: not known. Flat, to first order, there seem to be more (3.2). */
+/* Ways to move, by the rank of C a little off flat; -1: not known. Flat, to first order, there seem to be more (3.2).
+ */
 static rg_status mobility(const rg_pattern *p, int32_t *ways)
 {
     rg_settings s = rg_settings_default();
     rg_motion *m = NULL;
     *ways = -1;
-    if (!p->info.is_disk || rg_check_crowded(p) >= 0 || p->info.creases == 0 || p->info.creases > MOST_MOVED) return RG_OK;
+    if (!p->info.is_disk || rg_check_crowded(p) >= 0 || p->info.creases == 0 || p->info.creases > MOST_MOVED)
+        return RG_OK;
     s.memory = &p->mem;
     s.frames = 2;
     s.to = 0.05;
@@ -444,13 +469,15 @@ static void verdict(const rg_pattern *p, const rg_layers *l, FILE *out)
     if (l) layers = *rg_layers_get_info(l);
     if (!i->is_disk) {
         rg_text_to(out, "It cannot be folded here, for it is not one sheet without holes: %s.\n", i->not_disk);
-        if (i->cuts && p->lines.traits) rg_text_to(out, "Next: if such lines are creases, say with --line which way they fold.\n");
+        if (i->cuts && p->lines.traits)
+            rg_text_to(out, "Next: if such lines are creases, say with --line which way they fold.\n");
     } else if (rg_check_crowded(p) >= 0) {
         rg_check_crowded_text(p, rg_check_crowded(p), text);
         rg_text_to(out, "It cannot be folded here: %s.\n", text);
     } else if (i->creases == 0 && i->lost_creases > 0) {
         rg_text_to(out, "There is no crease to fold: all that are drawn (%d) are left out.\n", (int)i->lost_creases);
-        rg_text_to(out, p->lines.warnings ? "Next: draw them up to the lines that they should meet, or join them with --merge; the warnings say by how much.\n"
+        rg_text_to(out, p->lines.warnings ? "Next: draw them up to the lines that they should meet, or join them with "
+                                            "--merge; the warnings say by how much.\n"
                                           : "Next: draw them across the sheet: they lie on its border.\n");
     } else if (i->creases == 0) {
         rg_text_to(out, "There is no crease to fold.\n");
@@ -458,27 +485,36 @@ static void verdict(const rg_pattern *p, const rg_layers *l, FILE *out)
         rg_unfoldable_text(p, u, text);
         if (u->theorem == RG_TARGETS) {
             rg_text_to(out, "It cannot get to where it should: %s.\n", text);
-            rg_text_to(out, "Next: change an angle there, or leave one open (unassigned), or fold with --no-targets.\n");
+            rg_text_to(out,
+                       "Next: change an angle there, or leave one open (unassigned), or fold with --no-targets.\n");
         } else {
             rg_text_to(out, "It does not fold flat: %s.\n", text);
             rg_text_to(out, "Next: mend the creases there, or fold part of the way: rigami fold --to 50.\n");
         }
     } else if (layers.state == RG_LAYERS_NONE) {
-        rg_text_to(out, i->interior_vertices ? "Each vertex folds flat by itself, the sheet does not without passing through itself: %s.\n"
-                                             : "The sheet does not fold flat without passing through itself: %s.\n", layers.reason);
+        rg_text_to(out,
+                   i->interior_vertices
+                       ? "Each vertex folds flat by itself, the sheet does not without passing through itself: %s.\n"
+                       : "The sheet does not fold flat without passing through itself: %s.\n",
+                   layers.reason);
         rg_text_to(out, "Next: fold part of the way: rigami fold --to 50.\n");
     } else if (i->mountains + i->valleys == 0) {
         rg_text_to(out, "No crease says which way it folds: nothing will move.\n");
-        rg_text_to(out, "Next: draw mountains and valleys%s.\n", p->lines.traits ? ", or say with --line which lines they are" : "");
+        rg_text_to(out, "Next: draw mountains and valleys%s.\n",
+                   p->lines.traits ? ", or say with --line which lines they are" : "");
     } else if (is_still(p)) {
         rg_text_to(out, "Nothing will move: every fold angle of the file is 0.\n");
         rg_text_to(out, "Next: fold with --no-targets, which folds it flat.\n");
     } else if (i->closed_vertices) {
-        rg_text_to(out, "Each vertex folds flat by itself, but %d closed %s lock rigid facets: it needs creases added, or moved on the way.\n",
-                (int)i->closed_vertices, plural(i->closed_vertices, "vertex", "vertices"));
+        rg_text_to(out,
+                   "Each vertex folds flat by itself, but %d closed %s lock rigid facets: it needs creases added, or "
+                   "moved on the way.\n",
+                   (int)i->closed_vertices, plural(i->closed_vertices, "vertex", "vertices"));
         rg_text_to(out, "Next: rigami fold does so by itself, and says by how much.\n");
     } else if (i->degrees_of_freedom <= 0) {
-        rg_text_to(out, "It may fold: nothing here speaks against it, but its creases have to agree with each other on the way.\n");
+        rg_text_to(
+            out,
+            "It may fold: nothing here speaks against it, but its creases have to agree with each other on the way.\n");
     } else {
         rg_text_to(out, "It is likely to fold: nothing here speaks against it.\n");
     }
@@ -521,9 +557,15 @@ static rg_status write_text(const rg_pattern *p, int lists, const rg_dest *to, r
     return s;
 }
 
-rg_status rg_info_write(const rg_pattern *p, const char *file, rg_diag *why) { return write_json(p, &(rg_dest){file, NULL}, why); }
+rg_status rg_info_write(const rg_pattern *p, const char *file, rg_diag *why)
+{
+    return write_json(p, &(rg_dest){file, NULL}, why);
+}
 
-rg_status rg_info_write_to(const rg_pattern *p, const rg_sink *sink, rg_diag *why) { return write_json(p, &(rg_dest){NULL, sink}, why); }
+rg_status rg_info_write_to(const rg_pattern *p, const rg_sink *sink, rg_diag *why)
+{
+    return write_json(p, &(rg_dest){NULL, sink}, why);
+}
 
 rg_status rg_info_text(const rg_pattern *p, int lists, const char *file, rg_diag *why)
 {

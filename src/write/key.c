@@ -19,12 +19,16 @@ static uint64_t add(uint64_t key, const void *bytes, size_t n)
     return key;
 }
 
-static uint64_t add_text(uint64_t key, const char *text) { return text ? add(key, text, strlen(text) + 1) : add(key, "", 1); }
+static uint64_t add_text(uint64_t key, const char *text)
+{
+    return text ? add(key, text, strlen(text) + 1) : add(key, "", 1);
+}
 
 static uint64_t add_motion(uint64_t key, const rg_motion *m)
 {
     const rg_mesh *g = &m->mesh;
-    const size_t nv = (size_t)g->nv, ne = (size_t)g->ne, nf = (size_t)g->nf, N = (size_t)g->N, frames = (size_t)m->report.frame_count;
+    const size_t nv = (size_t)g->nv, ne = (size_t)g->ne, nf = (size_t)g->nf, N = (size_t)g->N,
+                 frames = (size_t)m->report.frame_count;
     key = add(add(add(key, &nv, sizeof nv), &ne, sizeof ne), &frames, sizeof frames);
     key = add(add(key, g->X, nv * sizeof *g->X), g->edge, ne * sizeof *g->edge);
     key = add(add(key, g->assignment, ne), g->facet_start, (nf + 1) * sizeof *g->facet_start);
@@ -39,8 +43,10 @@ static uint64_t add_motion(uint64_t key, const rg_motion *m)
 /* Field by field: between them is what nobody has set. What only films and models go by is not among them. */
 static uint64_t add_picture(uint64_t key, const rg_picture *p)
 {
-    const double numbers[] = {p->azimuth, p->elevation, p->zoom, p->target[0], p->target[1], p->line_width, p->see_through};
-    const int32_t whole[] = {p->width, p->height, p->aimed, p->targeted, (int32_t)p->lines, p->shadow, p->caption, (int32_t)p->colour};
+    const double numbers[] = {p->azimuth,   p->elevation,  p->zoom,       p->target[0],
+                              p->target[1], p->line_width, p->see_through};
+    const int32_t whole[] = {p->width,          p->height, p->aimed,   p->targeted,
+                             (int32_t)p->lines, p->shadow, p->caption, (int32_t)p->colour};
     key = add(add(key, numbers, sizeof numbers), whole, sizeof whole);
     key = add(add(add(key, p->front, 3), p->back, 3), p->background, 3);
     return add_text(key, p->title);
@@ -50,7 +56,9 @@ const char *rg_key_of(const rg_motion *m, const rg_picture *p, const rg_print *p
 {
     uint64_t key = add_text(UINT64_C(0xcbf29ce484222325), RG_VERSION);
     key = add_picture(add_motion(key, m), p);
-    if (print) key = add(add(key, &print->width, sizeof print->width), print->rgba, 4 * (size_t)print->width * (size_t)print->height);
+    if (print)
+        key = add(add(key, &print->width, sizeof print->width), print->rgba,
+                  4 * (size_t)print->width * (size_t)print->height);
     snprintf(text, RG_KEY_ROOM, "%016" PRIx64, key);
     return text;
 }

@@ -11,8 +11,8 @@ typedef struct rg_numbered {
     const char *after;
 } rg_numbered;
 
-/* Looks for %d or %04d (any digit for the 4) in the last part of a path; borrows `path`. Returns how many there are: with
- * one, *n says where it is. A % of another kind is part of the name. */
+/* Looks for %d or %04d (any digit for the 4) in the last part of a path; borrows `path`. Returns how many there are:
+ * with one, *n says where it is. A % of another kind is part of the name. */
 int rg_numbered_find(const char *path, rg_numbered *n);
 /* Bytes that a name takes, with its end. */
 size_t rg_numbered_room(const rg_numbered *n);

@@ -10,7 +10,8 @@ static void vertices(const rg_vec3 *x, int32_t n, FILE *out)
 {
     char a[RG_NUMBER_ROOM], b[RG_NUMBER_ROOM], c[RG_NUMBER_ROOM];
     for (int32_t v = 0; v < n; v++)
-        fprintf(out, "v %s %s %s\n", rg_number_print(a, x[v].x), rg_number_print(b, x[v].y), rg_number_print(c, x[v].z));
+        fprintf(out, "v %s %s %s\n", rg_number_print(a, x[v].x), rg_number_print(b, x[v].y),
+                rg_number_print(c, x[v].z));
 }
 
 /* Both sides of the paper, a group each, and each facet by its number. */
@@ -20,7 +21,8 @@ static void facets(const rg_mesh *m, FILE *out)
         for (int32_t f = 0; f < m->nf; f++) {
             const int32_t from = m->facet_start[f], n = m->facet_start[f + 1] - from;
             fprintf(out, "g %s facet%d\nf", back ? "back" : "front", (int)f);
-            for (int32_t k = 0; k < n; k++) fprintf(out, " %d", (int)m->facet_vertex[from + (back ? n - 1 - k : k)] + 1);
+            for (int32_t k = 0; k < n; k++)
+                fprintf(out, " %d", (int)m->facet_vertex[from + (back ? n - 1 - k : k)] + 1);
             fputc('\n', out);
         }
 }

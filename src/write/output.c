@@ -69,7 +69,8 @@ void rg_output_sweep(const char *path, int mine)
     const size_t length = strlen(path);
     const int is_folder = length > 0 && (path[length - 1] == '/' || (stat(path, &is) == 0 && S_ISDIR(is.st_mode)));
     const int numbered = !is_folder && rg_numbered_find(path, &n) == 1;
-    const int wrote = snprintf(start, sizeof start, "%.*s%s", numbered ? n.before : (int)length, path, is_folder ? "/" : "");
+    const int wrote =
+        snprintf(start, sizeof start, "%.*s%s", numbered ? n.before : (int)length, path, is_folder ? "/" : "");
     if (strcmp(path, "-") == 0 || wrote < 0 || wrote >= (int)sizeof start) return;
     rg_file_sweep(start, is_folder ? ".png" : numbered ? n.after : "", mine);
 }
@@ -98,7 +99,8 @@ static rg_status write_each(const rg_motion *m, const form *f, const rg_numbered
     rg_status s = name ? RG_OK : rg_fail(RG_ENOMEM, why, 0, "%.100s: out of memory", n->path);
     for (int32_t k = 0; s == RG_OK && k < m->report.frame_count; k++) {
         rg_numbered_name(n, k, name, room);
-        s = ends(p, (double)k / m->report.frame_count) ? cancelled(why) : write_one(m, f, k, p, &(rg_dest){name, NULL}, why);
+        s = ends(p, (double)k / m->report.frame_count) ? cancelled(why)
+                                                       : write_one(m, f, k, p, &(rg_dest){name, NULL}, why);
     }
     rg_mem_free(&m->mem, name);
     return s;
@@ -150,8 +152,8 @@ rg_status rg_motion_write(const rg_motion *m, const char *path, const rg_picture
     return s;
 }
 
-rg_status rg_motion_write_to(const rg_motion *m, const char *extension, int32_t frame, const rg_sink *sink, const rg_picture *picture,
-                             rg_diag *why)
+rg_status rg_motion_write_to(const rg_motion *m, const char *extension, int32_t frame, const rg_sink *sink,
+                             const rg_picture *picture, rg_diag *why)
 {
     enum { ROOM = 16 };
     rg_picture mine, *const p = &mine;
@@ -159,9 +161,11 @@ rg_status rg_motion_write_to(const rg_motion *m, const char *extension, int32_t 
     const form *f;
     char name[ROOM + 2] = "x";
     rg_status s = rg_picture_take(picture, p, why);
-    if (s == RG_OK && (extension[0] != '.' || strlen(extension) > ROOM || strchr(extension, '%') || strchr(extension, '/')))
+    if (s == RG_OK &&
+        (extension[0] != '.' || strlen(extension) > ROOM || strchr(extension, '%') || strchr(extension, '/')))
         s = rg_fail(RG_EARG, why, 0, "%.80s: no extension such as .glb", extension);
-    if (s == RG_OK && (frame < -1 || frame >= m->report.frame_count)) s = rg_fail(RG_EARG, why, 0, "there is no frame %d", (int)frame);
+    if (s == RG_OK && (frame < -1 || frame >= m->report.frame_count))
+        s = rg_fail(RG_EARG, why, 0, "there is no frame %d", (int)frame);
     if (s != RG_OK) return s;
     if (frame < 0) frame = m->report.frame_count - 1;
     strcat(name, extension);

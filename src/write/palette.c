@@ -138,7 +138,8 @@ rg_status rg_palette_choose(rg_palette *p)
     for (int t = 0; t < TINTS; t++) {
         const struct rg_tint *seen = &p->tint[t];
         if (!(seen->count > 0)) continue;
-        s[n] = (swatch){.weight = sqrt(seen->count), .tint = t}; /* the root: thin lines count for more than their area */
+        s[n] =
+            (swatch){.weight = sqrt(seen->count), .tint = t}; /* the root: thin lines count for more than their area */
         for (int k = 0; k < 3; k++) s[n].at[k] = seen->sum[k] / seen->count;
         n++;
     }

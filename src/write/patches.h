@@ -1,8 +1,9 @@
-/* patches.h -- of a flat end whose layers lie on each other in a circle, the pieces of facets that no one level a facet shows right.
+/* patches.h -- of a flat end whose layers lie on each other in a circle, the pieces of facets that no one level a facet
+ * shows right.
  * Uses  layers/layers.h        Used by  html.c
  *
- * Facets at one height each are in order everywhere but where the circle is cut (rg_layers_levels). There the facet that is on top, or
- * lowest, is drawn once more, over a cell of the overlap, above or below all others. */
+ * Facets at one height each are in order everywhere but where the circle is cut (rg_layers_levels). There the facet
+ * that is on top, or lowest, is drawn once more, over a cell of the overlap, above or below all others. */
 #ifndef RG_PATCHES_H
 #define RG_PATCHES_H
 

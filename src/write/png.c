@@ -33,7 +33,8 @@ static void write_bytes(png_structp png, png_bytep bytes, size_t n)
 static void flush(png_structp png) { (void)png; }
 
 /* Everything that libpng may jump out of is in here, so that nothing of the caller's is clobbered by the jump. */
-static rg_status write_all(png_structp png, png_infop info, int32_t width, int32_t height, const unsigned char *rgb, const char *run)
+static rg_status write_all(png_structp png, png_infop info, int32_t width, int32_t height, const unsigned char *rgb,
+                           const char *run)
 {
     if (setjmp(png_jmpbuf(png))) return RG_EWRITE;
     png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
@@ -56,7 +57,8 @@ static rg_status write_all(png_structp png, png_infop info, int32_t width, int32
     return RG_OK;
 }
 
-rg_status rg_png_write_of(FILE *file, int32_t width, int32_t height, const unsigned char *rgb, const char *run, rg_diag *why)
+rg_status rg_png_write_of(FILE *file, int32_t width, int32_t height, const unsigned char *rgb, const char *run,
+                          rg_diag *why)
 {
     if (width < 1 || height < 1)
         return rg_fail(RG_EARG, why, 0, "a picture of %d x %d pixels", (int)width, (int)height);
@@ -84,8 +86,8 @@ rg_status rg_png_write(FILE *file, int32_t width, int32_t height, const unsigned
 enum { LARGEST = 1 << 26 };
 
 /* Everything that libpng may jump out of; *rgba is the caller's, whatever happens. */
-static rg_status read_all(png_structp png, png_infop info, FILE *file, const rg_memory *mem, int32_t *width, int32_t *height,
-                          unsigned char **rgba)
+static rg_status read_all(png_structp png, png_infop info, FILE *file, const rg_memory *mem, int32_t *width,
+                          int32_t *height, unsigned char **rgba)
 {
     if (setjmp(png_jmpbuf(png))) return RG_EREAD;
     png_init_io(png, file);
@@ -113,7 +115,8 @@ static void on_read_error(png_structp png, png_const_charp words)
     png_longjmp(png, 1);
 }
 
-rg_status rg_png_read(const rg_memory *mem, const char *path, int32_t *width, int32_t *height, unsigned char **rgba, rg_diag *why)
+rg_status rg_png_read(const rg_memory *mem, const char *path, int32_t *width, int32_t *height, unsigned char **rgba,
+                      rg_diag *why)
 {
     errno = 0;
     FILE *file = fopen(path, "rb");

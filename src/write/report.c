@@ -85,7 +85,8 @@ static void frame_number(rg_json *j, const char *key, int32_t frame)
 
 static void contact(rg_json *j, const rg_report *r)
 {
-    static const char *const verdict[] = {[RG_CONTACT_UNCHECKED] = "unchecked", [RG_CONTACT_FREE] = "free", [RG_CONTACT_CROSSES] = "crosses"};
+    static const char *const verdict[] = {
+        [RG_CONTACT_UNCHECKED] = "unchecked", [RG_CONTACT_FREE] = "free", [RG_CONTACT_CROSSES] = "crosses"};
     rg_json_string(j, "contact", verdict[r->contact]);
     frame_number(j, "first_contact_frame", r->first_contact_frame);
     rg_json_number(j, "first_contact_percent", r->first_contact_percent);
@@ -264,7 +265,8 @@ rg_status rg_report_write(const rg_motion *m, double seconds_writing, double pea
     return write(m, seconds_writing, peak_bytes, &(rg_dest){file, NULL}, why);
 }
 
-rg_status rg_report_write_to(const rg_motion *m, double seconds_writing, double peak_bytes, const rg_sink *sink, rg_diag *why)
+rg_status rg_report_write_to(const rg_motion *m, double seconds_writing, double peak_bytes, const rg_sink *sink,
+                             rg_diag *why)
 {
     return write(m, seconds_writing, peak_bytes, &(rg_dest){NULL, sink}, why);
 }

@@ -4,8 +4,9 @@
 #include <stdlib.h>
 
 enum { UPPER, LOWER };
-/* Corners lie on a lattice of so many steps, as a power of two, over the farthest coordinate: well above the rounding of a fold, so that
- * what lies in one place does so to the bit, well below what a printer does, and exact in single precision (24 bits), with room to move. */
+/* Corners lie on a lattice of so many steps, as a power of two, over the farthest coordinate: well above the rounding
+ * of a fold, so that what lies in one place does so to the bit, well below what a printer does, and exact in single
+ * precision (24 bits), with room to move. */
 enum { STEPS = 22 };
 /* How corners are moved apart, in steps: along no axis, nor a plane of two. */
 static const rg_vec3 APART = {2, 3, 4};
@@ -13,9 +14,11 @@ static const rg_vec3 APART = {2, 3, 4};
 typedef struct solid {
     const rg_mesh *m;
     rg_vec3 *place[2]; /* [corners] of each corner of each facet, above and below */
-    int32_t *same[2];  /* [corners] the first corner of the same vertex that lies in the same place: corners are told apart by it */
+    int32_t *same[2];  /* [corners] the first corner of the same vertex that lies in the same place: corners are told
+                          apart by it */
     int32_t *facet;    /* [corners] */
-    int32_t *at;       /* [nv] a corner of each vertex: of an outer one that from which all others are reached counter-clockwise */
+    int32_t *
+        at; /* [nv] a corner of each vertex: of an outer one that from which all others are reached counter-clockwise */
     int32_t *ring;     /* [most] corners round the vertex at work */
     double step;       /* of the lattice */
     rg_solid_take take;
@@ -23,10 +26,19 @@ typedef struct solid {
 } solid;
 
 /* On the lattice; + 0: no negative nought, which would be another number to who compares bits. */
-static rg_vec3 on_lattice(double step, rg_vec3 v) { return (rg_vec3){step * round(v.x / step) + 0, step * round(v.y / step) + 0, step * round(v.z / step) + 0}; }
+static rg_vec3 on_lattice(double step, rg_vec3 v)
+{
+    return (rg_vec3){step * round(v.x / step) + 0, step * round(v.y / step) + 0, step * round(v.z / step) + 0};
+}
 
-static int32_t next_in_facet(const solid *s, int32_t j) { return j + 1 < s->m->facet_start[s->facet[j] + 1] ? j + 1 : s->m->facet_start[s->facet[j]]; }
-static int32_t before_in_facet(const solid *s, int32_t j) { return j > s->m->facet_start[s->facet[j]] ? j - 1 : s->m->facet_start[s->facet[j] + 1] - 1; }
+static int32_t next_in_facet(const solid *s, int32_t j)
+{
+    return j + 1 < s->m->facet_start[s->facet[j] + 1] ? j + 1 : s->m->facet_start[s->facet[j]];
+}
+static int32_t before_in_facet(const solid *s, int32_t j)
+{
+    return j > s->m->facet_start[s->facet[j]] ? j - 1 : s->m->facet_start[s->facet[j] + 1] - 1;
+}
 
 static int32_t corner_of(const rg_mesh *m, int32_t f, int32_t v)
 {
@@ -43,13 +55,20 @@ static int32_t over(const solid *s, int32_t edge, int32_t f, int32_t v)
 }
 
 /* Counter-clockwise round its vertex: over the edge that comes in. */
-static int32_t turn(const solid *s, int32_t j) { return over(s, s->m->facet_edge[before_in_facet(s, j)], s->facet[j], s->m->facet_vertex[j]); }
-static int32_t turn_back(const solid *s, int32_t j) { return over(s, s->m->facet_edge[j], s->facet[j], s->m->facet_vertex[j]); }
+static int32_t turn(const solid *s, int32_t j)
+{
+    return over(s, s->m->facet_edge[before_in_facet(s, j)], s->facet[j], s->m->facet_vertex[j]);
+}
+static int32_t turn_back(const solid *s, int32_t j)
+{
+    return over(s, s->m->facet_edge[j], s->facet[j], s->m->facet_vertex[j]);
+}
 
 static void triangle(const solid *s, int side_a, int32_t a, int side_b, int32_t b, int side_c, int32_t c)
 {
     const int32_t p = s->same[side_a][a], q = s->same[side_b][b], r = s->same[side_c][c];
-    if ((side_a == side_b && p == q) || (side_b == side_c && q == r) || (side_c == side_a && r == p)) return; /* nothing is between them */
+    if ((side_a == side_b && p == q) || (side_b == side_c && q == r) || (side_c == side_a && r == p))
+        return; /* nothing is between them */
     const rg_vec3 corner[] = {s->place[side_a][p], s->place[side_b][q], s->place[side_c][r]};
     s->take(s->ctx, corner);
 }
@@ -75,8 +94,8 @@ static int32_t go_round(const solid *s, int32_t v, int *closed)
 
 static int equal(rg_vec3 a, rg_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-/* Neighbours round a vertex whose corners lie in one place, as those of facets that lie flat beside each other do, have one corner, so
- * that no triangle has two corners there. */
+/* Neighbours round a vertex whose corners lie in one place, as those of facets that lie flat beside each other do, have
+ * one corner, so that no triangle has two corners there. */
 static void join(solid *s, int32_t n, int closed)
 {
     for (int side = UPPER; side <= LOWER; side++) {
@@ -86,7 +105,8 @@ static void join(solid *s, int32_t n, int closed)
         }
         /* The last ones may belong to the first. */
         const int32_t first = s->same[side][s->ring[0]];
-        for (int32_t i = n - 1; closed && i > 0 && equal(s->place[side][s->ring[i]], s->place[side][first]); i--) s->same[side][s->ring[i]] = first;
+        for (int32_t i = n - 1; closed && i > 0 && equal(s->place[side][s->ring[i]], s->place[side][first]); i--)
+            s->same[side][s->ring[i]] = first;
     }
 }
 
@@ -116,9 +136,9 @@ static int32_t part(solid *s, spot *list, int32_t n)
     return moved;
 }
 
-/* What lies in one place and is not one is moved apart, by less than one sees: STL knows corners by their places only, and takes what
- * lies on each other, as layers of folded paper do, for one. Who is moved may meet another: until none does. Each pass leaves every
- * place taken that was, and only those go on that find theirs taken, so that it ends. */
+/* What lies in one place and is not one is moved apart, by less than one sees: STL knows corners by their places only,
+ * and takes what lies on each other, as layers of folded paper do, for one. Who is moved may meet another: until none
+ * does. Each pass leaves every place taken that was, and only those go on that find theirs taken, so that it ends. */
 static rg_status move_apart(solid *s, const rg_memory *mem)
 {
     const int32_t corners = s->m->facet_start[s->m->nf];
@@ -179,7 +199,8 @@ static rg_vec3 normal_of(const rg_mesh *m, const rg_vec3 *x, int32_t f)
     rg_vec3 n = {0, 0, 0};
     const rg_vec3 o = x[m->facet_vertex[m->facet_start[f]]];
     for (int32_t j = m->facet_start[f] + 1; j + 1 < m->facet_start[f + 1]; j++)
-        n = rg_vec3_add(n, rg_vec3_cross(rg_vec3_sub(x[m->facet_vertex[j]], o), rg_vec3_sub(x[m->facet_vertex[j + 1]], o)));
+        n = rg_vec3_add(
+            n, rg_vec3_cross(rg_vec3_sub(x[m->facet_vertex[j]], o), rg_vec3_sub(x[m->facet_vertex[j + 1]], o)));
     return rg_vec3_scale(1 / rg_vec3_length(n), n);
 }
 
@@ -211,8 +232,8 @@ static void place(solid *s, const rg_vec3 *x, double thickness)
     }
 }
 
-rg_status rg_solid_make(const rg_memory *mem, const rg_mesh *m, const rg_triangles *t, const rg_vec3 *x, double thickness, rg_solid_take take,
-                        void *ctx)
+rg_status rg_solid_make(const rg_memory *mem, const rg_mesh *m, const rg_triangles *t, const rg_vec3 *x,
+                        double thickness, rg_solid_take take, void *ctx)
 {
     const size_t corners = (size_t)m->facet_start[m->nf];
     solid s = {.m = m, .take = take, .ctx = ctx};

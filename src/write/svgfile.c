@@ -37,7 +37,8 @@ static const rg_vec2 *farthest_pattern(const rg_motion *m)
     for (int32_t k = 0; m->flat && k < m->report.frame_count; k++) {
         const rg_vec2 *X = rg_motion_pattern(m, k);
         double distance = 0;
-        for (int32_t v = 0; v < m->mesh.nv; v++) distance = fmax(distance, rg_vec2_length(rg_vec2_sub(X[v], m->mesh.X[v])));
+        for (int32_t v = 0; v < m->mesh.nv; v++)
+            distance = fmax(distance, rg_vec2_length(rg_vec2_sub(X[v], m->mesh.X[v])));
         if (distance > most) most = distance, far = X;
     }
     return far;
@@ -79,13 +80,16 @@ static void head(const rg_motion *m, FILE *out)
         low = (rg_vec2){fmin(low.x, m->mesh.X[v].x), fmin(low.y, m->mesh.X[v].y)};
         high = (rg_vec2){fmax(high.x, m->mesh.X[v].x), fmax(high.y, m->mesh.X[v].y)};
     }
-    const double margin = MARGIN * m->mesh.size, width = high.x - low.x + 2 * margin, height = high.y - low.y + 2 * margin;
+    const double margin = MARGIN * m->mesh.size, width = high.x - low.x + 2 * margin,
+                 height = high.y - low.y + 2 * margin;
     const double scale = PIXELS / fmax(width, height);
     char a[RG_NUMBER_ROOM], b[RG_NUMBER_ROOM], c[RG_NUMBER_ROOM], d[RG_NUMBER_ROOM];
     fputs("<svg xmlns=\"http://www.w3.org/2000/svg\"", out);
     const double unit = r->pattern->unit; /* as large on paper as the file says, else as fits a screen */
-    fprintf(out, " width=\"%s%s\"", rg_number_print(a, unit > 0 ? 1000 * unit * width : scale * width), unit > 0 ? "mm" : "");
-    fprintf(out, " height=\"%s%s\"", rg_number_print(a, unit > 0 ? 1000 * unit * height : scale * height), unit > 0 ? "mm" : "");
+    fprintf(out, " width=\"%s%s\"", rg_number_print(a, unit > 0 ? 1000 * unit * width : scale * width),
+            unit > 0 ? "mm" : "");
+    fprintf(out, " height=\"%s%s\"", rg_number_print(a, unit > 0 ? 1000 * unit * height : scale * height),
+            unit > 0 ? "mm" : "");
     fprintf(out, " viewBox=\"%s %s %s %s\">\n<title>", rg_number_print(a, low.x - margin),
             rg_number_print(b, -high.y - margin), rg_number_print(c, width), rg_number_print(d, height));
     escaped(m->title && *m->title ? m->title : "crease pattern", out);

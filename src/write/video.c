@@ -61,8 +61,8 @@ static int wait_for(rg_video *v)
     return status;
 }
 
-/* In the child, between fork and exec: pictures come in, complaints go to a file, the rest goes nowhere. It ends with its parent,
- * whatever ends that and whatever it hangs in. Does not come back. */
+/* In the child, between fork and exec: pictures come in, complaints go to a file, the rest goes nowhere. It ends with
+ * its parent, whatever ends that and whatever it hangs in. Does not come back. */
 static void become(pid_t parent, const char *program, char *const argv[], int pictures, int complaints, int failure)
 {
     const int null = open("/dev/null", O_WRONLY);
@@ -75,7 +75,8 @@ static void become(pid_t parent, const char *program, char *const argv[], int pi
 #endif
     signal(SIGPIPE, SIG_DFL);
     pthread_sigmask(SIG_SETMASK, &none, NULL);
-    if (null >= 0 && dup2(pictures, STDIN_FILENO) >= 0 && dup2(null, STDOUT_FILENO) >= 0 && dup2(complaints, STDERR_FILENO) >= 0)
+    if (null >= 0 && dup2(pictures, STDIN_FILENO) >= 0 && dup2(null, STDOUT_FILENO) >= 0 &&
+        dup2(complaints, STDERR_FILENO) >= 0)
         execve(program, argv, environ);
     const int error = errno;
     if (write(failure, &error, sizeof error) < 0) _exit(126);
@@ -117,8 +118,8 @@ static int start(rg_video *v, const char *program, char *const argv[])
 /* x264 and VP9 at a quality where one sees no loss in flat colours, in the colours of BT.709, playable while it loads.
  * The same pictures give the same file: no date, no random numbers in it, threads that do not go by the processors.
  * Without -xerror, a disk that is full goes unnoticed by webm. */
-static int run(rg_video *v, const char *program, const char *output, const char *container, int32_t width, int32_t height,
-               double fps, const unsigned char background[3])
+static int run(rg_video *v, const char *program, const char *output, const char *container, int32_t width,
+               int32_t height, double fps, const unsigned char background[3])
 {
     char size[32], rate[32], filter[160];
     snprintf(size, sizeof size, "%dx%d", (int)width, (int)height);
@@ -128,12 +129,15 @@ static int run(rg_video *v, const char *program, const char *output, const char 
     static const char *const for_mp4[] = {"-crf", "18", "-preset", "medium", "-movflags", "+faststart"},
                       *const for_webm[] = {"-crf", "24", "-b:v", "0", "-cpu-used", "4"};
     const char *const *own = strcmp(container, "mp4") == 0 ? for_mp4 : for_webm;
-    const char *const words[] = {
-        "ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-xerror", "-y",
-        "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", rate, "-i", "pipe:0",
-        "-an", "-threads", "4", "-vf", filter, "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
-        own[0], own[1], own[2], own[3], own[4], own[5],
-        "-fflags", "+bitexact", "-flags:v", "+bitexact", "-f", container, output, NULL};
+    const char *const words[] = {"ffmpeg",    "-nostdin",   "-hide_banner", "-loglevel", "error",
+                                 "-xerror",   "-y",         "-f",           "rawvideo",  "-pix_fmt",
+                                 "rgb24",     "-s",         size,           "-r",        rate,
+                                 "-i",        "pipe:0",     "-an",          "-threads",  "4",
+                                 "-vf",       filter,       "-colorspace",  "bt709",     "-color_primaries",
+                                 "bt709",     "-color_trc", "bt709",        own[0],      own[1],
+                                 own[2],      own[3],       own[4],         own[5],      "-fflags",
+                                 "+bitexact", "-flags:v",   "+bitexact",    "-f",        container,
+                                 output,      NULL};
     char *argv[sizeof words / sizeof *words];
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) argv[i] = (char *)(uintptr_t)words[i];
     return start(v, program, argv);
@@ -162,7 +166,8 @@ rg_status rg_video_create(const rg_memory *mem, const char *path, const char *co
     return s;
 }
 
-/* Where the program is gone, a write raises SIGPIPE, which would end ours: it is held off, and taken away if it came. */
+/* Where the program is gone, a write raises SIGPIPE, which would end ours: it is held off, and taken away if it came.
+ */
 static int write_all(int fd, const unsigned char *bytes, size_t n)
 {
     sigset_t pipe, before, pending;

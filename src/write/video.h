@@ -1,9 +1,9 @@
 /* video.h -- an animation as MP4 or WebM, by the program ffmpeg.
  * Uses  base        Used by  film.c
  *
- * The program is the first ffmpeg in PATH. It is started without a shell, reads raw pictures from a pipe and writes into
- * the file given. Its standard output goes nowhere; what it complains of is told in why->text. On Linux it ends with this process,
- * whatever that ends by. */
+ * The program is the first ffmpeg in PATH. It is started without a shell, reads raw pictures from a pipe and writes
+ * into the file given. Its standard output goes nowhere; what it complains of is told in why->text. On Linux it ends
+ * with this process, whatever that ends by. */
 #ifndef RG_VIDEO_H
 #define RG_VIDEO_H
 
