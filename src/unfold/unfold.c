@@ -450,7 +450,8 @@ static rg_status attempt(rg_unfold *u, const try_ *t, double budget, const rg_un
         budget -= spent;
     }
     rg_proximity_free(&near);
-    if (s == RG_OK && opened.angle <= CLOSED && (t->open.grow || opened.worst >= -WRONG) && over(u, z) <= OVER && rg_linkage_least_area(&u->P, z + u->P.N) >= LEAST_AREA)
+    if (s == RG_OK && opened.angle <= CLOSED && (t->open.grow || (opened.worst >= -WRONG && over(u, z) <= OVER)) &&
+        rg_linkage_least_area(&u->P, z + u->P.N) >= LEAST_AREA)
         s = walk(u, &end, z, target, budget, t->open.grow, wish, through);
     rg_end_free(&end);
     rg_mem_free(&u->mem, z);
