@@ -467,7 +467,8 @@ static void meetings(void **state)
 
 /* ------------------------------------------------------------------------------------------------------- unfold ---- */
 
-/* Deeper than that an edge goes through a facet that it has no corner in common with (of the sheet). */
+/* Deeper than that an edge goes through a facet that it has no corner in common with (of the sheet): as far as it would have to be
+ * moved, along the normal or past one of the facet's edges, until they only touch. */
 static const double DEEP = 1e-4;
 
 static int pierces(const rg_mesh *m, const rg_vec3 *x, double deep)
@@ -485,9 +486,9 @@ static int pierces(const rg_mesh *m, const rg_vec3 *x, double deep)
             const rg_vec3 at = rg_vec3_axpy(p / (p - q), rg_vec3_sub(x[j], x[i]), x[i]);
             int in = 1;
             for (int k = 0; k < 3; k++) {
-                const rg_vec3 from = x[c[k]], edge = rg_vec3_sub(x[c[(k + 1) % 3]], from);
-                const rg_vec3 inwards = rg_vec3_cross(n, rg_vec3_scale(1 / rg_vec3_length(edge), edge));
-                in &= rg_vec3_dot(inwards, rg_vec3_sub(at, from)) > deep;
+                const rg_vec3 from = x[c[k]], edge = rg_vec3_sub(x[c[(k + 1) % 3]], from), to = rg_vec3_sub(at, from);
+                const rg_vec3 past = rg_vec3_cross(edge, rg_vec3_sub(x[j], x[i])); /* square to both */
+                in &= rg_vec3_dot(rg_vec3_cross(n, edge), to) > 0 && fabs(rg_vec3_dot(past, to)) > deep * rg_vec3_length(past);
             }
             if (in) return 1;
         }
@@ -558,6 +559,70 @@ static void locked_end(void **state)
     (void)state;
     char path[512];
     unfolds(corpus("foldability/114-brown-4x4-a92.fold", path, sizeof path), 1, 1.1e-4, RG_CONTACT_TOLERANCE);
+}
+
+/* Layers that slide on each other while they turn: the crane of this project. */
+static void crane(void **state)
+{
+    (void)state;
+    unfolds("patterns/crane.opx", 1, 1.1e-4, RG_CONTACT_TOLERANCE);
+}
+
+/* The rows by which facets stay as large as they have to: by differences of the area, and kept where the wish would break them. */
+static void small_facets(void **state)
+{
+    (void)state;
+    const rg_memory mem = rg_mem_default(NULL);
+    rg_mesh none, m;
+    rg_linkage P;
+    rg_nearest q;
+    mesh_of("patterns/frog.opx", &none);
+    assert_int_equal(rg_triangulate_all(&none, &m), RG_OK);
+    for (int32_t v = 0; v < m.nv; v++) m.X[v] = (rg_vec2){m.X[v].x / m.size, m.X[v].y / m.size};
+    m.size = 1;
+    assert_int_equal(rg_linkage_init(&P, &mem, &m), RG_OK);
+    assert_int_equal(rg_nearest_init(&q, &mem, &P), RG_OK);
+    double *z = calloc((size_t)P.n, sizeof *z), *wish = calloc((size_t)P.n, sizeof *wish);
+    rg_vec2 *X = calloc((size_t)m.nv, sizeof *X);
+    assert_true(z && wish && X);
+    rg_stride_scale(&P, 1, q.scale);
+    rg_coupled_assemble(&P.J, z, z + P.N, NULL);
+    rg_coupled_renew(&P.J, q.scale);
+    rg_linkage_put(&P, z);
+    rg_nearest_clear(&q);
+    int32_t rows = 0;
+    for (int32_t f = 0; f < m.nf; f++) {
+        rg_row *row = rg_nearest_add(&q);
+        assert_non_null(row);
+        near(rg_linkage_area(&P, f, P.X), 1, 1e-12);
+        rg_stride_area(&P, f, row);
+        assert_int_equal(row->facet, f);
+        row->b = -0.02;
+        for (int32_t i = 0; i < row->terms; i++) {
+            const double h = 1e-6;
+            z[P.N + row->v[i]] = h;
+            rg_freedom_move(&P.freedom, z + P.N, X);
+            const double more = rg_linkage_area(&P, f, X);
+            z[P.N + row->v[i]] = -h;
+            rg_freedom_move(&P.freedom, z + P.N, X);
+            near(row->weight[i], (more - rg_linkage_area(&P, f, X)) / (2 * h), 1e-6);
+            z[P.N + row->v[i]] = 0;
+            if (f % 3 == 0) wish[P.N + row->v[i]] -= 0.1 * row->weight[i];
+        }
+        rows += row->terms > 0;
+    }
+    assert_true(rows > 0);
+    rg_nearest_project(&q, wish, P.J.r);
+    double least = 0;
+    for (int32_t k = 0; k < q.count; k++) least = fmin(least, rg_nearest_value(&q, &q.row[k]));
+    below(least, -0.1); /* the wish alone breaks them */
+    assert_int_equal(rg_nearest_solve(&q, wish, P.J.r, 1), RG_OK);
+    for (int32_t k = 0; k < q.count; k++) below(-0.0201, rg_nearest_value(&q, &q.row[k]));
+    free(z), free(wish), free(X);
+    rg_nearest_free(&q);
+    rg_linkage_free(&P);
+    rg_mesh_free(&m);
+    rg_mesh_free(&none);
 }
 
 /* What crosses gets a row that is as far off as it crosses deep, and whose parts are glued. */
@@ -741,6 +806,7 @@ int main(void)
         cmocka_unit_test(places), cmocka_unit_test(distances),      cmocka_unit_test(meetings),
         cmocka_unit_test(free_motions), cmocka_unit_test(the_check_sees), cmocka_unit_test(no_end),      cmocka_unit_test(same_bits),
         cmocka_unit_test(without_memory), cmocka_unit_test(stopped), cmocka_unit_test(locked_end), cmocka_unit_test(crossed_rows),
+        cmocka_unit_test(crane), cmocka_unit_test(small_facets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -364,29 +364,34 @@ static rg_status add_bounds(rg_stride *s)
     return RG_OK;
 }
 
+void rg_stride_area(const rg_linkage *P, int32_t f, rg_row *row)
+{
+    const rg_freedom *F = &P->freedom;
+    const int32_t *v = P->mesh->facet_vertex + P->mesh->facet_start[f];
+    const rg_vec2 *X = P->mesh->X;
+    const double whole = rg_vec2_turn(X[v[0]], X[v[1]], X[v[2]]);
+    row->facet = f;
+    row->terms = 0;
+    for (int i = 0; i < 3; i++) {
+        const rg_vec2 far = rg_vec2_sub(P->X[v[(i + 2) % 3]], P->X[v[(i + 1) % 3]]);
+        for (int k = 0; k < 2; k++) {
+            const int32_t way = F->way[v[i]][k];
+            if (way < 0) continue;
+            row->v[row->terms] = way;
+            row->weight[row->terms++] = -rg_vec2_cross(F->direction[way], far) / whole;
+        }
+    }
+}
+
 /* Facets that have become small do not become much smaller. */
 static rg_status add_area_rows(rg_stride *s)
 {
-    const rg_linkage *P = s->P;
-    const rg_freedom *F = &P->freedom;
-    for (int32_t f = 0; f < P->mesh->nf; f++) {
-        const double part = rg_linkage_area(P, f, P->X);
+    for (int32_t f = 0; f < s->P->mesh->nf; f++) {
+        const double part = rg_linkage_area(s->P, f, s->P->X);
         if (part >= SMALL_AREA) continue;
         rg_row *row = rg_nearest_add(&s->q);
         if (!row) return RG_ENOMEM;
-        const int32_t *v = P->mesh->facet_vertex + P->mesh->facet_start[f];
-        const rg_vec2 *X = P->mesh->X;
-        const double whole = rg_vec2_turn(X[v[0]], X[v[1]], X[v[2]]);
-        for (int i = 0; i < 3; i++) {
-            const rg_vec2 far = rg_vec2_sub(P->X[v[(i + 2) % 3]], P->X[v[(i + 1) % 3]]);
-            for (int k = 0; k < 2; k++) {
-                const int32_t way = F->way[v[i]][k];
-                if (way < 0) continue;
-                row->v[row->terms] = way;
-                row->weight[row->terms++] = -rg_vec2_cross(F->direction[way], far) / whole;
-            }
-        }
-        row->facet = f;
+        rg_stride_area(s->P, f, row);
         row->c = HARD_COMPLIANCE;
         row->b = -DAMPER * fmax(0, part - AREA_FLOOR);
         row->floor = part - DAMPER_CLOSING * fmax(0, part - AREA_FLOOR);

@@ -55,6 +55,8 @@ rg_status rg_stride_take(rg_stride *s);
 /* One step that is wished to be s->wish, none nearer than the floor; *gone: out, zero: no part of it can be gone. */
 rg_status rg_stride_towards(rg_stride *s, double floor, int *gone);
 
+/* row: what facet f's area changes by, as a part of what it was, where P is put. */
+void rg_stride_area(const rg_linkage *P, int32_t f, rg_row *row);
 /* W^1/2 of the unknowns: 1 for drawn creases, more for added ones, `give` times the reach of a way of the pattern. */
 void rg_stride_scale(const rg_linkage *P, double give, double *scale);
 /* Plain Newton: z is closed to `tol` or, returning zero, as near as it came. */
