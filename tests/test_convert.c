@@ -503,6 +503,28 @@ static void what_is_written_can_be_read(void **state)
     }
 }
 
+/* Fold angles of at most pi degrees are taken for radians, as some programs write them; but not where this one wrote them. */
+static void few_degrees_stay_degrees(void **state)
+{
+    (void)state;
+    const char *in = write_text("few.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"><path stroke=\"#000\" d=\"M0 0H2V1H0Z\"/>"
+                                           "<path stroke=\"#f00\" opacity=\"0.017453\" d=\"M1 0V1\"/></svg>");
+    rg_lines l = read_lines(in, 0);
+    const double target = l.line[4].target;
+    near(target, -3.14154 * RG_DEG, 1e-7);
+    rg_lines_free(&l);
+    convert(in, at("few.fold"), NULL);
+    l = read_lines(at("few.fold"), 0);
+    int found = 0;
+    for (int32_t i = 0; i < l.count; i++)
+        if (l.line[i].assignment == RG_MOUNTAIN) {
+            near(l.line[i].target, target, 1e-12);
+            found++;
+        }
+    assert_int_equal(found, 1);
+    rg_lines_free(&l);
+}
+
 /* XML readers take no text of more than ten million bytes. What is cut is cut between two characters, and told. */
 static void long_texts_are_cut(void **state)
 {
@@ -558,6 +580,6 @@ int main(void)
         cmocka_unit_test(formats_keep_what_they_can), cmocka_unit_test(losses_are_told), cmocka_unit_test(a_chain_of_all_formats),
         cmocka_unit_test(faces), cmocka_unit_test(extras), cmocka_unit_test(gaps), cmocka_unit_test(files_are_whole_or_not_there),
         cmocka_unit_test(what_is_written_can_be_read),
-        cmocka_unit_test(long_texts_are_cut), cmocka_unit_test(memory_runs_short)};
+        cmocka_unit_test(few_degrees_stay_degrees), cmocka_unit_test(long_texts_are_cut), cmocka_unit_test(memory_runs_short)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -217,6 +217,22 @@ static rg_status assignments(reader *r)
     return RG_OK;
 }
 
+static int contains(const char *text, const char *word)
+{
+    const size_t n = strlen(word);
+    for (; text && *text; text++) {
+        size_t i = 0;
+        while (i < n && (text[i] | 32) == word[i]) i++;
+        if (i == n) return 1;
+    }
+    return 0;
+}
+
+static const char *creator(const reader *r) { return rg_value_text(rg_value_get(r->root, "file_creator")); }
+
+/* What was written here is as the format has it: nothing is guessed of it. */
+static int is_ours(const reader *r) { return contains(creator(r), "rigami"); }
+
 static rg_status angles(reader *r)
 {
     const char *key = "edges_foldAngle";
@@ -240,7 +256,7 @@ static rg_status angles(reader *r)
         r->angle[i] = fmax(-180, fmin(r->angle[i], 180));
         most = fmax(most, fabs(r->angle[i]));
     }
-    if (!(most > 0 && most <= RG_PI + RADIANS)) return RG_OK;
+    if (!(most > 0 && most <= RG_PI + RADIANS) || is_ours(r)) return RG_OK;
     const int radians = most >= RG_PI - RADIANS;
     for (int32_t i = 0; radians && i < n; i++) r->angle[i] /= RG_DEG;
     return warn(r, "%s: %s", key, radians ? "the largest is pi: taken for radians"
@@ -441,28 +457,16 @@ static rg_status add_lines(reader *r, int turn)
 
 /* ------------------------------------------------------------------------------------------------ metadata ---- */
 
-static int contains(const char *text, const char *word)
-{
-    const size_t n = strlen(word);
-    for (; text && *text; text++) {
-        size_t i = 0;
-        while (i < n && (text[i] | 32) == word[i]) i++;
-        if (i == n) return 1;
-    }
-    return 0;
-}
-
 /* Programs that draw with y downwards, and write their coordinates as they are. */
 static int draws_down(const reader *r)
 {
-    const char *creator = rg_value_text(rg_value_get(r->root, "file_creator"));
-    return contains(creator, "oriedita") || contains(creator, "oripa") || contains(creator, "orihime");
+    return contains(creator(r), "oriedita") || contains(creator(r), "oripa") || contains(creator(r), "orihime");
 }
 
 /* With no faces, nothing but the program's own habit says which side of the paper is seen. */
 static rg_status warn_of_side(reader *r)
 {
-    if (r->nf > 0 || r->s->flip || draws_down(r) || contains(rg_value_text(rg_value_get(r->root, "file_creator")), "rigami")) return RG_OK;
+    if (r->nf > 0 || r->s->flip || draws_down(r) || is_ours(r)) return RG_OK;
     return warn(r, "faces_vertices: there are none, so that nothing says which side is seen: y is taken to point up; --flip if the model"
                    " comes out as in a mirror");
 }
