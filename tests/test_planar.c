@@ -656,6 +656,38 @@ static void crossings_are_guessed_before_they_are_kept(void **state)
     assert_int_equal(w.out, 0);
 }
 
+/* Pieces that cuts leave where they were are not looked at again, nor is what is far from all that is new. So what comes out is put in
+ * again, where all is new: nothing is left to cut, to merge or to drop, whatever the tolerance. */
+static void what_is_plane_stays_as_it_is(void **state)
+{
+    (void)state;
+    static const double merge[] = {1e-3, 1e-4, 1e-5, 1e-9};
+    for (unsigned k = 0; k < 8; k++) {
+        unsigned seed = 100 + k;
+        rg_lines l = drawing();
+        for (int i = 0; i < 400; i++) { /* over all of the sheet, or most of them in a corner of it */
+            const double part = k < 4 || i < 50 ? 1 : 0.1;
+            draw(&l, RG_VALLEY, part * noise(&seed), noise(&seed), part * noise(&seed), noise(&seed));
+        }
+        rg_graph g = {0}, h = {0};
+        rg_diag why;
+        assert_int_equal(rg_planar_from_all_lines(&l, merge[k % 4], NULL, &g, &why), RG_OK);
+        assert_true(g.ne > 5000);
+        rg_lines again = drawing();
+        for (int32_t e = 0; e < g.ne; e++) {
+            const rg_vec2 a = g.X[g.E[e].v[0]], b = g.X[g.E[e].v[1]];
+            draw(&again, RG_VALLEY, a.x, a.y, b.x, b.y);
+        }
+        assert_int_equal(rg_planar_from_all_lines(&again, merge[k % 4] * (1 - 1e-9), NULL, &h, &why), RG_OK);
+        assert_int_equal(h.nv, g.nv);
+        assert_int_equal(h.ne, g.ne);
+        rg_graph_free(&g);
+        rg_graph_free(&h);
+        rg_lines_free(&l);
+        rg_lines_free(&again);
+    }
+}
+
 typedef struct asked { int times, end_at; double last; } asked;
 
 static int answer(void *ctx, double progress)
@@ -832,7 +864,7 @@ int main(void)
         cmocka_unit_test(the_first_of_many_on_one_line_stays),
         cmocka_unit_test(too_many_in_one_place),
         cmocka_unit_test(crossings_are_guessed_before_they_are_kept),
-        cmocka_unit_test(it_can_be_ended_in_the_middle),
+        cmocka_unit_test(it_can_be_ended_in_the_middle), cmocka_unit_test(what_is_plane_stays_as_it_is),
         cmocka_unit_test(what_is_left_out_is_said),
         cmocka_unit_test(faults_do_not_flood),
         cmocka_unit_test(no_lines_and_hopeless_ones),
