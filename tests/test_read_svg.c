@@ -239,7 +239,7 @@ static void paints(void **state)
         rg_lines_free(&l);
     }
     rg_lines l = read_svg(SVG("<line stroke='url(#x)' x2='1'/><line stroke='context-stroke' x2='2'/><path stroke='url(#x)' d='M0 0H1V1'/>"));
-    assert_true(warned(&l, "\"url(#x)\" is no plain colour: 3 lines") && warned(&l, "\"context-stroke\" is no plain colour: 1 lines"));
+    assert_true(warned(&l, "\"url(#x)\" is no plain colour: taken for auxiliary lines (3)") && warned(&l, "\"context-stroke\" is no plain colour: taken for auxiliary lines (1)"));
     assert_int_equal(l.warnings, 2);
     rg_lines_free(&l);
 }

@@ -770,7 +770,7 @@ static rg_status tell_all(reader *r)
 {
     rg_status s = RG_OK;
     const struct { const tally *t; const char *format; } kinds[] = {
-        {&r->invisible, "invisible: %d entities are left out, the first here"},
+        {&r->invisible, "invisible: %d left out, the first here"},
         {&r->curves, "circles, and curves of auxiliary lines, are left out: %d, the first here"},
         {&r->unwanted, "left out as --line asks: %d lines, the first here"}};
     for (int32_t i = 0; s == RG_OK && i < r->layer_count; i++) {

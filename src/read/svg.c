@@ -730,7 +730,7 @@ static rg_status metadata(rg_lines *l, const rg_xml_node *root)
 static rg_status tell_all(reader *r)
 {
     const struct { const tally *t; const char *format; } kinds[] = {
-        {&r->hidden, "hidden (display or visibility): %d shapes are left out, the first here"},
+        {&r->hidden, "hidden (display or visibility): %d left out, the first here"},
         {&r->rings, "circles are left out as marks, no creases: %d, the first here"},
         {&r->curves, "curves of auxiliary lines are left out: %d, the first here"},
         {&r->unwanted, "left out as --line asks: %d lines, the first here"}};
@@ -738,7 +738,7 @@ static rg_status tell_all(reader *r)
     for (size_t i = 0; s == RG_OK && i < sizeof kinds / sizeof *kinds; i++)
         if (kinds[i].t->count) s = rg_lines_warn(r->out, kinds[i].t->where, kinds[i].format, (int)kinds[i].t->count);
     for (int i = 0; s == RG_OK && i < MOST_UNKNOWN && r->unknown[i].count; i++)
-        s = rg_lines_warn(r->out, r->unknown[i].where, "stroke \"%.80s\" is no plain colour: %d lines are taken for auxiliary ones; --line says what"
+        s = rg_lines_warn(r->out, r->unknown[i].where, "stroke \"%.80s\" is no plain colour: taken for auxiliary lines (%d); --line says what"
                           " they are", r->unknown[i].text, (int)r->unknown[i].count);
     return s;
 }
