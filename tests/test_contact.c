@@ -568,6 +568,49 @@ static void what_a_way_may_bend_is_not_held_against_it(void **state)
     }
 }
 
+/* One flap down, the other over it, and both flat; then one of them is lifted. If it is the lower one, it goes through the upper one, of
+ * which no state and no depth shows anything. */
+static void layers_change_places(void **state)
+{
+    (void)state;
+    rg_lines l = drawing();
+    draw_box(&l, 0, 0, 3, 1);
+    draw(&l, RG_VALLEY, 1, 0, 1, 1);
+    draw(&l, RG_VALLEY, 2, 0, 2, 1);
+    rg_pattern *d = pattern_of(&l);
+    rg_mesh m = mesh_of(d);
+    for (int first = 0; first < 2; first++)
+        for (int lifted = 0; lifted < 2; lifted++) {
+            rg_tree t;
+            rg_course c;
+            posed s;
+            assert_int_equal(rg_tree_init(&m, 0, &t), RG_OK);
+            assert_int_equal(rg_course_init(&m, &c), RG_OK);
+            for (int k = 0; k <= 30; k++) {
+                const double turn = RG_PI / 12;
+                double rho[2];
+                rho[first] = turn * (k < 12 ? k : 12);
+                rho[!first] = turn * (k < 12 ? 0 : k < 24 ? k - 12 : 12);
+                if (k > 27) rho[lifted] = turn * (12 - (k - 27));
+                pose(&m, &t, rho, &s);
+                assert_int_equal(rg_course_add(&c, &(rg_plates_state){m.X, s.place, s.x}), RG_OK);
+            }
+            assert_int_equal(rg_course_end(&c), RG_OK);
+            assert_int_equal(c.found.crossing, 0);
+            assert_int_equal(c.found.first, first == lifted ? 28 : -1);
+            assert_int_equal(c.found.between, first == lifted);
+            for (int32_t i = 0; first != lifted && i < c.sweep.n_before; i++) { /* and they are known to be on their sides */
+                int32_t facet[2];
+                assert_int_not_equal(rg_course_side(&c, i, facet), 0);
+            }
+            if (first != lifted) assert_true(c.sweep.n_before > 0);
+            rg_course_free(&c);
+            rg_tree_free(&t);
+        }
+    rg_mesh_free(&m);
+    rg_pattern_destroy(d);
+}
+
 /* As near before half a turn as it is beyond it, it may have stayed before: what counts is the lesser of both. */
 static void a_hair_before_half_a_turn(void **state)
 {
@@ -800,6 +843,7 @@ int main(void)
         cmocka_unit_test(a_narrow_flap_is_not_deep),
         cmocka_unit_test(boxes_fit),
         cmocka_unit_test(a_hair_before_half_a_turn),
+        cmocka_unit_test(layers_change_places),
         cmocka_unit_test(the_first_crossing_of_a_motion),
         cmocka_unit_test(what_a_way_may_bend_is_not_held_against_it),
         cmocka_unit_test(nearest_points),

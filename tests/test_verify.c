@@ -205,17 +205,24 @@ static void add_frame(json_t *frames, double left, double right)
                                             "rigami:percent", (left + right) / 3.6));
 }
 
+/* Of no frame yet. */
+static json_t *flaps(void)
+{
+    json_t *j = json_pack("{s[[ii][ii][ii][ii][ii][ii][ii][ii]] s[[ii][ii][ii][ii][ii][ii][ii][ii][ii][ii]] s[ssssssssss] s[iiiiiiiiii] s[[iiii][iiii][iiii]] s[]}",
+                          "vertices_coords", 0, 0, 1, 0, 2, 0, 3, 0, 3, 1, 2, 1, 1, 1, 0, 1, "edges_vertices", 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7,
+                          7, 0, 1, 6, 2, 5, "edges_assignment", "B", "B", "B", "B", "B", "B", "B", "B", "V", "V", "edges_foldAngle", 0, 0, 0, 0, 0,
+                          0, 0, 0, 180, 180, "faces_vertices", 0, 1, 6, 7, 1, 2, 5, 6, 2, 3, 4, 5, "file_frames");
+    assert_non_null(j);
+    return j;
+}
+
 /* One flap down, the other over it; and then, at once, the other way round, though neither state crosses. */
 static void passing_between_frames_is_found(void **state)
 {
     (void)state;
     char text[200];
     int frame;
-    json_t *j = json_pack("{s[[ii][ii][ii][ii][ii][ii][ii][ii]] s[[ii][ii][ii][ii][ii][ii][ii][ii][ii][ii]] s[ssssssssss] s[iiiiiiiiii] s[[iiii][iiii][iiii]] s[]}",
-                          "vertices_coords", 0, 0, 1, 0, 2, 0, 3, 0, 3, 1, 2, 1, 1, 1, 0, 1, "edges_vertices", 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7,
-                          7, 0, 1, 6, 2, 5, "edges_assignment", "B", "B", "B", "B", "B", "B", "B", "B", "V", "V", "edges_foldAngle", 0, 0, 0, 0, 0,
-                          0, 0, 0, 180, 180, "faces_vertices", 0, 1, 6, 7, 1, 2, 5, 6, 2, 3, 4, 5, "file_frames");
-    assert_non_null(j);
+    json_t *j = flaps();
     for (int k = 0; k <= 11; k++) add_frame(frames_of(j), 15 * k, 0);
     for (int k = 1; k <= 17; k++) add_frame(frames_of(j), 165, 5 * k);
     if (!is_valid(j, text, &frame)) fail_msg("frame %d: %s", frame, text);
@@ -224,6 +231,40 @@ static void passing_between_frames_is_found(void **state)
     assert_non_null(strstr(text, "pass through each other"));
     assert_int_equal(frame, 29);
     json_decref(j);
+}
+
+/* The first frame with a fault that says so; -1: none. */
+static int frame_of_fault(const json_t *j, const char *what)
+{
+    const rg_fault *list;
+    int frame = -1;
+    write_json(j);
+    rg_certificate *c = judge(NULL);
+    for (int32_t n = rg_certificate_faults(c, &list), i = 0; i < n && frame < 0; i++)
+        if (strstr(list[i].text, what)) frame = list[i].frame;
+    rg_certificate_destroy(c);
+    return frame;
+}
+
+/* One flap down, the other over it, and both flat; then the lower one is lifted, through the upper one, of which neither that state nor
+ * the way to it shows anything. It is known from how they came to lie, however long ago. */
+static void layers_that_change_places_are_found(void **state)
+{
+    (void)state;
+    for (int first = 0; first < 2; first++) /* the one that lies below */
+        for (int lifted = 0; lifted < 2; lifted++) {
+            json_t *j = flaps();
+            for (int k = 0; k <= 24; k++) {
+                const int a = 15 * (k < 12 ? k : 12), b = 15 * (k > 12 ? k - 12 : 0);
+                add_frame(frames_of(j), first ? b : a, first ? a : b);
+            }
+            for (int k = 0; k < 3; k++) add_frame(frames_of(j), 180, 180);
+            for (int k = 1; k < 4; k++) add_frame(frames_of(j), lifted ? 180 : 180 - 15 * k, lifted ? 180 - 15 * k : 180);
+            assert_int_equal(frame_of_fault(j, "the other way round"), first == lifted ? 28 : -1);
+            assert_int_equal(frame_of_fault(j, "cross"), -1);
+            assert_int_equal(frame_of_fault(j, "pass through"), -1);
+            json_decref(j);
+        }
 }
 
 /* ------------------------------------------------------------------------------------------------------ mutated ---- */
@@ -376,6 +417,7 @@ int main(void)
         cmocka_unit_test(crossing_is_refused),
         cmocka_unit_test(another_pattern_is_refused),
         cmocka_unit_test(passing_between_frames_is_found),
+        cmocka_unit_test(layers_that_change_places_are_found),
         cmocka_unit_test(a_moved_vertex_is_found),
         cmocka_unit_test(exchanged_frames_are_found),
         cmocka_unit_test(a_reversed_order_is_found),
