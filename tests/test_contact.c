@@ -470,6 +470,112 @@ static void moving_pairs(void **state)
     assert_true(through > 0 && through < 50);
 }
 
+static double box_of(const rg_vec2 *X, int32_t n)
+{
+    rg_vec2 low = X[0], high = X[0];
+    for (int32_t i = 1; i < n; i++) {
+        low = (rg_vec2){fmin(low.x, X[i].x), fmin(low.y, X[i].y)};
+        high = (rg_vec2){fmax(high.x, X[i].x), fmax(high.y, X[i].y)};
+    }
+    return hypot(high.x - low.x, high.y - low.y) / sqrt(2);
+}
+
+/* Two triangles of a mesh by themselves, swept. Returns zero: the two of one crease. */
+static int sweep_two(const rg_mesh *m, const posed s[2], int32_t f, int32_t g, double allowed, rg_sweep_found *found)
+{
+    const int32_t *v = m->facet_vertex + m->facet_start[f], *w = m->facet_vertex + m->facet_start[g];
+    int32_t shared = 0, from = 0, at = 0;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            if (v[i] == w[k]) shared++, from = i, at = k;
+    if (shared > 1) return 0;
+    rg_vec2 X[6];
+    for (int i = 0; i < 3; i++) X[i] = m->X[v[(from + i) % 3]], X[3 + i] = m->X[w[(at + i) % 3]];
+    loose l;
+    make_loose(&l, X, shared);
+    const rg_place begin[2] = {s[0].place[f], s[0].place[g]}, end[2] = {s[1].place[f], s[1].place[g]};
+    double size;
+    *found = sweep_of(&l, begin, end, allowed / box_of(X, 6), &size);
+    return 1;
+}
+
+/* Of a strip that rolls up, the tree and its balls leave nothing out: what comes first is what comes first of all pairs by themselves,
+ * though facets of one node turn far otherwise than each other. */
+static void strips_sweep_as_their_pairs_do(void **state)
+{
+    (void)state;
+    unsigned seed = 61;
+    int outcome[3] = {0, 0, 0};
+    for (int k = 0; k < 150; k++) {
+        rg_mesh plain = strip(7, &seed), m;
+        rg_tree t;
+        rg_plates p;
+        rg_sweep_work w;
+        posed s[2];
+        double rho[MOST];
+        assert_int_equal(rg_triangulate_all(&plain, &m), RG_OK);
+        assert_int_equal(rg_tree_init(&m, k % m.nf, &t), RG_OK);
+        assert_int_equal(rg_plates_init(&m, &p), RG_OK);
+        assert_int_equal(rg_sweep_work_init(&p, &w), RG_OK);
+        for (int32_t i = 0; i < m.N; i++) rho[i] = i < plain.N ? 0.9 + 0.2 * noise(&seed) : 0;
+        pose(&m, &t, rho, &s[0]);
+        for (int32_t i = 0; i < m.N; i++) rho[i] += i < plain.N ? 0.25 + 0.2 * noise(&seed) : 0;
+        pose(&m, &t, rho, &s[1]);
+        const rg_plates_state from = {m.X, s[0].place, s[0].x}, to = {m.X, s[1].place, s[1].x};
+        const double allowed = 1e-3;
+        const rg_sweep_found all = step_of(&p, &from, &to, allowed / p.size, &w);
+        rg_sweep_found first = {.verdict = RG_SWEEP_FREE, .time = 1}, one;
+        for (int32_t f = 0; f < m.nf; f++)
+            for (int32_t g = f + 1; g < m.nf; g++)
+                if (sweep_two(&m, s, f, g, allowed, &one) && one.verdict != RG_SWEEP_FREE && (one.time < first.time || first.verdict == RG_SWEEP_FREE))
+                    first = one;
+        outcome[first.verdict]++;
+        assert_int_equal(all.verdict, first.verdict);
+        near(all.time, first.time, 1e-3);
+        rg_sweep_work_free(&w);
+        rg_plates_free(&p);
+        rg_tree_free(&t);
+        rg_mesh_free(&m);
+        rg_mesh_free(&plain);
+    }
+    assert_true(outcome[RG_SWEEP_FREE] > 10 && outcome[RG_SWEEP_CONTACT] > 10);
+}
+
+/* Seen from its front at once, as long as no corner's arc is higher than half of what is allowed: facets of one by a half turn by half of
+ * the angle, so that it is that of h = (1 + 1/4)^(1/2) / 2 (angle / 2)^2 / 8. */
+static void arcs_are_low_enough_to_be_seen_at_once(void **state)
+{
+    (void)state;
+    for (int upright = 0; upright < 2; upright++)
+        for (int too_far = 0; too_far < 2; too_far++) {
+            rg_lines l = drawing();
+            draw_box(&l, 0, 0, 1, 1);
+            if (upright) draw(&l, RG_VALLEY, 0.5, 0, 0.5, 1);
+            else draw(&l, RG_VALLEY, 0, 0.5, 1, 0.5);
+            rg_pattern *d = pattern_of(&l);
+            rg_mesh m = mesh_of(d);
+            rg_tree t;
+            rg_plates p;
+            rg_sweep_work w;
+            posed s[2];
+            const double allowed = 1e-3, most = 2 * sqrt(8 * allowed / 2 / (sqrt(1.25) / 2));
+            assert_int_equal(rg_tree_init(&m, 0, &t), RG_OK);
+            assert_int_equal(rg_plates_init(&m, &p), RG_OK);
+            assert_int_equal(rg_sweep_work_init(&p, &w), RG_OK);
+            pose(&m, &t, (const double[]){0.3}, &s[0]);
+            pose(&m, &t, (const double[]){0.3 + (too_far ? 1.01 : 0.99) * most}, &s[1]);
+            const rg_plates_state from = {m.X, s[0].place, s[0].x}, to = {m.X, s[1].place, s[1].x};
+            const rg_sweep_found found = step_of(&p, &from, &to, allowed, &w);
+            assert_int_equal(found.verdict, RG_SWEEP_FREE);
+            assert_int_equal(found.in_front, !too_far);
+            rg_sweep_work_free(&w);
+            rg_plates_free(&p);
+            rg_tree_free(&t);
+            rg_mesh_free(&m);
+            rg_pattern_destroy(d);
+        }
+}
+
 /* Layers as near as this that move together are passed in few steps; a leap is neither free nor contact. */
 static void layers_that_swing_together(void **state)
 {
@@ -838,6 +944,8 @@ int main(void)
         cmocka_unit_test(notches_are_open),
         cmocka_unit_test(miura_shows_its_front),
         cmocka_unit_test(moving_pairs),
+        cmocka_unit_test(strips_sweep_as_their_pairs_do),
+        cmocka_unit_test(arcs_are_low_enough_to_be_seen_at_once),
         cmocka_unit_test(layers_that_swing_together),
         cmocka_unit_test(hinges_stop_at_half_a_turn),
         cmocka_unit_test(a_narrow_flap_is_not_deep),
