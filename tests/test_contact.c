@@ -499,8 +499,29 @@ static int sweep_two(const rg_mesh *m, const posed s[2], int32_t f, int32_t g, d
     return 1;
 }
 
-/* Of a strip that rolls up, the tree and its balls leave nothing out: what comes first is what comes first of all pairs by themselves,
- * though facets of one node turn far otherwise than each other. */
+/* What comes first of all is what comes first of all pairs by themselves. */
+static rg_sweep_verdict compare_to_pairs(const rg_mesh *m, const posed s[2])
+{
+    rg_plates p;
+    rg_sweep_work w;
+    assert_int_equal(rg_plates_init(m, &p), RG_OK);
+    assert_int_equal(rg_sweep_work_init(&p, &w), RG_OK);
+    const rg_plates_state from = {m->X, s[0].place, s[0].x}, to = {m->X, s[1].place, s[1].x};
+    const double allowed = 1e-3;
+    const rg_sweep_found all = step_of(&p, &from, &to, allowed / p.size, &w);
+    rg_sweep_found first = {.verdict = RG_SWEEP_FREE, .time = 1}, one;
+    for (int32_t f = 0; f < m->nf; f++)
+        for (int32_t g = f + 1; g < m->nf; g++)
+            if (sweep_two(m, s, f, g, allowed, &one) && one.verdict != RG_SWEEP_FREE && (one.time < first.time || first.verdict == RG_SWEEP_FREE))
+                first = one;
+    assert_int_equal(all.verdict, first.verdict);
+    near(all.time, first.time, 1e-3);
+    rg_sweep_work_free(&w);
+    rg_plates_free(&p);
+    return first.verdict;
+}
+
+/* Of a strip that rolls up, the tree and its balls leave nothing out. */
 static void strips_sweep_as_their_pairs_do(void **state)
 {
     (void)state;
@@ -509,34 +530,59 @@ static void strips_sweep_as_their_pairs_do(void **state)
     for (int k = 0; k < 150; k++) {
         rg_mesh plain = strip(7, &seed), m;
         rg_tree t;
-        rg_plates p;
-        rg_sweep_work w;
         posed s[2];
         double rho[MOST];
         assert_int_equal(rg_triangulate_all(&plain, &m), RG_OK);
         assert_int_equal(rg_tree_init(&m, k % m.nf, &t), RG_OK);
-        assert_int_equal(rg_plates_init(&m, &p), RG_OK);
-        assert_int_equal(rg_sweep_work_init(&p, &w), RG_OK);
         for (int32_t i = 0; i < m.N; i++) rho[i] = i < plain.N ? 0.9 + 0.2 * noise(&seed) : 0;
         pose(&m, &t, rho, &s[0]);
         for (int32_t i = 0; i < m.N; i++) rho[i] += i < plain.N ? 0.25 + 0.2 * noise(&seed) : 0;
         pose(&m, &t, rho, &s[1]);
-        const rg_plates_state from = {m.X, s[0].place, s[0].x}, to = {m.X, s[1].place, s[1].x};
-        const double allowed = 1e-3;
-        const rg_sweep_found all = step_of(&p, &from, &to, allowed / p.size, &w);
-        rg_sweep_found first = {.verdict = RG_SWEEP_FREE, .time = 1}, one;
-        for (int32_t f = 0; f < m.nf; f++)
-            for (int32_t g = f + 1; g < m.nf; g++)
-                if (sweep_two(&m, s, f, g, allowed, &one) && one.verdict != RG_SWEEP_FREE && (one.time < first.time || first.verdict == RG_SWEEP_FREE))
-                    first = one;
-        outcome[first.verdict]++;
-        assert_int_equal(all.verdict, first.verdict);
-        near(all.time, first.time, 1e-3);
-        rg_sweep_work_free(&w);
-        rg_plates_free(&p);
+        outcome[compare_to_pairs(&m, s)]++;
         rg_tree_free(&t);
         rg_mesh_free(&m);
         rg_mesh_free(&plain);
+    }
+    assert_true(outcome[RG_SWEEP_FREE] > 10 && outcome[RG_SWEEP_CONTACT] > 10);
+}
+
+enum { CROWD = 12 };
+typedef struct crowd {
+    rg_mesh m;
+    rg_vec2 X[3 * CROWD];
+    int32_t edge[3 * CROWD][2], side[3 * CROWD][2], start[CROWD + 1], vertex[3 * CROWD], facet_edge[3 * CROWD], crease[3 * CROWD];
+} crowd;
+
+/* Small loose triangles that fly through each other, each its own way and turning otherwise than its neighbours of the tree. */
+static void crowds_sweep_as_their_pairs_do(void **state)
+{
+    (void)state;
+    unsigned seed = 67;
+    int outcome[3] = {0, 0, 0};
+    for (int k = 0; k < 300; k++) {
+        static crowd c;
+        posed s[2];
+        memset(&c, 0, sizeof c);
+        for (int i = 0; i < 3 * CROWD; i++) {
+            const double turn = 2 * RG_PI / 3 * (i % 3);
+            c.X[i] = (rg_vec2){0.1 * (i / 3) + 0.2 * cos(turn) + 0.04 * noise(&seed), 0.2 * sin(turn) + 0.04 * noise(&seed)};
+            c.vertex[i] = c.facet_edge[i] = i;
+            c.edge[i][0] = i, c.edge[i][1] = i / 3 * 3 + (i + 1) % 3;
+            c.side[i][0] = i / 3, c.side[i][1] = -1;
+        }
+        for (int f = 0; f <= CROWD; f++) c.start[f] = 3 * f;
+        c.m = (rg_mesh){.mem = rg_mem_default(NULL), .nv = 3 * CROWD, .ne = 3 * CROWD, .nf = CROWD, .X = c.X, .edge = c.edge, .edge_facet = c.side,
+                        .facet_start = c.start, .facet_vertex = c.vertex, .facet_edge = c.facet_edge, .edge_crease = c.crease};
+        for (int f = 0; f < CROWD; f++) {
+            const rg_vec3 tilt = {noise(&seed), noise(&seed), noise(&seed)}, axis = {noise(&seed), noise(&seed), noise(&seed)};
+            s[0].place[f] = (rg_place){turned_about(tilt, 3 * noise(&seed)), {3 * noise(&seed), 3 * noise(&seed), 3 * noise(&seed)}};
+            s[1].place[f].R = rg_mat3_mul(turned_about(axis, 0.75 * noise(&seed)), s[0].place[f].R);
+            s[1].place[f].t = rg_vec3_add(s[0].place[f].t, (rg_vec3){3 * noise(&seed), 3 * noise(&seed), 3 * noise(&seed)});
+        }
+        for (int i = 0; i < 3 * CROWD; i++)
+            for (int end = 0; end < 2; end++)
+                s[end].x[i] = rg_vec3_add(rg_mat3_mul_vec(s[end].place[i / 3].R, (rg_vec3){c.X[i].x, c.X[i].y, 0}), s[end].place[i / 3].t);
+        outcome[compare_to_pairs(&c.m, s)]++;
     }
     assert_true(outcome[RG_SWEEP_FREE] > 10 && outcome[RG_SWEEP_CONTACT] > 10);
 }
@@ -945,6 +991,7 @@ int main(void)
         cmocka_unit_test(miura_shows_its_front),
         cmocka_unit_test(moving_pairs),
         cmocka_unit_test(strips_sweep_as_their_pairs_do),
+        cmocka_unit_test(crowds_sweep_as_their_pairs_do),
         cmocka_unit_test(arcs_are_low_enough_to_be_seen_at_once),
         cmocka_unit_test(layers_that_swing_together),
         cmocka_unit_test(hinges_stop_at_half_a_turn),
