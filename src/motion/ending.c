@@ -1,7 +1,7 @@
 #include "motion/ending.h"
 #include "motion/measure.h"
 #include "base/status.h"
-#include "motion/seen.h"
+#include "unfold/seen.h"
 
 /* Nearer than that to flat, or to half a turn, a crease counts as there: layers do not depend on so little. */
 static const double THERE = 0.5 * RG_DEG;

@@ -3,7 +3,7 @@
 #include "layers/simple.h"
 #include "motion/overlay.h"
 #include "motion/rectify.h"
-#include "motion/seen.h"
+#include "unfold/seen.h"
 #include "motion/unfolding.h"
 
 #include <stdio.h>

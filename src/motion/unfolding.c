@@ -105,6 +105,30 @@ static void adopt(rg_search *c, rg_attempt *t, const rg_unfold *u)
     snprintf(c->strategy, sizeof c->strategy, "%s", u->how);
 }
 
+/* Who takes what unfolding finds. */
+typedef struct taker {
+    const rg_mesh *none;
+    const rg_settings *settings;
+    rg_watch *watch;
+    rg_diag *why;
+    rg_attempt found;
+} taker;
+
+static int stop_taking(void *ctx, double done) { return stop(((taker *)ctx)->watch, done); }
+
+/* What is free between its states is looked at once more as it is read; and a part of the way is to be one of creases that have all
+ * left flat. */
+static rg_status accept(void *ctx, rg_unfold *u, int *yes)
+{
+    taker *k = ctx;
+    int32_t crossing = -1;
+    rg_status s = take_over(&k->found, u, k->none, k->settings, 0, k->why);
+    if (s == RG_OK) s = first_crossing(&k->found, k->watch, &crossing);
+    *yes = s == RG_OK && crossing < 0 && !k->watch->cancelled && rg_search_is_folded(&k->found);
+    if (!*yes) rg_attempt_free(&k->found);
+    return s;
+}
+
 rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings *s, double part, rg_watch *watch, rg_diag *why)
 {
     if (s->adjust == 0 || s->triangulate == RG_TRIANGULATE_NONE) return RG_OK; /* it bends facets and moves the pattern */
@@ -112,20 +136,14 @@ rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings 
     const double begun = rg_seconds();
     const int32_t triangles = none->facet_start[none->nf] - 2 * none->nf;
     const double work = part * MOST_WORK[s->effort] * fmin(MOST_TIMES, fmax(1, (double)triangles / TRIANGLES));
-    const rg_unfold_wish wish = {s->to < 0 ? -1 : 1, s->layer_order, 0, work, stop, watch};
+    taker k = {.none = none, .settings = s, .watch = watch, .why = why};
+    const rg_unfold_wish wish = {s->to < 0 ? -1 : 1, s->layer_order, 0, work, stop_taking, accept, &k};
     rg_unfold u;
-    rg_attempt t = {0};
-    int32_t crossing = 0;
-    rg_status status = rg_unfold_run(&u, &mem, none, &wish);
+    const rg_status status = rg_unfold_run(&u, &mem, none, &wish);
     c->tries += u.tries;
-    if (status == RG_OK && u.outcome == RG_UNFOLD_FREE) {
-        status = take_over(&t, &u, none, s, wish.shorter, why);
-        if (status == RG_OK) status = first_crossing(&t, watch, &crossing);
-        /* A part of the way is to be one of creases that have all left flat. */
-        if (status == RG_OK && crossing < 0 && !watch->cancelled && rg_search_is_folded(&t)) adopt(c, &t, &u);
-    }
+    if (status == RG_OK && u.outcome == RG_UNFOLD_FREE) adopt(c, &k.found, &u);
     c->cost.seconds += rg_seconds() - begun;
-    rg_attempt_free(&t);
+    rg_attempt_free(&k.found);
     rg_unfold_free(&u);
     return status == RG_ENOMEM ? rg_fail(status, why, 0, "%s", rg_status_text(status)) : status;
 }

@@ -1,6 +1,7 @@
 #include "unfold/unfold.h"
 #include "unfold/landing.h"
 #include "unfold/open.h"
+#include "unfold/seen.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -25,8 +26,9 @@ static const try_ TRIES[] = {
 static const double WRONG = 8e-5;
 static const double CLOSED = 1e-9, LEAST_AREA = 0.1;
 static const double OVER = 1e-4; /* radians: what rounding and closing may put a crease past half a turn, as in stride.c */
-/* Places that are looked at between two states: one less. */
-enum { BETWEEN = 4 };
+/* Between two states so many places are looked at, less one, that the way between two of them is straight to BENT (lengths of the sheet). */
+enum { LEAST_BETWEEN = 4, MOST_BETWEEN = 40 };
+static const double BENT = 2e-5;
 /* From this progress on the order of layers is to be seen, where it is. */
 static const double NEAR_THE_END = 0.98;
 /* Closing a state that is read off. */
@@ -42,6 +44,9 @@ typedef struct step_of_plan { int way; int32_t order; } step_of_plan;
 static const step_of_plan PLAN[] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {-1, 0}, {2, 0}, {3, 0}, {4, 0}, {0, 2}, {1, 2}, {2, 1}, {3, 1},
                                     {5, 0}, {0, 3}, {1, 3}, {2, 2}, {4, 1}, {5, 1}, {6, 0}, {0, 4}, {1, 4}, {0, 5}, {1, 5}, {0, 6}, {1, 6},
                                     {0, 7}, {1, 7}, {0, 8}, {1, 8}, {0, 9}, {1, 9}, {0, 10}, {1, 10}, {0, 11}, {1, 11}};
+/* States that are looked at for an order, and the rows by which it is landed in: all first. */
+enum { SEEN = 12, LANDINGS = 2 };
+static const rg_end_rules LANDING[LANDINGS] = {{1, 1, 1, 1}, {0, 0, 0, 0}};
 enum { PLAN_COUNT = sizeof PLAN / sizeof *PLAN };
 /* Folding forwards leaves flat with creases folded by this part. */
 static const int OFF_FLAT_ITERATIONS = 60;
@@ -58,8 +63,8 @@ void rg_unfold_free(rg_unfold *u)
     rg_plates_free(&u->plates);
     rg_mesh_free(&u->mesh);
     rg_layers_destroy(u->layers);
-    void *block[] = {u->z, u->progress, u->end, u->scratch, u->which};
-    for (int i = 0; i < 5; i++) rg_mem_free(&u->mem, block[i]);
+    void *block[] = {u->z, u->progress, u->end, u->scratch, u->which, u->x};
+    for (int i = 0; i < 6; i++) rg_mem_free(&u->mem, block[i]);
     memset(u, 0, sizeof *u);
 }
 
@@ -167,16 +172,36 @@ static int crosses(rg_unfold *u, const rg_vec3 *x)
 
 static void between(rg_unfold *u, int32_t k, double t);
 
+/* Parts of the way from state k to the next, so many that each is all but straight: how far off the chord's middle its middle is
+ * goes with the square. */
+static int parts_between(rg_unfold *u, int32_t k)
+{
+    const size_t n = (size_t)u->P.n;
+    const int32_t nv = u->mesh.nv;
+    double most = 0;
+    rg_linkage_positions(&u->P, u->z + (size_t)k * n, u->x);
+    rg_linkage_positions(&u->P, u->z + (size_t)(k + 1) * n, u->x + nv);
+    between(u, k, 0.5);
+    rg_linkage_put(&u->P, u->scratch);
+    for (int32_t v = 0; v < nv; v++) {
+        const rg_vec3 middle = rg_vec3_scale(0.5, rg_vec3_add(u->x[v], u->x[nv + v]));
+        most = fmax(most, rg_vec3_length(rg_vec3_sub(u->P.p[v], middle)));
+    }
+    return (int)fmin(MOST_BETWEEN, fmax(LEAST_BETWEEN, ceil(sqrt(most / BENT))));
+}
+
 /* Between any two states, where frames may be. */
 static int crosses_between(rg_unfold *u)
 {
     rg_stride_scale(&u->P, 1, u->q.scale);
-    for (int32_t k = 0; k + 1 < u->count; k++)
-        for (int part = 1; part < BETWEEN; part++) {
-            between(u, k, (double)part / BETWEEN);
+    for (int32_t k = 0; k + 1 < u->count; k++) {
+        const int parts = parts_between(u, k);
+        for (int part = 1; part < parts; part++) {
+            between(u, k, (double)part / parts);
             rg_linkage_put(&u->P, u->scratch);
             if (crosses(u, u->P.p)) return 1;
         }
+    }
     return 0;
 }
 
@@ -304,6 +329,36 @@ static void watch(rg_stride *s, double budget, const rg_unfold_wish *wish)
     s->q.q.ctx = wish->ctx;
 }
 
+/* The order of layers that the states up to now show, as far as there is one. */
+static rg_status choose_as_seen(rg_unfold *u)
+{
+    const int32_t N = u->P.N, count = u->count < SEEN ? u->count : SEEN;
+    const size_t nv = (size_t)u->mesh.nv;
+    rg_tree tree = {0};
+    double *wish = rg_mem_array(&u->mem, (size_t)u->layers->pairs.count, sizeof *wish);
+    double *rho = rg_mem_array(&u->mem, ((size_t)count + 1) * (size_t)N, sizeof *rho);
+    rg_vec2 *X = rg_mem_array(&u->mem, ((size_t)count + 1) * nv, sizeof *X);
+    rg_status s = wish && rho && X ? rg_tree_init(&u->mesh, -1, &tree) : RG_ENOMEM;
+    if (s == RG_OK) {
+        for (int32_t k = 0; k < count; k++) {
+            const double *z = u->z + (size_t)(u->count - count + k) * (size_t)u->P.n;
+            memcpy(rho + (size_t)k * (size_t)N, z, (size_t)N * sizeof *rho);
+            rg_freedom_move(&u->P.freedom, z + N, X + (size_t)k * nv);
+        }
+        memcpy(rho + (size_t)count * (size_t)N, u->end, (size_t)N * sizeof *rho);
+        memcpy(X + (size_t)count * nv, u->mesh.X, nv * sizeof *X);
+        const rg_seen_frames seen = {&u->mesh, &tree, rho, X, count + 1};
+        s = rg_seen_order(u->layers, &seen, wish);
+    }
+    if (s == RG_OK) s = rg_layers_choose_near(u->layers, wish);
+    if (s == RG_OK) find_angles(u);
+    if (tree.mem.resize) rg_tree_free(&tree);
+    rg_mem_free(&u->mem, wish);
+    rg_mem_free(&u->mem, rho);
+    rg_mem_free(&u->mem, X);
+    return s;
+}
+
 /* From where it was opened back towards the end, state by state, and the end. */
 static rg_status land(rg_unfold *u, const rg_end *end, const double *z, const double *target, double budget, const rg_unfold_wish *wish)
 {
@@ -320,6 +375,36 @@ static rg_status land(rg_unfold *u, const rg_end *end, const double *z, const do
     return keep(u, end->z);
 }
 
+/* Layers may come in another order than was begun from, or without one: then the end is the one that the states show. What leads there
+ * from state `at` on is found anew. */
+static rg_status land_as_seen(rg_unfold *u, int32_t at, double budget, const rg_unfold_wish *wish, int *through)
+{
+    const size_t n = (size_t)u->P.n;
+    double *z = rg_mem_array(&u->mem, n, sizeof *z), *target = rg_mem_array(&u->mem, n, sizeof *target);
+    rg_status s = z && target ? RG_OK : RG_ENOMEM;
+    *through = 0;
+    if (s == RG_OK) {
+        u->count = at + 1;
+        memcpy(z, u->z + (size_t)at * n, n * sizeof *z);
+        u->opened = u->progress[at];
+        s = choose_as_seen(u);
+        for (int32_t i = 0; i < u->P.N; i++) target[i] = u->end[i] == 0 ? NAN : 0;
+    }
+    for (int k = 0; s == RG_OK && !*through && k < LANDINGS; k++) {
+        rg_end end = {0};
+        u->count = at + 1;
+        s = rg_end_init(&end, &u->mem, &u->P, u->end, &LANDING[k], lies_over, u);
+        rg_linkage_put(&u->P, z);
+        const int upset = s == RG_OK && u->progress[at] > NEAR_THE_END && rg_end_is_upset(&end, &u->P);
+        if (s == RG_OK && !upset) s = land(u, &end, z, target, budget / LANDINGS, wish);
+        if (s == RG_OK && !upset) *through = !is_upset(u, &end) && !crosses_between(u);
+        rg_end_free(&end);
+    }
+    rg_mem_free(&u->mem, z);
+    rg_mem_free(&u->mem, target);
+    return s;
+}
+
 /* Unfolds z: the path from flat to the end. Where z was opened slowly, the way there is kept already, from the end on. */
 static rg_status walk(rg_unfold *u, const rg_end *end, const double *z, const double *target, double budget, int slowly,
                       const rg_unfold_wish *wish, int *through)
@@ -333,6 +418,7 @@ static rg_status walk(rg_unfold *u, const rg_end *end, const double *z, const do
     if (status == RG_OK && u->count < 2) status = keep(u, z);
     u->opened = progress_of(u, z);
     if (status == RG_OK && slowly) u->landed = u->progress[1];
+    const int32_t opening = u->count - 1;
     int right = status == RG_OK && !crosses(u, u->P.p);
     while (status == RG_OK && right && s.state == RG_STRIDE_GOES && !is_stopped(wish, s.mean)) {
         const int32_t steps = s.steps;
@@ -358,8 +444,14 @@ static rg_status walk(rg_unfold *u, const rg_end *end, const double *z, const do
     rg_stride_free(&s);
     if (!*through || status != RG_OK) return status;
     turn_round(u, 0);
+    const int32_t walked = u->count;
     if (!slowly) status = land(u, end, z, target, budget - spent, wish);
     if (status == RG_OK) *through = !is_upset(u, end) && !crosses_between(u);
+    if (status == RG_OK && !*through && wish->order < 0) {
+        const int32_t at = slowly ? u->count - 1 - opening : walked - 1;
+        status = land_as_seen(u, at, budget - spent, wish, through);
+        u->as_seen = *through;
+    }
     return status;
 }
 
@@ -406,6 +498,8 @@ static rg_status forwards(rg_unfold *u, double budget, const rg_unfold_wish *wis
         *through = status == RG_OK && s.state == RG_STRIDE_ARRIVED;
         rg_stride_free(&s);
     }
+    const int nearly = *through || (status == RG_OK && u->count > 1 && u->progress[u->count - 1] > NEARLY_HOME);
+    const int32_t folded = u->count;
     if (*through) {
         u->opened = u->landed = u->progress[u->count - 1];
         memset(z, 0, (size_t)n * sizeof *z);
@@ -413,6 +507,7 @@ static rg_status forwards(rg_unfold *u, double budget, const rg_unfold_wish *wis
         status = keep(u, z);
         *through = status == RG_OK && !crosses_between(u);
     }
+    if (status == RG_OK && nearly && !*through) status = land_as_seen(u, folded - 1, budget, wish, through);
     rg_mem_free(&u->mem, z);
     rg_mem_free(&u->mem, target);
     return status;
@@ -464,12 +559,15 @@ static rg_status go_by(rg_unfold *u, const step_of_plan *p, const rg_unfold_wish
 {
     const double budget = PART_OF_BUDGET * (wish->budget - u->work);
     const int forward = p->way < 0;
-    *is_free = 0;
+    *is_free = u->as_seen = 0;
     if (forward ? wish->order >= 0 : !number_order(u, wish, p->order)) return RG_OK;
     rg_status s = rg_layers_choose(u->layers, forward ? NULL : u->which);
     if (s == RG_OK) s = forward ? forwards(u, budget, wish, is_free) : attempt(u, &TRIES[p->way], budget, wish, is_free);
+    if (s == RG_OK && *is_free && wish->accept) s = wish->accept(wish->ctx, u, is_free);
     if (s != RG_OK || !*is_free) return s;
     if (forward) snprintf(u->how, sizeof u->how, "folded from flat with contacts");
+    else if (u->as_seen)
+        snprintf(u->how, sizeof u->how, "unfolded from the flat end, way of opening %d, and landed in the order of layers that it came to", p->way + 1);
     else
         snprintf(u->how, sizeof u->how, "unfolded from the flat end: order of layers %d of those tried, way of opening %d",
                  (int)p->order + 1, p->way + 1);
@@ -511,7 +609,8 @@ rg_status rg_unfold_run(rg_unfold *u, const rg_memory *mem, const rg_mesh *none,
     u->crossed.look = &u->look;
     u->end = rg_mem_array(mem, (size_t)u->P.N, sizeof *u->end);
     u->scratch = rg_mem_array(mem, (size_t)u->P.n, sizeof *u->scratch);
-    s = u->end && u->scratch ? find_layers(u, wish->sign) : RG_ENOMEM;
+    u->x = rg_mem_array(mem, 2 * (size_t)u->mesh.nv, sizeof *u->x);
+    s = u->end && u->scratch && u->x ? find_layers(u, wish->sign) : RG_ENOMEM;
     if (s != RG_OK || !u->layers || u->layers->info.state != RG_LAYERS_VALID || u->P.N == 0) return s;
     return search(u, wish);
 }

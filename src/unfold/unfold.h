@@ -12,12 +12,15 @@
 #include "layers/layers.h"
 #include "unfold/stride.h"
 
+struct rg_unfold;
+
 typedef struct rg_unfold_wish {
     double sign;        /* +1; -1: mountain and valley exchanged */
     int64_t order;      /* which order of layers; negative: several */
     int shorter;        /* non-zero: facets are cut by short diagonals */
     double budget;      /* of work, multiplications; the same input gives the same result */
     int (*stop)(void *ctx, double done); /* non-zero: give up; NULL: nobody asks */
+    rg_status (*accept)(void *ctx, struct rg_unfold *u, int *yes); /* has the last word on what was found; NULL: nobody */
     void *ctx;
 } rg_unfold_wish;
 
@@ -42,8 +45,10 @@ typedef struct rg_unfold {
     int32_t count;
     double *end;           /* [N] fold angles of the end */
     double *scratch;       /* [n] */
+    rg_vec3 *x;            /* [2][nv] */
     rg_layers *layers;     /* of mesh, the order chosen that the motion has */
     uint64_t *which;       /* [parts] its numbers */
+    int as_seen;           /* the order is not the one that was begun from */
     rg_unfold_outcome outcome;
     int32_t tries, steps, refused;
     double opened, landed; /* progress where it was opened; to which it was followed from there. Beyond, the order is all there is */

@@ -1,4 +1,4 @@
-#include "motion/seen.h"
+#include "unfold/seen.h"
 
 #include <string.h>
 
