@@ -13,8 +13,6 @@ static const double TOLERANCES[RG_CHART_POINTS] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-1
 static const int32_t SVD_UP_TO = 32;
 /* Errors are the same up to this factor, and below this, radians. */
 static const double SAME_ERROR = 1.5, INVISIBLE = 1e-12;
-/* By this factor in cost a run is beaten, not by less. */
-static const double BEATEN = 1.5;
 /* A run that takes longer than this, in seconds, is the last of its curve; runs longer than that are not repeated. */
 static const double PATIENCE = 0.5;
 
@@ -39,14 +37,6 @@ const rg_run *rg_chart_best(const rg_chart *c, int in_passes)
         if (as_accurate(c, r) && (!best || (in_passes ? r->passes < best->passes : r->seconds < best->seconds))) best = r;
     }
     return best;
-}
-
-int32_t rg_chart_beaten_by(const rg_chart *c)
-{
-    int32_t n = 0;
-    for (int32_t i = 1; i < c->runs; i++)
-        n += as_accurate(c, &c->run[i]) && BEATEN * c->run[i].seconds < c->run[0].seconds;
-    return n;
 }
 
 int rg_chart_on_front(const rg_chart *c, int32_t i)

@@ -34,8 +34,6 @@ struct rg_chart {
 int rg_chart_reached(const rg_chart *c, const rg_run *r);
 /* The least cost, in seconds or in passes, among runs as accurate as the default; NULL: the default stops short. */
 const rg_run *rg_chart_best(const rg_chart *c, int in_passes);
-/* How many runs are as accurate as the default in less than two thirds of its time. */
-int32_t rg_chart_beaten_by(const rg_chart *c);
 /* Non-zero: no run is both quicker and nearer to the path than run i. */
 int rg_chart_on_front(const rg_chart *c, int32_t i);
 /* Non-zero: run i is of the curve that run i - 1 is of. */

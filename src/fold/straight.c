@@ -109,12 +109,6 @@ void rg_straight_destroy(rg_straight *f)
     rg_mem_free(&mem, f);
 }
 
-const double *rg_straight_angles(const rg_straight *f, int32_t *creases)
-{
-    if (creases) *creases = f->mesh.N;
-    return f->rho;
-}
-
 int32_t rg_straight_systems(const rg_straight *f, rg_straight *const **system)
 {
     *system = f->apart.parts ? f->apart.part : &f->self;

@@ -13,8 +13,6 @@ rg_status rg_straight_create(const rg_pattern *p, const rg_settings *s, rg_strai
 void rg_straight_destroy(rg_straight *f);
 /* One step of the time loop; allocates nothing. A run that cannot go on is no error: info->outcome is RG_STOPPED. */
 rg_status rg_straight_step(rg_straight *f, rg_step_info *info);
-/* Fold angles, radians, one per crease; borrowed until the next step. */
-const double *rg_straight_angles(const rg_straight *f, int32_t *creases);
 /* A fold of a mesh, its independent components apart; *m is taken over, also on failure. */
 rg_status rg_straight_from_mesh(rg_mesh *m, const rg_settings *s, rg_straight **fold, rg_diag *why);
 /* The same as one system, whatever components there are. */

@@ -66,11 +66,9 @@ const rg_mesh *rg_fold_mesh(const rg_fold *f);
 int32_t rg_fold_states(const rg_fold *f);
 const double *rg_fold_state(const rg_fold *f, int32_t k);
 const rg_vec2 *rg_fold_pattern(const rg_fold *f, int32_t k);
-double rg_fold_progress(const rg_fold *f, int32_t k);
 /* A handle on a motion, which it takes over, or shares with others; at its first frame. RG_ENOMEM. */
 rg_status rg_fold_on(rg_shared *shared, const rg_memory *mem, const rg_settings *s, rg_fold **fold);
-/* The present state becomes state k of the track; or what is in f->rho and f->flat. */
-const rg_step_info *rg_fold_stand(rg_fold *f, int32_t k);
+/* What is in f->rho and f->flat becomes the present state. */
 const rg_step_info *rg_fold_look(rg_fold *f);
 /* Is there more to come of the last leg? Then one state more of it, at the end of the track. */
 int rg_fold_has_more(const rg_fold *f);
@@ -79,8 +77,6 @@ void rg_fold_advance(rg_fold *f);
 rg_status rg_fold_own_track(rg_fold *f, int32_t states);
 /* The engine to steer by. RG_ENOMEM. */
 rg_status rg_fold_make_steer(rg_fold *f);
-/* Sector angles of the present pattern, in f->theta. */
-const double *rg_fold_theta(rg_fold *f);
 
 /* As rg_motion_create. path: out, what can be read off again, its mesh that of the motion, to be freed before it; NULL: not asked for. */
 rg_status rg_motion_with_path(const rg_pattern *p, const rg_settings *s, rg_progress progress, void *ctx, rg_motion **motion,

@@ -84,7 +84,8 @@ rg_status rg_fold_make_steer(rg_fold *f)
 
 /* ------------------------------------------------------------------------------------------------ a leg ---- */
 
-const double *rg_fold_theta(rg_fold *f)
+/* Sector angles of the present pattern. */
+static const double *sectors(rg_fold *f)
 {
     rg_mesh_sectors(rg_fold_mesh(f), f->flat, f->theta);
     return f->theta;
@@ -101,7 +102,7 @@ static void begin(rg_fold *f)
     f->between = 0;
     f->track.progress[f->first] = 0;
     f->progress = 0;
-    rg_steer_begin(f->steer, rg_fold_theta(f), f->rho);
+    rg_steer_begin(f->steer, sectors(f), f->rho);
     f->aimed = 0;
 }
 

@@ -53,8 +53,6 @@ uint64_t rg_samples_colour(const unsigned char rgb[3])
     return (uint64_t)rgb[0] | (uint64_t)rgb[1] << LANE | (uint64_t)rgb[2] << 2 * LANE;
 }
 
-unsigned char rg_samples_channel(uint64_t colour, int k) { return (unsigned char)(colour >> k * LANE); }
-
 static unsigned char mean_of(uint64_t sum, int lane)
 {
     const unsigned n = FINE * FINE;

@@ -29,7 +29,6 @@ void rg_samples_draw(const rg_samples *s, const rg_samples_line *line);
 
 /* A colour with room to add in: 20 bits for each of red, green and blue. */
 uint64_t rg_samples_colour(const unsigned char rgb[3]);
-unsigned char rg_samples_channel(uint64_t colour, int k);
 /* paper[]: the colour of each mark; ink[RG_SAMPLES_INKS]: of each ink.
  * rgb: height / RG_SAMPLES_FINE rows of width / RG_SAMPLES_FINE pixels, `stride` bytes from row to row; in: what is
  * behind. */
