@@ -792,7 +792,8 @@ RG_API rg_status rg_convert_to(const void *bytes, size_t size, rg_format to, con
 
 /* Writes an example crease pattern as .opx. `kind`: one of rg_generate_kinds(), a NULL-ended list of names. n, m:
  * its size (0: the kind's default; m = 0: the same as n; `random`: m is the seed). angle: radians, 0 for the kind's
- * default. path "-": standard output. RG_EARG: no such kind or size, why->text says so. */
+ * default. path "-": standard output. RG_EARG: no such kind or size, why->text says so. Memory is malloc's, but for
+ * rg_generate_pattern's. */
 RG_API const char *const *rg_generate_kinds(void);
 RG_API rg_status rg_generate(const char *kind, int32_t n, int32_t m, double angle, const char *path, rg_diag *why);
 /* The same to a sink; or as a pattern at once. r: as in rg_pattern_create. */

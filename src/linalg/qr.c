@@ -1,17 +1,30 @@
 #include "linalg/qr.h"
+#include "base/lanes.h"
 #include "linalg/normal.h"
 
 #include <math.h>
 #include <string.h>
 
+/* What an eliminated front hands up to the next: its last rows in the columns that are left, by columns, and where each begins. */
+typedef struct part {
+    double *x;       /* [columns][rows] */
+    int32_t *lead;   /* [rows] rising */
+    int32_t rows, next; /* next: of the fronts with the same parent, -1: the last */
+} part;
+
 typedef struct factor {
-    rg_rows A;        /* upright */
-    rg_normal R;      /* of the pattern of A^T A, which has room for R: row j of it where column j of L would be */
-    int32_t *first;   /* [rows of A] its leading column in the order of elimination */
-    int32_t *order;   /* [rows of A] by rising leading columns */
-    int32_t *count;   /* [columns + 1] scratch of sorting */
-    double *x;        /* [columns] the row that is worked in, in the order of elimination */
+    const rg_memory *mem;
+    rg_rows A;       /* upright */
+    rg_normal R;     /* of the pattern of A^T A, which is that of R: a supernode is a front */
+    int32_t *first;  /* [rows of A] its leading column in the order of elimination */
+    int32_t *order;  /* [rows of A] by rising leading columns */
+    int32_t *begin;  /* [columns + 1] into order */
+    int32_t *place;  /* [columns] of a column in the present front */
+    int32_t *child;  /* [fronts] the first that hands up to it, -1: none */
+    part *part;      /* [fronts] */
 } factor;
+
+/* ------------------------------------------------------------------------------------------------------ rows ---- */
 
 static void put(rg_rows *A, int32_t *n, int32_t col, double x)
 {
@@ -48,110 +61,178 @@ static rg_status list_rows(const rg_sparse *B, int upright, const rg_memory *mem
     return RG_OK;
 }
 
-/* Rows that begin late meet fewer others. */
-static void sort_rows(factor *f, int32_t columns)
+/* By leading columns; rows without any are left out. */
+static void sort_rows(factor *f)
 {
-    const int32_t *place = f->R.L.S.place;
+    const int32_t columns = f->R.n, *place = f->R.L.S.place;
     for (int32_t i = 0; i < f->A.count; i++) {
         f->first[i] = columns;
         for (int32_t e = f->A.start[i]; e < f->A.start[i + 1]; e++)
             if (place[f->A.col[e]] < f->first[i]) f->first[i] = place[f->A.col[e]];
-        f->count[f->first[i]]++;
+        if (f->first[i] < columns) f->begin[f->first[i] + 1]++;
     }
-    for (int32_t j = 0, sum = 0; j <= columns; j++) {
-        const int32_t n = f->count[j];
-        f->count[j] = sum;
-        sum += n;
-    }
-    for (int32_t i = 0; i < f->A.count; i++) f->order[f->count[f->first[i]]++] = i;
+    for (int32_t j = 0; j < columns; j++) f->begin[j + 1] += f->begin[j];
+    for (int32_t i = f->A.count; i-- > 0;) /* begin[j + 1] goes down to where column j begins, */
+        if (f->first[i] < columns) f->order[--f->begin[f->first[i] + 1]] = i;
+    for (int32_t j = 0; j < columns; j++) f->begin[j] = f->begin[j + 1]; /* and one place to the left */
+    f->begin[columns] = 0;
+    for (int32_t i = 0; i < f->A.count; i++) f->begin[columns] += f->first[i] < columns;
 }
 
-static rg_status make(factor *f, const rg_memory *mem, const rg_sparse *B)
+static rg_status make(factor *f, const rg_sparse *B)
 {
     const int upright = 3 * (int64_t)B->M > B->N;
     const int32_t columns = upright ? B->N : 3 * B->M;
     const rg_rows *const list = &f->A;
-    rg_status s = list_rows(B, upright, mem, &f->A);
-    if (s == RG_OK) s = rg_normal_init(&f->R, mem, columns);
+    rg_status s = list_rows(B, upright, f->mem, &f->A);
+    if (s == RG_OK) s = rg_normal_init(&f->R, f->mem, columns);
     if (s == RG_OK) s = rg_normal_analyse(&f->R, &list, 1);
-    f->first = rg_mem_array(mem, (size_t)f->A.count, sizeof *f->first);
-    f->order = rg_mem_array(mem, (size_t)f->A.count, sizeof *f->order);
-    f->count = rg_mem_array(mem, (size_t)columns + 1, sizeof *f->count);
-    f->x = rg_mem_array(mem, (size_t)columns, sizeof *f->x);
-    if (s == RG_OK && !(f->first && f->order && f->count && f->x)) s = RG_ENOMEM;
-    if (s == RG_OK) rg_supernodal_clear(&f->R.L);
-    if (s == RG_OK) sort_rows(f, columns);
-    return s;
+    if (s != RG_OK) return s;
+    const size_t fronts = (size_t)f->R.L.S.count;
+    f->first = rg_mem_array(f->mem, (size_t)f->A.count, sizeof *f->first);
+    f->order = rg_mem_array(f->mem, (size_t)f->A.count, sizeof *f->order);
+    f->begin = rg_mem_array(f->mem, (size_t)columns + 1, sizeof *f->begin);
+    f->place = rg_mem_array(f->mem, (size_t)columns, sizeof *f->place);
+    f->child = rg_mem_array(f->mem, fronts, sizeof *f->child);
+    f->part = rg_mem_array(f->mem, fronts, sizeof *f->part);
+    if (!f->first || !f->order || !f->begin || !f->place || !f->child || !f->part) return RG_ENOMEM;
+    for (size_t k = 0; k < fronts; k++) f->child[k] = -1;
+    sort_rows(f);
+    return RG_OK;
 }
 
-/* Where row j of R has its numbers: R[0 ... n - 1] in the columns col[]. */
-static double *row_of(factor *f, int32_t j, const int32_t **col, int32_t *n)
+static void free_part(const factor *f, int32_t front)
+{
+    rg_mem_free(f->mem, f->part[front].x);
+    rg_mem_free(f->mem, f->part[front].lead);
+    f->part[front].x = NULL, f->part[front].lead = NULL, f->part[front].rows = 0;
+}
+
+static void free_factor(factor *f)
+{
+    for (int32_t k = 0; f->part && k < f->R.L.S.count; k++) free_part(f, k);
+    void *block[] = {f->first, f->order, f->begin, f->place, f->child, f->part};
+    for (int i = 0; i < 6; i++) rg_mem_free(f->mem, block[i]);
+    rg_rows_free(&f->A);
+    rg_normal_free(&f->R);
+}
+
+/* --------------------------------------------------------------------------------------------------- a front ---- */
+
+/* A dense matrix of the rows that begin in a supernode's columns, and of what its children handed up. */
+typedef struct front {
+    int32_t rows, columns, pivots; /* pivots: the supernode's own columns, the first */
+    double *x;                     /* [columns][rows] */
+    int32_t *below;                /* [columns + 1] so many rows begin in that column or before it */
+    int32_t *lead;                 /* [rows] of each that was taken, in which column */
+} front;
+
+/* The front of supernode s, its rows sorted by where they begin. below[k]: where the rows end that begin in columns up to k. */
+static rg_status gather(factor *f, int32_t s, front *F)
 {
     const rg_symbolic *S = &f->R.L.S;
-    const int32_t s = S->of[j], at = j - S->column[s];
-    *n = S->start[s + 1] - S->start[s] - at;
-    *col = S->row + S->start[s] + at;
-    return f->R.L.x + (size_t)S->panel[s] + (size_t)at * (size_t)rg_symbolic_stride(S, s) + at;
+    const int32_t *col = S->row + S->start[s], from = f->begin[S->column[s]], to = f->begin[S->column[s + 1]];
+    F->columns = S->start[s + 1] - S->start[s];
+    F->pivots = S->column[s + 1] - S->column[s];
+    F->rows = to - from;
+    for (int32_t k = 0; k < F->columns; k++) f->place[col[k]] = k;
+    for (int32_t c = f->child[s]; c >= 0; c = f->part[c].next) F->rows += f->part[c].rows;
+    F->x = rg_mem_array(f->mem, (size_t)F->rows * (size_t)F->columns, sizeof *F->x);
+    F->below = rg_mem_array(f->mem, (size_t)F->columns + 1, sizeof *F->below);
+    F->lead = rg_mem_array(f->mem, (size_t)F->rows, sizeof *F->lead);
+    if (!F->x || !F->below || !F->lead) return RG_ENOMEM;
+    for (int32_t i = from; i < to; i++) F->below[f->place[f->first[f->order[i]]] + 1]++;
+    for (int32_t c = f->child[s]; c >= 0; c = f->part[c].next) {
+        const int32_t *up = S->row + S->start[c] + S->column[c + 1] - S->column[c];
+        for (int32_t i = 0; i < f->part[c].rows; i++) F->below[f->place[up[f->part[c].lead[i]]] + 1]++;
+    }
+    for (int32_t k = 0; k < F->columns; k++) F->below[k + 1] += F->below[k];
+    const size_t tall = (size_t)F->rows;
+    for (int32_t i = from; i < to; i++) {
+        const int32_t row = f->order[i], at = F->below[f->place[f->first[row]]]++;
+        for (int32_t e = f->A.start[row]; e < f->A.start[row + 1]; e++) F->x[(size_t)f->place[S->place[f->A.col[e]]] * tall + (size_t)at] = f->A.x[e];
+    }
+    for (int32_t c = f->child[s]; c >= 0; c = f->part[c].next) {
+        const part *p = &f->part[c];
+        const int32_t own = S->column[c + 1] - S->column[c], wide = S->start[c + 1] - S->start[c] - own, *up = S->row + S->start[c] + own;
+        for (int32_t i = 0; i < p->rows; i++) {
+            const int32_t at = F->below[f->place[up[p->lead[i]]]]++;
+            for (int32_t k = p->lead[i]; k < wide; k++) F->x[(size_t)f->place[up[k]] * tall + (size_t)at] = p->x[(size_t)k * (size_t)p->rows + (size_t)i];
+        }
+        free_part(f, c);
+    }
+    return RG_OK;
 }
 
-/* The row in f->x, whose first column is j, is turned into the rows of R that it meets, up the tree of elimination, until it comes to a
- * place that is empty, which it takes, or to its end. */
-static void turn_in(factor *f, int32_t j)
+/* Householder's reflection takes the n numbers of column k from row r on to the first of them, and goes over the columns behind. */
+static void turn(front *F, int32_t k, int32_t r, int32_t n, double length)
 {
-    const int32_t *col;
-    int32_t n;
-    for (; j >= 0; j = n > 1 ? col[1] : -1) {
-        double *R = row_of(f, j, &col, &n);
-        if (f->x[j] == 0) continue;
-        if (R[0] == 0) {
-            for (int32_t k = 0; k < n; k++) R[k] = f->x[col[k]], f->x[col[k]] = 0;
-            return;
-        }
-        const double r = hypot(R[0], f->x[j]), c = R[0] / r, d = f->x[j] / r;
-        for (int32_t k = 0; k < n; k++) {
-            const double a = R[k], b = f->x[col[k]];
-            R[k] = c * a + d * b;
-            f->x[col[k]] = c * b - d * a;
-        }
-        f->x[j] = 0;
+    const size_t tall = (size_t)F->rows;
+    double *v = F->x + (size_t)k * tall + (size_t)r;
+    const double pivot = v[0] > 0 ? -length : length, scale = 1 / (length * (length + fabs(v[0])));
+    v[0] -= pivot;
+    for (int32_t j = k + 1; j < F->columns; j++) {
+        double *to = F->x + (size_t)j * tall + (size_t)r;
+        rg_lanes_add(n, -scale * rg_lanes_dot(n, v, to), v, to);
     }
+    v[0] = pivot;
 }
 
-/* Column j of what is left is no longer than `cut` where R's diagonal is not: it counts as zero, and the rest of that row is one as any other.
- * By rising j, so that all that comes to a column has come. */
-static int32_t reveal(factor *f, int32_t columns, double cut)
+/* Its own columns are eliminated, of which those that are no longer than `cut` count as zero, and what is left becomes as few rows as there
+ * are columns. *pivots grows by the rows that its own columns take, which are returned; *taken: rows in all. */
+static int32_t eliminate(front *F, double cut, int32_t *pivots, int32_t *taken)
 {
-    const int32_t *col;
-    int32_t n, rank = 0;
-    for (int32_t j = 0; j < columns; j++) {
-        double *R = row_of(f, j, &col, &n);
-        const int counts = fabs(R[0]) > cut;
-        rank += counts;
-        if (counts || R[0] == 0) continue;
-        R[0] = 0;
-        for (int32_t k = 1; k < n; k++) f->x[col[k]] = R[k], R[k] = 0;
-        turn_in(f, n > 1 ? col[1] : -1);
+    int32_t r = 0, own = 0;
+    for (int32_t k = 0; k < F->columns; k++) {
+        const int32_t n = F->below[k] - r;
+        double *v = F->x + (size_t)k * (size_t)F->rows + (size_t)r;
+        const double length = n > 0 ? sqrt(rg_lanes_dot(n, v, v)) : 0;
+        if (k == F->pivots) own = r;
+        if (!(length > (k < F->pivots ? cut : 0))) continue;
+        if (n > 1) turn(F, k, r, n, length);
+        *pivots += k < F->pivots;
+        F->lead[r++] = k;
     }
-    return rank;
+    *taken = r;
+    return F->pivots == F->columns ? r : own;
+}
+
+/* What is left, to the front in whose columns it begins. */
+static rg_status hand_up(factor *f, int32_t s, const front *F, int32_t own, int32_t taken)
+{
+    const rg_symbolic *S = &f->R.L.S;
+    const size_t rows = (size_t)(taken - own), wide = (size_t)(F->columns - F->pivots);
+    part *p = &f->part[s];
+    if (rows == 0 || wide == 0) return RG_OK;
+    p->x = rg_mem_array(f->mem, rows * wide, sizeof *p->x);
+    p->lead = rg_mem_array(f->mem, rows, sizeof *p->lead);
+    if (!p->x || !p->lead) return RG_ENOMEM;
+    p->rows = (int32_t)rows;
+    for (size_t i = 0; i < rows; i++) p->lead[i] = F->lead[(size_t)own + i] - F->pivots;
+    for (size_t k = 0; k < wide; k++)
+        memcpy(p->x + k * rows, F->x + ((size_t)F->pivots + k) * (size_t)F->rows + (size_t)own, rows * sizeof *p->x);
+    const int32_t parent = S->of[S->row[S->start[s] + F->pivots]];
+    p->next = f->child[parent];
+    f->child[parent] = s;
+    return RG_OK;
 }
 
 rg_status rg_qr_rank(const rg_sparse *B, double cut, int32_t *rank)
 {
-    factor f = {0};
-    const rg_memory *mem = &B->mem;
-    *rank = 0;
-    if (B->M == 0 || B->N == 0) return RG_OK;
-    const rg_status s = make(&f, mem, B);
-    for (int32_t i = 0; s == RG_OK && i < f.A.count; i++) {
-        const int32_t row = f.order[i];
-        if (f.A.start[row] == f.A.start[row + 1]) continue;
-        for (int32_t e = f.A.start[row]; e < f.A.start[row + 1]; e++) f.x[f.R.L.S.place[f.A.col[e]]] = f.A.x[e];
-        turn_in(&f, f.first[row]);
+    factor f = {.mem = &B->mem};
+    int32_t pivots = 0;
+    rg_status s = B->M > 0 && B->N > 0 ? make(&f, B) : RG_OK;
+    for (int32_t k = 0; s == RG_OK && k < f.R.L.S.count; k++) {
+        front F = {0};
+        int32_t own = 0, taken = 0;
+        s = gather(&f, k, &F);
+        if (s == RG_OK) own = eliminate(&F, cut, &pivots, &taken);
+        if (s == RG_OK) s = hand_up(&f, k, &F, own, taken);
+        rg_mem_free(f.mem, F.x);
+        rg_mem_free(f.mem, F.below);
+        rg_mem_free(f.mem, F.lead);
     }
-    if (s == RG_OK) *rank = reveal(&f, f.R.n, cut);
-    rg_rows_free(&f.A);
-    rg_normal_free(&f.R);
-    void *block[] = {f.first, f.order, f.count, f.x};
-    for (int i = 0; i < 4; i++) rg_mem_free(mem, block[i]);
+    free_factor(&f);
+    if (s == RG_OK) *rank = pivots;
     return s;
 }
