@@ -42,8 +42,8 @@ static int find_program(char program[PROGRAM_ROOM])
 
 static rg_status absent(rg_diag *why)
 {
-    return rg_fail(RG_EABSENT, why, 0, "videos are made by the program ffmpeg, and there is none in PATH; "
-                   "a .gif or an .apng needs none");
+    return rg_fail(RG_EABSENT, why, 0, "videos are made by the program ffmpeg, and there is none in PATH "
+                   "(apt-get install ffmpeg); a .gif or an .apng needs none");
 }
 
 rg_status rg_video_check(rg_diag *why)
