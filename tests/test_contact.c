@@ -16,7 +16,7 @@
 #include "contact/near.h"
 #include "contact/sweep.h"
 
-/* ------------------------------------------------------------------------------------------------ brute force ---- */
+/* ---------------------------------------------------------------------------- brute force ---- */
 
 typedef double point[3];
 typedef point triangle[3];
@@ -150,7 +150,8 @@ static void degenerate_pairs(void **state)
                 const double h = inner(d, n) / area;
                 for (int q = 0; q < 3; q++) b[i][q] += (fabs(h) - h) * n[q] / area;
             }
-            for (int q = 0; q < 3; q++) b[0][q] = k % 4 == 2 ? (w[0] * a[0][q] + w[1] * a[1][q] + w[2] * a[2][q]) / all : a[2][q];
+            for (int q = 0; q < 3; q++)
+                b[0][q] = k % 4 == 2 ? (w[0] * a[0][q] + w[1] * a[1][q] + w[2] * a[2][q]) / all : a[2][q];
         }
         below(depth(a, b, NULL), 1e-12);
         below(depth(b, a, NULL), 1e-12);
@@ -167,7 +168,8 @@ static void known_depths(void **state)
     near(depth(a, b, NULL), 0.5 / sqrt(4.5), 1e-12);
 }
 
-/* About a common corner, turned anyhow: they cross over a stretch from the corner on if an edge of one goes through the other. */
+/* About a common corner, turned anyhow: they cross over a stretch from the corner on if an edge of one goes through the
+ * other. */
 static void stretches_about_a_corner(void **state)
 {
     (void)state;
@@ -192,7 +194,7 @@ static void stretches_about_a_corner(void **state)
     assert_true(crossing > 300);
 }
 
-/* ------------------------------------------------------------------------------------------------------ sheets ---- */
+/* ---------------------------------------------------------------------------------- sheets ---- */
 
 /* A strip of facets between slanted creases: any fold angles close, as there is no vertex inside. */
 static rg_mesh strip(int n, unsigned *seed)
@@ -272,8 +274,8 @@ static void strips_cross_as_their_pairs_do(void **state)
     assert_true(crossing > 10 && fronts > 5);
 }
 
-/* A facet that is not convex: what stands in its notch does not cross it, what goes through its arm does. One sheet: an L, and
- * a square tongue on one of its arms that is folded round. */
+/* A facet that is not convex: what stands in its notch does not cross it, what goes through its arm does. One sheet: an
+ * L, and a square tongue on one of its arms that is folded round. */
 static void notches_are_open(void **state)
 {
     (void)state;
@@ -297,7 +299,8 @@ static void notches_are_open(void **state)
 }
 
 /* A Miura-ori shows its front all the way, whatever its size, and so do its steps, up to the flat end. */
-static rg_sweep_found step_of(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double depth, rg_sweep_work *w)
+static rg_sweep_found step_of(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double depth,
+                              rg_sweep_work *w)
 {
     rg_sweep_found found;
     assert_int_equal(rg_sweep_step(p, from, to, depth, w, &found), RG_OK);
@@ -328,7 +331,8 @@ static void miura_shows_its_front(void **state)
         assert_int_equal(rg_contact_pairs(&p, s[k % 2].x, RG_CONTACT_TOLERANCE, &w, NULL, 0, NULL), 0);
         assert_int_equal(rg_front_shows(&p, s[k % 2].x, w.normal, p.parts, &w.front), k < STEPS);
         if (k == 0) continue;
-        const rg_plates_state from = {m.X, s[(k + 1) % 2].place, s[(k + 1) % 2].x}, to = {m.X, s[k % 2].place, s[k % 2].x};
+        const rg_plates_state from = {m.X, s[(k + 1) % 2].place, s[(k + 1) % 2].x},
+            to = {m.X, s[k % 2].place, s[k % 2].x};
         const rg_sweep_found found = step_of(&p, &from, &to, RG_CONTACT_TOLERANCE, &sw);
         assert_int_equal(found.verdict, RG_SWEEP_FREE);
         assert_true(found.in_front);
@@ -341,9 +345,10 @@ static void miura_shows_its_front(void **state)
     rg_pattern_destroy(pattern);
 }
 
-/* --------------------------------------------------------------------------------------------- two loose plates ---- */
+/* ------------------------------------------------------------------------- two loose plates ---- */
 
-/* Two triangles of one "sheet" that nothing holds together, or a common corner: the mesh as far as contact/ looks at it. */
+/* Two triangles of one "sheet" that nothing holds together, or a common corner: the mesh as far as contact/ looks at
+ * it. */
 typedef struct loose {
     rg_mesh m;
     rg_vec2 X[6];
@@ -366,13 +371,16 @@ static void make_loose(loose *l, const rg_vec2 X[6], int shared)
         l->edge[k][1] = l->vertex[k / 3 * 3 + (k + 1) % 3];
     }
     l->start[1] = 3, l->start[2] = 6;
-    l->m = (rg_mesh){.mem = rg_mem_default(NULL), .nv = 6, .ne = 6, .nf = 2, .X = l->X, .edge = l->edge, .edge_facet = l->side,
-                     .facet_start = l->start, .facet_vertex = l->vertex, .facet_edge = l->facet_edge, .edge_crease = l->crease};
+    l->m = (rg_mesh){.mem = rg_mem_default(NULL), .nv = 6, .ne = 6, .nf = 2, .X = l->X, .edge = l->edge,
+                     .edge_facet = l->side,
+                     .facet_start = l->start, .facet_vertex = l->vertex, .facet_edge = l->facet_edge,
+                         .edge_crease = l->crease};
 }
 
 static rg_mat3 turned_about(rg_vec3 axis, double angle)
 {
-    const double c = cos(angle), s = sin(angle), k = 1 - c, n = rg_vec3_length(axis), x = axis.x / n, y = axis.y / n, z = axis.z / n;
+    const double c = cos(angle), s = sin(angle), k = 1 - c, n = rg_vec3_length(axis), x = axis.x / n, y = axis.y / n,
+        z = axis.z / n;
     return (rg_mat3){{{c + x * x * k, x * y * k + z * s, x * z * k - y * s},
                       {x * y * k - z * s, c + y * y * k, y * z * k + x * s},
                       {x * z * k + y * s, y * z * k - x * s, c + z * z * k}}};
@@ -387,7 +395,8 @@ static void place_all(const loose *l, const rg_place place[2], rg_vec3 x[6])
         }
 }
 
-static rg_sweep_found sweep_of(const loose *l, const rg_place from[2], const rg_place to[2], double allowed, double *size)
+static rg_sweep_found sweep_of(const loose *l, const rg_place from[2], const rg_place to[2], double allowed,
+                               double *size)
 {
     rg_plates p;
     rg_sweep_work w;
@@ -404,8 +413,9 @@ static rg_sweep_found sweep_of(const loose *l, const rg_place from[2], const rg_
     return found;
 }
 
-/* The second triangle goes on a screw, about some line and along it, or turns about a common corner, and both together swing about some
- * other axis, which says nothing: sampled densely, what is free never crosses, and contact is where it is told to be. */
+/* The second triangle goes on a screw, about some line and along it, or turns about a common corner, and both together
+ * swing about some other axis, which says nothing: sampled densely, what is free never crosses, and contact is where it
+ * is told to be. */
 static void moving_pairs(void **state)
 {
     (void)state;
@@ -418,21 +428,25 @@ static void moving_pairs(void **state)
         if (!(rg_vec2_turn(X[0], X[1], X[2]) > 0.1 && rg_vec2_turn(shared ? X[0] : X[3], X[4], X[5]) > 0.1)) continue;
         loose l;
         make_loose(&l, X, shared);
-        const rg_vec3 axis = {noise(&seed), noise(&seed), noise(&seed)}, swing = {noise(&seed), noise(&seed), noise(&seed)};
+        const rg_vec3 axis = {noise(&seed), noise(&seed), noise(&seed)},
+            swing = {noise(&seed), noise(&seed), noise(&seed)};
         const rg_vec3 tilt = {noise(&seed), noise(&seed), noise(&seed)};
         const rg_vec3 begin = {noise(&seed), noise(&seed), 1.5 * noise(&seed)};
         const double angle = 0.7 * (1 + noise(&seed)), by = 1.5 * noise(&seed);
-        const rg_vec3 pivot = shared ? (rg_vec3){X[0].x, X[0].y, 0} : (rg_vec3){noise(&seed), noise(&seed), noise(&seed)};
+        const rg_vec3 pivot = shared ? (rg_vec3){X[0].x, X[0].y, 0} : (rg_vec3){noise(&seed), noise(&seed),
+                                                                                noise(&seed)};
         const rg_mat3 Q = turned_about(tilt, 3 * noise(&seed));
         rg_place at[2][2];
         triangle a, b;
         double size;
-        /* The place at time t, as the first sees it: turned(t) (Q x + begin - pivot) + pivot + t lift, the lift along the axis. */
+        /* The place at time t, as the first sees it: turned(t) (Q x + begin - pivot) + pivot + t lift, the lift along
+         * the axis. */
         const rg_vec3 start = shared ? rg_vec3_sub(pivot, rg_mat3_mul_vec(Q, pivot)) : begin;
         const rg_vec3 lift = rg_vec3_scale(shared ? 0 : noise(&seed), axis);
         for (int end = 0; end < 2; end++) {
             const rg_mat3 T = turned_about(axis, end * angle), G = turned_about(swing, end * by);
-            const rg_vec3 t = rg_vec3_add(rg_mat3_mul_vec(T, rg_vec3_sub(start, pivot)), rg_vec3_axpy(end, lift, pivot));
+            const rg_vec3 t = rg_vec3_add(rg_mat3_mul_vec(T, rg_vec3_sub(start, pivot)),
+                                          rg_vec3_axpy(end, lift, pivot));
             at[end][0] = (rg_place){G, {end * 0.3, 0, 0}};
             at[end][1].R = rg_mat3_mul(G, rg_mat3_mul(T, Q));
             at[end][1].t = rg_vec3_add(rg_mat3_mul_vec(G, t), at[end][0].t);
@@ -452,10 +466,12 @@ static void moving_pairs(void **state)
                 a[c][0] = p.x, a[c][1] = p.y, a[c][2] = 0;
                 b[c][0] = y.x, b[c][1] = y.y, b[c][2] = y.z;
             }
-            if (found.time > 0) below(depth(a, b, NULL), allowed * size * (1 + 1e-9)); /* else it begins with a crossing */
+            /* else it begins with a crossing */
+            if (found.time > 0)
+                below(depth(a, b, NULL), allowed * size * (1 + 1e-9));
         }
-        /* At the time told it is as deep as is allowed, to one part in fifty; or else as far from the side on which it was: a tip that
-         * pokes through the other, or a plate that goes through it all at once, is not deep. */
+        /* At the time told it is as deep as is allowed, to one part in fifty; or else as far from the side on which it
+         * was: a tip that pokes through the other, or a plate that goes through it all at once, is not deep. */
         if (found.verdict != RG_SWEEP_CONTACT || depth(a, b, NULL) >= 0.98 * allowed * size) continue;
         double top = INFINITY, low = -INFINITY;
         for (int c = 0; c < 3; c++) {
@@ -512,7 +528,8 @@ static rg_sweep_verdict compare_to_pairs(const rg_mesh *m, const posed s[2])
     rg_sweep_found first = {.verdict = RG_SWEEP_FREE, .time = 1}, one;
     for (int32_t f = 0; f < m->nf; f++)
         for (int32_t g = f + 1; g < m->nf; g++)
-            if (sweep_two(m, s, f, g, allowed, &one) && one.verdict != RG_SWEEP_FREE && (one.time < first.time || first.verdict == RG_SWEEP_FREE))
+            if (sweep_two(m, s, f, g, allowed, &one) && one.verdict != RG_SWEEP_FREE &&
+                (one.time < first.time || first.verdict == RG_SWEEP_FREE))
                 first = one;
     assert_int_equal(all.verdict, first.verdict);
     near(all.time, first.time, 1e-3);
@@ -550,10 +567,12 @@ enum { CROWD = 12 };
 typedef struct crowd {
     rg_mesh m;
     rg_vec2 X[3 * CROWD];
-    int32_t edge[3 * CROWD][2], side[3 * CROWD][2], start[CROWD + 1], vertex[3 * CROWD], facet_edge[3 * CROWD], crease[3 * CROWD];
+    int32_t edge[3 * CROWD][2], side[3 * CROWD][2], start[CROWD + 1], vertex[3 * CROWD], facet_edge[3 * CROWD],
+        crease[3 * CROWD];
 } crowd;
 
-/* Small loose triangles that fly through each other, each its own way and turning otherwise than its neighbours of the tree. */
+/* Small loose triangles that fly through each other, each its own way and turning otherwise than its neighbours of the
+ * tree. */
 static void crowds_sweep_as_their_pairs_do(void **state)
 {
     (void)state;
@@ -565,30 +584,37 @@ static void crowds_sweep_as_their_pairs_do(void **state)
         memset(&c, 0, sizeof c);
         for (int i = 0; i < 3 * CROWD; i++) {
             const double turn = 2 * RG_PI / 3 * (i % 3);
-            c.X[i] = (rg_vec2){0.1 * (i / 3) + 0.2 * cos(turn) + 0.04 * noise(&seed), 0.2 * sin(turn) + 0.04 * noise(&seed)};
+            c.X[i] = (rg_vec2){0.1 * (i / 3) + 0.2 * cos(turn) + 0.04 * noise(&seed),
+                               0.2 * sin(turn) + 0.04 * noise(&seed)};
             c.vertex[i] = c.facet_edge[i] = i;
             c.edge[i][0] = i, c.edge[i][1] = i / 3 * 3 + (i + 1) % 3;
             c.side[i][0] = i / 3, c.side[i][1] = -1;
         }
         for (int f = 0; f <= CROWD; f++) c.start[f] = 3 * f;
-        c.m = (rg_mesh){.mem = rg_mem_default(NULL), .nv = 3 * CROWD, .ne = 3 * CROWD, .nf = CROWD, .X = c.X, .edge = c.edge, .edge_facet = c.side,
-                        .facet_start = c.start, .facet_vertex = c.vertex, .facet_edge = c.facet_edge, .edge_crease = c.crease};
+        c.m = (rg_mesh){.mem = rg_mem_default(NULL), .nv = 3 * CROWD, .ne = 3 * CROWD, .nf = CROWD, .X = c.X,
+                        .edge = c.edge, .edge_facet = c.side,
+                        .facet_start = c.start, .facet_vertex = c.vertex, .facet_edge = c.facet_edge,
+                            .edge_crease = c.crease};
         for (int f = 0; f < CROWD; f++) {
-            const rg_vec3 tilt = {noise(&seed), noise(&seed), noise(&seed)}, axis = {noise(&seed), noise(&seed), noise(&seed)};
-            s[0].place[f] = (rg_place){turned_about(tilt, 3 * noise(&seed)), {3 * noise(&seed), 3 * noise(&seed), 3 * noise(&seed)}};
+            const rg_vec3 tilt = {noise(&seed), noise(&seed), noise(&seed)},
+                axis = {noise(&seed), noise(&seed), noise(&seed)};
+            s[0].place[f] = (rg_place){turned_about(tilt, 3 * noise(&seed)),
+                                       {3 * noise(&seed), 3 * noise(&seed), 3 * noise(&seed)}};
             s[1].place[f].R = rg_mat3_mul(turned_about(axis, 0.75 * noise(&seed)), s[0].place[f].R);
-            s[1].place[f].t = rg_vec3_add(s[0].place[f].t, (rg_vec3){3 * noise(&seed), 3 * noise(&seed), 3 * noise(&seed)});
+            s[1].place[f].t = rg_vec3_add(s[0].place[f].t, (rg_vec3){3 * noise(&seed), 3 * noise(&seed),
+                                                                     3 * noise(&seed)});
         }
         for (int i = 0; i < 3 * CROWD; i++)
             for (int end = 0; end < 2; end++)
-                s[end].x[i] = rg_vec3_add(rg_mat3_mul_vec(s[end].place[i / 3].R, (rg_vec3){c.X[i].x, c.X[i].y, 0}), s[end].place[i / 3].t);
+                s[end].x[i] = rg_vec3_add(rg_mat3_mul_vec(s[end].place[i / 3].R, (rg_vec3){c.X[i].x, c.X[i].y, 0}),
+                                          s[end].place[i / 3].t);
         outcome[compare_to_pairs(&c.m, s)]++;
     }
     assert_true(outcome[RG_SWEEP_FREE] > 10 && outcome[RG_SWEEP_CONTACT] > 10);
 }
 
-/* Seen from its front at once, as long as no corner's arc is higher than half of what is allowed: facets of one by a half turn by half of
- * the angle, so that it is that of h = (1 + 1/4)^(1/2) / 2 (angle / 2)^2 / 8. */
+/* Seen from its front at once, as long as no corner's arc is higher than half of what is allowed: facets of one by a
+ * half turn by half of the angle, so that it is that of h = (1 + 1/4)^(1/2) / 2 (angle / 2)^2 / 8. */
 static void arcs_are_low_enough_to_be_seen_at_once(void **state)
 {
     (void)state;
@@ -642,8 +668,8 @@ static void layers_that_swing_together(void **state)
     assert_int_equal(sweep_of(&l, from, to, RG_CONTACT_TOLERANCE, &size).verdict, RG_SWEEP_GAVE_UP);
 }
 
-/* States of a motion, one after the other: the first that crosses, and how far on the way to it. A hinge goes past half a turn at a moment
- * that is known, and shows it in no state. */
+/* States of a motion, one after the other: the first that crosses, and how far on the way to it. A hinge goes past half
+ * a turn at a moment that is known, and shows it in no state. */
 static void the_first_crossing_of_a_motion(void **state)
 {
     (void)state;
@@ -702,7 +728,8 @@ static void what_a_way_may_bend_is_not_held_against_it(void **state)
         posed s;
         assert_int_equal(rg_tree_init(&m, 0, &t), RG_OK);
         assert_int_equal(rg_course_init(&m, &c), RG_OK);
-        /* The last state is 0.04 beyond: 4e-4 deep, and 8e-3. The wider facet's corner bends by up to 0.01 from state to state. */
+        /* The last state is 0.04 beyond: 4e-4 deep, and 8e-3. The wider facet's corner bends by up to 0.01 from state
+         * to state. */
         for (double rho = 2.28; rho < 3.25; rho += 0.1) {
             pose(&m, &t, &rho, &s);
             const rg_plates_state now = {m.X, s.place, s.x};
@@ -720,8 +747,8 @@ static void what_a_way_may_bend_is_not_held_against_it(void **state)
     }
 }
 
-/* One flap down, the other over it, and both flat; then one of them is lifted. If it is the lower one, it goes through the upper one, of
- * which no state and no depth shows anything. */
+/* One flap down, the other over it, and both flat; then one of them is lifted. If it is the lower one, it goes through
+ * the upper one, of which no state and no depth shows anything. */
 static void layers_change_places(void **state)
 {
     (void)state;
@@ -751,7 +778,8 @@ static void layers_change_places(void **state)
             assert_int_equal(c.found.crossing, 0);
             assert_int_equal(c.found.first, first == lifted ? 28 : -1);
             assert_int_equal(c.found.between, first == lifted);
-            for (int32_t i = 0; first != lifted && i < c.sweep.n_before; i++) { /* and they are known to be on their sides */
+            /* and they are known to be on their sides */
+            for (int32_t i = 0; first != lifted && i < c.sweep.n_before; i++) {
                 int32_t facet[2];
                 assert_int_not_equal(rg_course_side(&c, i, facet), 0);
             }
@@ -768,7 +796,8 @@ static void a_hair_before_half_a_turn(void **state)
 {
     (void)state;
     static const struct { double before, after; rg_sweep_verdict verdict; } all[] = {
-        {0.001, 0.4, RG_SWEEP_FREE}, {0.4, 0.001, RG_SWEEP_FREE}, {0.3, 0.4, RG_SWEEP_CONTACT}, {0.4, 0.3, RG_SWEEP_CONTACT}};
+        {0.001, 0.4, RG_SWEEP_FREE}, {0.4, 0.001, RG_SWEEP_FREE}, {0.3, 0.4, RG_SWEEP_CONTACT},
+            {0.4, 0.3, RG_SWEEP_CONTACT}};
     rg_lines l = drawing();
     draw_box(&l, 0, 0, 1, 1);
     draw(&l, RG_VALLEY, 0.5, 0, 0.5, 1);
@@ -794,7 +823,8 @@ static void a_hair_before_half_a_turn(void **state)
     rg_pattern_destroy(d);
 }
 
-/* The box of a part is that of its corners, and of a node that of what is below it: no wider, or more is looked at than need be. */
+/* The box of a part is that of its corners, and of a node that of what is below it: no wider, or more is looked at than
+ * need be. */
 static void boxes_fit(void **state)
 {
     (void)state;
@@ -832,7 +862,8 @@ static void boxes_fit(void **state)
     }
 }
 
-/* A hinge past half a turn is as deep in itself as its smaller facet reaches, whichever that is, and not as the larger one. */
+/* A hinge past half a turn is as deep in itself as its smaller facet reaches, whichever that is, and not as the larger
+ * one. */
 static void a_narrow_flap_is_not_deep(void **state)
 {
     (void)state;
@@ -894,10 +925,10 @@ static void hinges_stop_at_half_a_turn(void **state)
     rg_mesh_free(&m);
 }
 
-/* ------------------------------------------------------------------------------------------------------ nearest ---- */
+/* ---------------------------------------------------------------------------------- nearest ---- */
 
-/* A nearest point of a triangle: no corner of it lies on p's side of the plane through it across the way to p. Of two edges:
- * the way stands on both. */
+/* A nearest point of a triangle: no corner of it lies on p's side of the plane through it across the way to p. Of two
+ * edges: the way stands on both. */
 static void nearest_points(void **state)
 {
     (void)state;
@@ -931,7 +962,7 @@ static void nearest_points(void **state)
     assert_true(inside > 500 && beside > 500 && both > 500);
 }
 
-/* ------------------------------------------------------------------------------------------------------- memory ---- */
+/* ----------------------------------------------------------------------------------- memory ---- */
 
 static void starves_cleanly_and_looks_for_nothing(void **state)
 {

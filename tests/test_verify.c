@@ -113,7 +113,7 @@ static double size_of(const json_t *j)
     return fmax(high[0] - low[0], high[1] - low[1]);
 }
 
-/* ------------------------------------------------------------------------------------------------------ as it is ---- */
+/* ---------------------------------------------------------------------------------- as it is ---- */
 
 static void motions_are_valid(void **state)
 {
@@ -124,7 +124,8 @@ static void motions_are_valid(void **state)
         write_json(motion[n]);
         rg_certificate *c = judge(p);
         const rg_fault *list;
-        if (rg_certificate_faults(c, &list) > 0) fail_msg("%s, frame %d: %s", names[n], (int)list[0].frame, list[0].text);
+        if (rg_certificate_faults(c, &list) > 0)
+            fail_msg("%s, frame %d: %s", names[n], (int)list[0].frame, list[0].text);
         info = *rg_certificate_get_info(c);
         assert_true(info.valid && info.ends_flat && info.layer_pairs > 5);
         assert_int_equal(info.frames, 60);
@@ -197,20 +198,27 @@ static void another_pattern_is_refused(void **state)
 /* Two flaps on both sides of a square, turned up by angles in degrees. */
 static void add_frame(json_t *frames, double left, double right)
 {
-    const double deg = 3.14159265358979323846 / 180, c = cos(left * deg), s = sin(left * deg), d = cos(right * deg), t = sin(right * deg);
-    const double x[8][3] = {{1 - c, 0, s}, {1, 0, 0}, {2, 0, 0}, {2 + d, 0, t}, {2 + d, 1, t}, {2, 1, 0}, {1, 1, 0}, {1 - c, 1, s}};
+    const double deg = 3.14159265358979323846 / 180, c = cos(left * deg), s = sin(left * deg), d = cos(right * deg),
+        t = sin(right * deg);
+    const double x[8][3] = {{1 - c, 0, s}, {1, 0, 0}, {2, 0, 0}, {2 + d, 0, t}, {2 + d, 1, t}, {2, 1, 0}, {1, 1, 0},
+                            {1 - c, 1, s}};
     json_t *all = json_array();
     for (int v = 0; v < 8; v++) json_array_append_new(all, json_pack("[fff]", x[v][0], x[v][1], x[v][2]));
-    json_array_append_new(frames, json_pack("{so s[iiiiiiiiff] sf}", "vertices_coords", all, "edges_foldAngle", 0, 0, 0, 0, 0, 0, 0, 0, left, right,
+    json_array_append_new(frames, json_pack("{so s[iiiiiiiiff] sf}", "vertices_coords", all, "edges_foldAngle", 0, 0, 0,
+                                            0, 0, 0, 0, 0, left, right,
                                             "rigami:percent", (left + right) / 3.6));
 }
 
 /* Of no frame yet. */
 static json_t *flaps(void)
 {
-    json_t *j = json_pack("{s[[ii][ii][ii][ii][ii][ii][ii][ii]] s[[ii][ii][ii][ii][ii][ii][ii][ii][ii][ii]] s[ssssssssss] s[iiiiiiiiii] s[[iiii][iiii][iiii]] s[]}",
-                          "vertices_coords", 0, 0, 1, 0, 2, 0, 3, 0, 3, 1, 2, 1, 1, 1, 0, 1, "edges_vertices", 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7,
-                          7, 0, 1, 6, 2, 5, "edges_assignment", "B", "B", "B", "B", "B", "B", "B", "B", "V", "V", "edges_foldAngle", 0, 0, 0, 0, 0,
+    json_t *j =
+        json_pack("{s[[ii][ii][ii][ii][ii][ii][ii][ii]] s[[ii][ii][ii][ii][ii][ii][ii][ii][ii][ii]] s[ssssssssss] "
+                  "s[iiiiiiiiii] s[[iiii][iiii][iiii]] s[]}",
+                          "vertices_coords", 0, 0, 1, 0, 2, 0, 3, 0, 3, 1, 2, 1, 1, 1, 0, 1, "edges_vertices", 0, 1, 1,
+                              2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7,
+                          7, 0, 1, 6, 2, 5, "edges_assignment", "B", "B", "B", "B", "B", "B", "B", "B", "V", "V",
+                              "edges_foldAngle", 0, 0, 0, 0, 0,
                           0, 0, 0, 180, 180, "faces_vertices", 0, 1, 6, 7, 1, 2, 5, 6, 2, 3, 4, 5, "file_frames");
     assert_non_null(j);
     return j;
@@ -246,8 +254,8 @@ static int frame_of_fault(const json_t *j, const char *what)
     return frame;
 }
 
-/* One flap down, the other over it, and both flat; then the lower one is lifted, through the upper one, of which neither that state nor
- * the way to it shows anything. It is known from how they came to lie, however long ago. */
+/* One flap down, the other over it, and both flat; then the lower one is lifted, through the upper one, of which
+ * neither that state nor the way to it shows anything. It is known from how they came to lie, however long ago. */
 static void layers_that_change_places_are_found(void **state)
 {
     (void)state;
@@ -259,7 +267,8 @@ static void layers_that_change_places_are_found(void **state)
                 add_frame(frames_of(j), first ? b : a, first ? a : b);
             }
             for (int k = 0; k < 3; k++) add_frame(frames_of(j), 180, 180);
-            for (int k = 1; k < 4; k++) add_frame(frames_of(j), lifted ? 180 : 180 - 15 * k, lifted ? 180 - 15 * k : 180);
+            for (int k = 1; k < 4; k++)
+                add_frame(frames_of(j), lifted ? 180 : 180 - 15 * k, lifted ? 180 - 15 * k : 180);
             assert_int_equal(frame_of_fault(j, "the other way round"), first == lifted ? 28 : -1);
             assert_int_equal(frame_of_fault(j, "cross"), -1);
             assert_int_equal(frame_of_fault(j, "pass through"), -1);
@@ -267,7 +276,7 @@ static void layers_that_change_places_are_found(void **state)
         }
 }
 
-/* ------------------------------------------------------------------------------------------------------ mutated ---- */
+/* ---------------------------------------------------------------------------------- mutated ---- */
 
 enum { TIMES = 100 };
 
@@ -277,10 +286,12 @@ static void a_moved_vertex_is_found(void **state)
     unsigned seed = 41;
     for (int k = 0; k < TIMES; k++) {
         json_t *j = json_deep_copy(motion[k % NAMES]), *frame = json_array_get(frames_of(j), (size_t)whole(&seed, 60));
-        json_t *all = json_object_get(frame, "vertices_coords"), *x = json_array_get(all, (size_t)whole(&seed, (int)json_array_size(all)));
+        json_t *all = json_object_get(frame, "vertices_coords"),
+            *x = json_array_get(all, (size_t)whole(&seed, (int)json_array_size(all)));
         double d[3] = {noise(&seed), noise(&seed), noise(&seed)};
         const double by = 1e-3 * size_of(j) / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-        for (size_t i = 0; i < 3; i++) json_array_set_new(x, i, json_real(json_number_value(json_array_get(x, i)) + by * d[i]));
+        for (size_t i = 0; i < 3; i++)
+            json_array_set_new(x, i, json_real(json_number_value(json_array_get(x, i)) + by * d[i]));
         assert_true(is_refused(j));
         json_decref(j);
     }
@@ -295,7 +306,8 @@ static void exchanged_frames_are_found(void **state)
         const int a = whole(&seed, 60), b = (a + 1 + whole(&seed, 59)) % 60;
         json_t *x = json_incref(json_array_get(frames, (size_t)a)), *y = json_incref(json_array_get(frames, (size_t)b));
         if (k % 2) { /* what they hold is exchanged, not what they say of how far they are */
-            json_t *p = json_incref(json_object_get(x, "rigami:percent")), *q = json_incref(json_object_get(y, "rigami:percent"));
+            json_t *p = json_incref(json_object_get(x, "rigami:percent")),
+                *q = json_incref(json_object_get(y, "rigami:percent"));
             json_object_set_new(x, "rigami:percent", q);
             json_object_set_new(y, "rigami:percent", p);
         }
@@ -318,7 +330,8 @@ static void a_reversed_order_is_found(void **state)
         json_array_set_new(row, 2, json_integer(-json_integer_value(json_array_get(row, 2))));
         if (!is_refused(j)) {
             missed++;
-            print_error("%s: the order of %d and %d\n", names[k % NAMES], (int)json_integer_value(json_array_get(row, 0)),
+            print_error("%s: the order of %d and %d\n", names[k % NAMES],
+                        (int)json_integer_value(json_array_get(row, 0)),
                         (int)json_integer_value(json_array_get(row, 1)));
         }
         json_decref(j);
@@ -332,16 +345,19 @@ static void other_changes_are_found(void **state)
     (void)state;
     unsigned seed = 53;
     for (int k = 0; k < TIMES; k++) {
-        json_t *j = json_deep_copy(motion[k % NAMES]), *frame = json_array_get(frames_of(j), (size_t)(5 + whole(&seed, 50)));
+        json_t *j = json_deep_copy(motion[k % NAMES]), *frame = json_array_get(frames_of(j),
+                                                                               (size_t)(5 + whole(&seed, 50)));
         json_t *letters = json_object_get(j, "edges_assignment"), *angles = json_object_get(frame, "edges_foldAngle");
         size_t e;
         do e = (size_t)whole(&seed, (int)json_array_size(letters));
         while (!strchr("MV", json_string_value(json_array_get(letters, e))[0]));
         switch (k / NAMES % 5) {
         case 0: json_array_set_new(angles, e, json_real(json_number_value(json_array_get(angles, e)) + 0.1)); break;
-        case 1: json_array_set_new(letters, e, json_string(json_string_value(json_array_get(letters, e))[0] == 'M' ? "V" : "M")); break;
+        case 1: json_array_set_new(letters, e, json_string(json_string_value(json_array_get(letters, e))[0] == 'M' ? "V"
+                                                           : "M")); break;
         case 2: json_object_del(last_of(j), "faceOrders"); break;
-        case 3: json_array_set_new(json_object_get(j, "faces_vertices"), 0, json_deep_copy(json_array_get(json_object_get(j, "faces_vertices"), 1))); break;
+        case 3: json_array_set_new(json_object_get(j, "faces_vertices"), 0,
+                                   json_deep_copy(json_array_get(json_object_get(j, "faces_vertices"), 1))); break;
         case 4: { /* a sheet that is another one in this frame */
             json_t *flat = json_deep_copy(json_object_get(j, "vertices_coords")), *x = json_array_get(flat, 0);
             json_array_set_new(x, 0, json_real(json_number_value(json_array_get(x, 0)) + 1e-3 * size_of(j)));
@@ -382,7 +398,8 @@ static void what_is_no_motion_cannot_be_read(void **state)
     rg_diag why = {0, ""};
     assert_int_equal(rg_certificate_create("/nowhere/at/all.fold", NULL, NULL, &c, &why), RG_EREAD);
     /* Each key that a motion needs is missed. */
-    const char *const key[] = {"vertices_coords", "edges_vertices", "edges_assignment", "edges_foldAngle", "faces_vertices", "file_frames"};
+    const char *const key[] = {"vertices_coords", "edges_vertices", "edges_assignment", "edges_foldAngle",
+                               "faces_vertices", "file_frames"};
     for (size_t k = 0; k < sizeof key / sizeof *key; k++) {
         json_t *j = json_deep_copy(motion[1]);
         json_object_del(j, key[k]);

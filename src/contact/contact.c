@@ -43,12 +43,14 @@ static rg_plate plate(const look *l, int32_t a)
 }
 
 /* The depth of parts of two facets, 0 where it is not more than `least` or where they only touch. */
-static double plates_cross(const rg_plates *p, const rg_plate *a, const rg_plate *b, int32_t f, int32_t g, double least, rg_vec3 *axis)
+static double plates_cross(const rg_plates *p, const rg_plate *a, const rg_plate *b, int32_t f, int32_t g, double least,
+                           rg_vec3 *axis)
 {
     int32_t corner;
     const double depth = rg_depth_of(a, b, least, axis);
     if (!(depth > 0)) return 0;
-    return rg_plates_shared(p->mesh, f, g, &corner) > 0 && !(rg_depth_stretch(a, b) > RG_CONTACT_STRETCH * p->size) ? 0 : depth;
+    return rg_plates_shared(p->mesh, f, g, &corner) > 0 && !(rg_depth_stretch(a, b) > RG_CONTACT_STRETCH * p->size) ? 0
+        : depth;
 }
 
 static double parts_cross(const look *l, int32_t a, int32_t b, double least, rg_vec3 *axis)
@@ -97,7 +99,8 @@ static void meet(look *l, int32_t a, int32_t b)
         l->least = h.depth;
         return;
     }
-    const int whole = p->first[h.facet[0] + 1] - p->first[h.facet[0]] == 1 && p->first[h.facet[1] + 1] - p->first[h.facet[1]] == 1;
+    const int whole = p->first[h.facet[0] + 1] - p->first[h.facet[0]] == 1 &&
+        p->first[h.facet[1] + 1] - p->first[h.facet[1]] == 1;
     if (!whole && counted(l, a, b)) return;
     if (!whole) deepen(l, &h);
     h.depth /= p->size;
@@ -111,7 +114,8 @@ static int may_cross(const look *l, int32_t i, int32_t k)
     const rg_box *a = &l->box[i], *b = &l->box[k];
     /* All six are compared: which one decides cannot be foretold, and a branch foretold wrongly costs more. */
     const double t = l->least;
-    return (a->high.x - b->low.x > t) & (b->high.x - a->low.x > t) & (a->high.y - b->low.y > t) & (b->high.y - a->low.y > t) &
+    return (a->high.x - b->low.x > t) & (b->high.x - a->low.x > t) & (a->high.y - b->low.y > t) & (b->high.y -
+            a->low.y > t) &
            (a->high.z - b->low.z > t) & (b->high.z - a->low.z > t);
 }
 
@@ -150,7 +154,8 @@ static look begin(const rg_plates *p, const rg_vec3 *x, double least, rg_contact
     look l = {.p = p, .x = x, .box = w->box, .corner = w->corner, .normal = w->normal, .least = least * p->size};
     l.deepest.facet[0] = l.deepest.facet[1] = -1;
     for (int32_t j = 0; j < p->start[p->parts]; j++) w->corner[j] = x[p->vertex[j]];
-    for (int32_t a = 0; a < p->parts; a++) w->normal[a] = rg_depth_normal(w->corner + p->start[a], p->start[a + 1] - p->start[a]);
+    for (int32_t a = 0; a < p->parts; a++)
+        w->normal[a] = rg_depth_normal(w->corner + p->start[a], p->start[a + 1] - p->start[a]);
     return l;
 }
 
@@ -161,7 +166,8 @@ static void run(look *l, rg_contact_work *w)
     visit(l, 0);
 }
 
-int32_t rg_contact_pairs(const rg_plates *p, const rg_vec3 *x, double least, rg_contact_work *w, rg_contact_hit *hit, int32_t room,
+int32_t rg_contact_pairs(const rg_plates *p, const rg_vec3 *x, double least, rg_contact_work *w, rg_contact_hit *hit,
+                         int32_t room,
                          rg_contact_hit *deepest)
 {
     look l = begin(p, x, least, w);

@@ -18,7 +18,8 @@ rg_status rg_course_init(const rg_mesh *m, rg_course *c)
         if (!c->X[i] || !c->place[i] || !c->x[i]) s = RG_ENOMEM;
         c->state[i] = (rg_plates_state){c->X[i], c->place[i], c->x[i]};
     }
-    c->found = (rg_course_found){.first = -1, .time = 1, .facet = {-1, -1}, .deepest_state = -1, .deepest = {.facet = {-1, -1}},
+    c->found = (rg_course_found){.first = -1, .time = 1, .facet = {-1, -1}, .deepest_state = -1,
+                                 .deepest = {.facet = {-1, -1}},
                                  .first_unproved = -1};
     if (s != RG_OK) rg_course_free(c);
     return s;
@@ -50,7 +51,8 @@ static rg_status look_between(rg_course *c, int32_t k, double bend)
     f->ways++;
     first = way;
     const double allowed = fmin(RG_CONTACT_BETWEEN, RG_CONTACT_TOLERANCE + 2 * bend / 8 / c->plates.size);
-    if (s == RG_OK && way.verdict == RG_SWEEP_CONTACT) s = rg_sweep_step(&c->plates, from, to, allowed, &c->sweep, &way);
+    if (s == RG_OK && way.verdict == RG_SWEEP_CONTACT)
+        s = rg_sweep_step(&c->plates, from, to, allowed, &c->sweep, &way);
     rg_sweep_go_on(&c->sweep);
     if (s != RG_OK || first.verdict == RG_SWEEP_FREE) return s;
     if (way.verdict == RG_SWEEP_CONTACT) {
@@ -71,7 +73,8 @@ static void look_at(rg_course *c, int32_t k)
     const rg_vec3 *x = c->state[k % 3].x;
     rg_contact_hit hit = c->last;
     /* What crossed before crosses still, as a rule; then only what is deeper than all so far is looked for. */
-    const int still = f->crossing > 0 && rg_contact_depth(&c->plates, x, hit.facet[0], hit.facet[1], RG_CONTACT_TOLERANCE) > 0;
+    const int still = f->crossing > 0 && rg_contact_depth(&c->plates, x, hit.facet[0], hit.facet[1],
+                                                          RG_CONTACT_TOLERANCE) > 0;
     const double least = still ? f->deepest.depth : RG_CONTACT_TOLERANCE;
     const int found = rg_contact_deepest(&c->plates, x, least, &c->look, &hit);
     if (!found && !still) return;
@@ -122,7 +125,8 @@ rg_status rg_course_end(rg_course *c)
     rg_course_found *f = &c->found;
     rg_status s = RG_OK;
     if (f->states >= 2 && f->first != f->states - 1) s = look_between(c, f->states - 1, c->bend);
-    if (f->deepest_state >= 0) f->pairs = rg_contact_pairs(&c->plates, c->worst, RG_CONTACT_TOLERANCE, &c->look, NULL, 0, NULL);
+    if (f->deepest_state >= 0)
+        f->pairs = rg_contact_pairs(&c->plates, c->worst, RG_CONTACT_TOLERANCE, &c->look, NULL, 0, NULL);
     return s;
 }
 

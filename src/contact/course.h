@@ -1,9 +1,10 @@
 /* course.h -- a motion, state after state: where it first passes through itself, and how deep it ever does.
  * Uses  contact.h sweep.h        Used by  measure.c
  *
- * Between two states the way is not known, only that each facet is rigid; it is taken to be as in sweep.h. How far that may be
- * off is seen from the states: a steady curve through three of them is nowhere farther from its chords than an eighth of the
- * second difference. What is deeper than both ends of that allow is a crossing; what is not, but can't be proved free, is told. */
+ * Between two states the way is not known, only that each facet is rigid; it is taken to be as in sweep.h. How far that
+ * may be off is seen from the states: a steady curve through three of them is nowhere farther from its chords than an
+ * eighth of the second difference. What is deeper than both ends of that allow is a crossing; what is not, but can't be
+ * proved free, is told. */
 #ifndef RG_COURSE_H
 #define RG_COURSE_H
 
@@ -47,8 +48,8 @@ void rg_course_free(rg_course *c);
 rg_status rg_course_add(rg_course *c, const rg_plates_state *s);
 /* After the last one; c->found is complete then. RG_ENOMEM. */
 rg_status rg_course_end(rg_course *c);
-/* Of a course that ended without a crossing: the i-th of the c->sweep.n_before pairs of parts that came near each other. Returns 1: the
- * second facet came to lie before the front of the first, -1: behind its back, 0: beside it. */
+/* Of a course that ended without a crossing: the i-th of the c->sweep.n_before pairs of parts that came near each
+ * other. Returns 1: the second facet came to lie before the front of the first, -1: behind its back, 0: beside it. */
 int rg_course_side(const rg_course *c, int32_t i, int32_t facet[2]);
 
 #endif

@@ -1,7 +1,7 @@
 #include "contact/depth.h"
 
-/* Sine of the angle of edges that count as parallel: their cross product is no axis, and what lies in one plane with them is
- * told by the normals. */
+/* Sine of the angle of edges that count as parallel: their cross product is no axis, and what lies in one plane with
+ * them is told by the normals. */
 static const double PARALLEL = 1e-9;
 
 rg_vec3 rg_depth_normal(const rg_vec3 *x, int32_t n)
@@ -77,8 +77,10 @@ static void cut_of(const rg_plate *a, const rg_plate *b, rg_vec3 d, rg_vec3 orig
     *high = -INFINITY;
     for (int32_t k = 0; k < a->n; k++) {
         const rg_vec3 p = a->x[k], e = side(a, k), q = a->x[k + 1 < a->n ? k + 1 : 0];
-        /* Both in the same way: a corner in the plane must be on one side of it for both of its edges, or it is missed. */
-        const double s = rg_vec3_dot(b->normal, rg_vec3_sub(p, b->x[0])), t = rg_vec3_dot(b->normal, rg_vec3_sub(q, b->x[0]));
+        /* Both in the same way: a corner in the plane must be on one side of it for both of its edges, or it is
+         * missed. */
+        const double s = rg_vec3_dot(b->normal, rg_vec3_sub(p, b->x[0])),
+            t = rg_vec3_dot(b->normal, rg_vec3_sub(q, b->x[0]));
         if (s * t > 0 || s == t) continue;
         const double at = rg_vec3_dot(d, rg_vec3_sub(rg_vec3_axpy(s / (s - t), e, p), origin));
         *low = fmin(*low, at);

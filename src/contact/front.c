@@ -6,7 +6,8 @@
 static const double NO_AREA = 1e-12;
 /* Of the sheet's size: border lines nearer than this may touch, for all that rounding lets us know. */
 static const double TOUCHES = 1e-10;
-/* How often the direction is turned towards the facet that shows least: what cannot be seen from one side takes for ever. */
+/* How often the direction is turned towards the facet that shows least: what cannot be seen from one side takes for
+ * ever. */
 enum { TURNS = 16 };
 /* Normals whose sines are below this are of one plane: the sheet is folded flat. */
 static const double ONE_PLANE = 1e-6;
@@ -37,7 +38,7 @@ void rg_front_work_free(rg_front_work *w)
     memset(w, 0, sizeof *w);
 }
 
-/* ------------------------------------------------------------------------------------------------- direction ---- */
+/* ----------------------------------------------------------------------------- direction ---- */
 
 /* The normal that shows least of its front along d. */
 static double least_shown(const rg_vec3 *normal, int32_t n, rg_vec3 d, int32_t *who)
@@ -62,8 +63,9 @@ static rg_vec3 whole_front(const rg_plates *p, const rg_vec3 *x)
     return sum;
 }
 
-/* From there towards the normal that shows least, by less and less, which ends at the middle of the smallest ball about all
- * normals (Badoiu and Clarkson 2003), and so at the direction that shows most of the least. Zero: none was found. */
+/* From there towards the normal that shows least, by less and less, which ends at the middle of the smallest ball about
+ * all normals (Badoiu and Clarkson 2003), and so at the direction that shows most of the least. Zero: none was
+ * found. */
 static int find_direction(rg_vec3 start, const rg_vec3 *normal, int32_t n, rg_vec3 *d)
 {
     int32_t who = 0;
@@ -79,8 +81,8 @@ static int find_direction(rg_vec3 start, const rg_vec3 *normal, int32_t n, rg_ve
     return 0;
 }
 
-/* A sheet that is folded flat shows its front nowhere, but all of it edge on from within its plane: the direction there that
- * comes nearest to d. Zero: it is not flat. */
+/* A sheet that is folded flat shows its front nowhere, but all of it edge on from within its plane: the direction there
+ * that comes nearest to d. Zero: it is not flat. */
 static int within_plane(const rg_vec3 *normal, int32_t n, rg_vec3 *d)
 {
     for (int32_t i = 1; i < n; i++)
@@ -116,7 +118,8 @@ static void turn_view(const rg_mat3 *view, rg_mat3 *later)
     }
 }
 
-/* Of all vertices if `whole`, else of the border's; about the middle of these, so that it goes no farther than it must. */
+/* Of all vertices if `whole`, else of the border's; about the middle of these, so that it goes no farther than it
+ * must. */
 static void picture_of(const rg_plates *p, const rg_vec3 *x, rg_vec3 u, rg_vec3 v, int whole, rg_vec2 *to)
 {
     rg_vec3 middle = {0, 0, 0};
@@ -130,12 +133,12 @@ static void picture_of(const rg_plates *p, const rg_vec3 *x, rg_vec3 u, rg_vec3 
     }
 }
 
-/* ---------------------------------------------------------------------------------------------------- border ---- */
+/* -------------------------------------------------------------------------------- border ---- */
 
 static double least4(double a, double b, double c, double d) { return fmin(fmin(a, b), fmin(c, d)); }
 
-/* Quadratic in time from 0 to 1, in Bernstein's form: between the ends it is positive if the middle coefficient is and the
- * outer ones are not negative. */
+/* Quadratic in time from 0 to 1, in Bernstein's form: between the ends it is positive if the middle coefficient is and
+ * the outer ones are not negative. */
 static int stays_above(double at_0, double middle, double at_1, double limit)
 {
     return at_0 >= -limit && middle > limit && at_1 >= -limit;
@@ -161,7 +164,8 @@ static int stays_spread(const rg_vec2 *x, const rg_vec2 *y, const int32_t *a, co
     const int32_t mid = a[0] == c[0] || a[0] == c[1] ? a[0] : a[1], p = a[mid == a[0]], q = c[mid == c[0]];
     const rg_vec2 e = rg_vec2_sub(x[p], x[mid]), f = rg_vec2_sub(x[q], x[mid]);
     const rg_vec2 g = rg_vec2_sub(y[p], y[mid]), h = rg_vec2_sub(y[q], y[mid]);
-    const double across[3] = {rg_vec2_cross(e, f), (rg_vec2_cross(e, h) + rg_vec2_cross(g, f)) / 2, rg_vec2_cross(g, h)};
+    const double across[3] = {rg_vec2_cross(e, f), (rg_vec2_cross(e, h) + rg_vec2_cross(g, f)) / 2,
+                              rg_vec2_cross(g, h)};
     const double along[3] = {rg_vec2_dot(e, f), (rg_vec2_dot(e, h) + rg_vec2_dot(g, f)) / 2, rg_vec2_dot(g, h)};
     return stays_above(-along[0], -along[1], -along[2], limit) || stays_above(across[0], across[1], across[2], limit) ||
            stays_above(-across[0], -across[1], -across[2], limit);
@@ -170,8 +174,10 @@ static int stays_spread(const rg_vec2 *x, const rg_vec2 *y, const int32_t *a, co
 /* For all the time, c is farther along u than a. Ways are straight, so the ends tell. */
 static int stays_beyond(const rg_vec2 *x, const rg_vec2 *y, const int32_t *a, const int32_t *c, rg_vec2 u)
 {
-    return fmax(rg_vec2_dot(u, x[a[0]]), rg_vec2_dot(u, x[a[1]])) < fmin(rg_vec2_dot(u, x[c[0]]), rg_vec2_dot(u, x[c[1]])) &&
-           fmax(rg_vec2_dot(u, y[a[0]]), rg_vec2_dot(u, y[a[1]])) < fmin(rg_vec2_dot(u, y[c[0]]), rg_vec2_dot(u, y[c[1]]));
+    return fmax(rg_vec2_dot(u, x[a[0]]), rg_vec2_dot(u, x[a[1]])) < fmin(rg_vec2_dot(u, x[c[0]]),
+                                                                         rg_vec2_dot(u, x[c[1]])) &&
+           fmax(rg_vec2_dot(u, y[a[0]]), rg_vec2_dot(u, y[a[1]])) < fmin(rg_vec2_dot(u, y[c[0]]),
+                                                                         rg_vec2_dot(u, y[c[1]]));
 }
 
 static int apart(const rg_plates *p, const rg_vec2 *x, const rg_vec2 *y, int32_t i, int32_t k)
@@ -179,12 +185,14 @@ static int apart(const rg_plates *p, const rg_vec2 *x, const rg_vec2 *y, int32_t
     const int32_t *a = p->mesh->edge[p->border[i]], *c = p->mesh->edge[p->border[k]];
     const double limit = TOUCHES * p->size * p->size;
     if (a[0] == c[0] || a[0] == c[1] || a[1] == c[0] || a[1] == c[1]) return stays_spread(x, y, a, c, limit);
-    const rg_vec2 middle = {x[c[0]].x + x[c[1]].x - x[a[0]].x - x[a[1]].x, x[c[0]].y + x[c[1]].y - x[a[0]].y - x[a[1]].y};
+    const rg_vec2 middle = {x[c[0]].x + x[c[1]].x - x[a[0]].x - x[a[1]].x,
+                            x[c[0]].y + x[c[1]].y - x[a[0]].y - x[a[1]].y};
     if (stays_beyond(x, y, a, c, middle) || stays_beyond(x, y, a, c, (rg_vec2){0, middle.y})) return 1;
     return lies_beside(x, y, a, c, limit) || lies_beside(x, y, c, a, limit);
 }
 
-/* Is the picture of the border simple for all the time from x to y? Sorted by where an edge begins, as it was last time. */
+/* Is the picture of the border simple for all the time from x to y? Sorted by where an edge begins, as it was last
+ * time. */
 static int is_simple(const rg_plates *p, const rg_vec2 *x, const rg_vec2 *y, rg_front_work *w)
 {
     for (int32_t i = 0; i < p->borders; i++) {
@@ -203,7 +211,7 @@ static int is_simple(const rg_plates *p, const rg_vec2 *x, const rg_vec2 *y, rg_
     return 1;
 }
 
-/* ------------------------------------------------------------------------------------------------------- all ---- */
+/* ----------------------------------------------------------------------------------- all ---- */
 
 int rg_front_shows(const rg_plates *p, const rg_vec3 *x, const rg_vec3 *normal, int32_t n, rg_front_work *w)
 {
@@ -217,8 +225,10 @@ int rg_front_shows(const rg_plates *p, const rg_vec3 *x, const rg_vec3 *normal, 
 /* The triangle a b c, from x to y, is never turned over. */
 static int never_turns(const rg_vec2 *x, const rg_vec2 *y, int32_t a, int32_t b, int32_t c, double none)
 {
-    const rg_vec2 e = rg_vec2_sub(x[b], x[a]), f = rg_vec2_sub(x[c], x[a]), g = rg_vec2_sub(y[b], y[a]), h = rg_vec2_sub(y[c], y[a]);
-    const double at_0 = rg_vec2_cross(e, f), at_1 = rg_vec2_cross(g, h), middle = (rg_vec2_cross(e, h) + rg_vec2_cross(g, f)) / 2;
+    const rg_vec2 e = rg_vec2_sub(x[b], x[a]), f = rg_vec2_sub(x[c], x[a]), g = rg_vec2_sub(y[b], y[a]),
+        h = rg_vec2_sub(y[c], y[a]);
+    const double at_0 = rg_vec2_cross(e, f), at_1 = rg_vec2_cross(g, h),
+        middle = (rg_vec2_cross(e, h) + rg_vec2_cross(g, f)) / 2;
     return stays_above(at_0, middle, at_1, none);
 }
 
@@ -243,9 +253,10 @@ static int direction_of(const rg_plates *p, const rg_plates_state *s, const rg_v
     return within_plane(w->normal, nf, d);
 }
 
-/* With (u, v, d) turned to (q, r, e), how far a corner can be from its straight way while its facet turns about the middle of
- * its box: half of the box' diagonal times the height of the arc; and what a change of shape adds. */
-static double off_straight(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, const rg_mat3 *view,
+/* With (u, v, d) turned to (q, r, e), how far a corner can be from its straight way while its facet turns about the
+ * middle of its box: half of the box' diagonal times the height of the arc; and what a change of shape adds. */
+static double off_straight(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to,
+                           const rg_mat3 *view,
                            const rg_mat3 *later)
 {
     const rg_mesh *m = p->mesh;
@@ -266,16 +277,18 @@ static double off_straight(const rg_plates *p, const rg_plates_state *from, cons
             high = (rg_vec2){c.x > high.x ? c.x : high.x, c.y > high.y ? c.y : high.y};
             change = rg_vec2_dot(e, e) > change ? rg_vec2_dot(e, e) : change;
         }
-        const double arm = hypot(high.x - low.x, high.y - low.y) / 2, off = arm * angle * angle / 8 + sqrt(change) * angle / 2;
+        const double arm = hypot(high.x - low.x, high.y - low.y) / 2,
+            off = arm * angle * angle / 8 + sqrt(change) * angle / 2;
         if (!(off <= most)) most = off;
     }
     return most;
 }
 
-/* Where the sheet shows its front along straight ways, no surface that is off them by less than e crosses itself deeper than 2 e:
- * of two plates that cross by D, the differences of their points fill a ball of radius D; moved by up to 2 e < D, they still
- * cover its middle, by Brouwer's theorem. */
-int rg_front_shows_moving(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double depth, rg_front_work *w)
+/* Where the sheet shows its front along straight ways, no surface that is off them by less than e crosses itself deeper
+ * than 2 e: of two plates that cross by D, the differences of their points fill a ball of radius D; moved by up to 2 e
+ * < D, they still cover its middle, by Brouwer's theorem. */
+int rg_front_shows_moving(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double depth,
+                          rg_front_work *w)
 {
     const double none = NO_AREA * p->size * p->size;
     const rg_vec2 *X = p->mesh->X;

@@ -5,7 +5,7 @@
 /* Of the longer of two edges: what is shorter is a point. And sine squared of edges that count as parallel. */
 static const double NO_LENGTH = 1e-14, PARALLEL = 1e-14;
 
-/* ------------------------------------------------------------------------------------------- nearest points ---- */
+/* ----------------------------------------------------------------------- nearest points ---- */
 
 static double part_of(double x) { return x > 0 ? x < 1 ? x : 1 : 0; }
 
@@ -57,12 +57,13 @@ double rg_near_triangle(rg_vec3 p, rg_vec3 a, rg_vec3 b, rg_vec3 c, double weigh
     return least;
 }
 
-/* The point of the line of the first that is nearest to the line of the second, kept on the segment; then the nearest point
- * of the second, kept on it, and once more the first (Lumelsky 1985). */
+/* The point of the line of the first that is nearest to the line of the second, kept on the segment; then the nearest
+ * point of the second, kept on it, and once more the first (Lumelsky 1985). */
 double rg_near_segments(rg_vec3 a, rg_vec3 b, rg_vec3 c, rg_vec3 d, double *s, double *t, rg_vec3 *n)
 {
     const rg_vec3 e = rg_vec3_sub(b, a), g = rg_vec3_sub(d, c), r = rg_vec3_sub(a, c);
-    const double ee = rg_vec3_dot(e, e), gg = rg_vec3_dot(g, g), eg = rg_vec3_dot(e, g), least = NO_LENGTH * fmax(ee, gg);
+    const double ee = rg_vec3_dot(e, e), gg = rg_vec3_dot(g, g), eg = rg_vec3_dot(e, g),
+        least = NO_LENGTH * fmax(ee, gg);
     const double slant = ee * gg - eg * eg;
     *s = slant > PARALLEL * ee * gg ? part_of((eg * rg_vec3_dot(g, r) - gg * rg_vec3_dot(e, r)) / slant) : 0;
     *t = gg > least ? (eg * *s + rg_vec3_dot(g, r)) / gg : 0;
@@ -73,7 +74,7 @@ double rg_near_segments(rg_vec3 a, rg_vec3 b, rg_vec3 c, rg_vec3 d, double *s, d
     return apart(rg_vec3_sub(rg_vec3_axpy(*s, e, a), rg_vec3_axpy(*t, g, c)), n);
 }
 
-/* --------------------------------------------------------------------------------------------------- all of them ---- */
+/* ------------------------------------------------------------------------------- all of them ---- */
 
 rg_status rg_near_work_init(const rg_plates *p, rg_near_work *w)
 {
@@ -95,7 +96,8 @@ rg_status rg_near_work_init(const rg_plates *p, rg_near_work *w)
     for (int32_t e = 0; e < m->ne; e++) w->edge_part[e] = -1;
     for (int32_t a = 0; a < p->parts; a++)
         for (int32_t j = p->start[a]; j < p->start[a + 1]; j++) {
-            const int32_t f = p->facet[a], v = p->vertex[j], u = p->vertex[j + 1 < p->start[a + 1] ? j + 1 : p->start[a]];
+            const int32_t f = p->facet[a], v = p->vertex[j],
+                u = p->vertex[j + 1 < p->start[a + 1] ? j + 1 : p->start[a]];
             if (w->corner_part[v] < 0) w->corner_part[v] = a;
             w->side[j] = -1;
             for (int32_t i = m->facet_start[f]; i < m->facet_start[f + 1]; i++) {
@@ -115,7 +117,7 @@ void rg_near_work_free(rg_near_work *w)
     memset(w, 0, sizeof *w);
 }
 
-/* ---------------------------------------------------------------------------------------------- candidates ---- */
+/* -------------------------------------------------------------------------- candidates ---- */
 
 typedef struct candidates {
     const rg_plates *p;
@@ -189,7 +191,8 @@ static void features(void *ctx, int32_t i, int32_t k)
     edges(c, a, b);
 }
 
-void rg_near_candidates(const rg_plates *p, const rg_vec3 *x, const rg_vec3 *y, double reach, rg_near_work *w, rg_near_visitor *visit,
+void rg_near_candidates(const rg_plates *p, const rg_vec3 *x, const rg_vec3 *y, double reach, rg_near_work *w,
+                        rg_near_visitor *visit,
                         void *ctx)
 {
     candidates c = {p, x, y, w, reach, visit, ctx};

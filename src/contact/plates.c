@@ -8,7 +8,7 @@ static const double STRAIGHT = -1e-7;
 /* Facets of more corners are left as triangles: putting them together again takes the third power of the corners. */
 enum { JOINED_LARGEST = 64 };
 
-/* ---------------------------------------------------------------------------------------------- convex parts ---- */
+/* -------------------------------------------------------------------------- convex parts ---- */
 
 static double corner_sine(const rg_vec2 *X, int32_t a, int32_t b, int32_t c)
 {
@@ -92,9 +92,11 @@ static void cut(rg_plates *p, int32_t f, int32_t *v, int32_t n, int32_t *piece, 
         again = 0;
         for (int32_t a = 0; a < pieces && !again; a++)
             for (int32_t b = 0; b < pieces && !again; b++) {
-                if (a == b || !join(X, piece + (size_t)a * RG_PLATE_CORNERS, &count[a], piece + (size_t)b * RG_PLATE_CORNERS, count[b])) continue;
+                if (a == b || !join(X, piece + (size_t)a * RG_PLATE_CORNERS, &count[a],
+                                    piece + (size_t)b * RG_PLATE_CORNERS, count[b])) continue;
                 pieces--;
-                memcpy(piece + (size_t)b * RG_PLATE_CORNERS, piece + (size_t)pieces * RG_PLATE_CORNERS, RG_PLATE_CORNERS * sizeof *piece);
+                memcpy(piece + (size_t)b * RG_PLATE_CORNERS, piece + (size_t)pieces * RG_PLATE_CORNERS,
+                       RG_PLATE_CORNERS * sizeof *piece);
                 count[b] = count[pieces];
                 again = 1;
             }
@@ -108,7 +110,8 @@ static rg_status find_parts(rg_plates *p)
     int32_t largest = 3;
     for (int32_t f = 0; f < m->nf; f++)
         if (m->facet_start[f + 1] - m->facet_start[f] > largest) largest = m->facet_start[f + 1] - m->facet_start[f];
-    int32_t *v = rg_mem_array(&p->mem, (size_t)largest, sizeof *v), *count = rg_mem_array(&p->mem, (size_t)largest, sizeof *count);
+    int32_t *v = rg_mem_array(&p->mem, (size_t)largest, sizeof *v),
+        *count = rg_mem_array(&p->mem, (size_t)largest, sizeof *count);
     int32_t *piece = rg_mem_array(&p->mem, (size_t)largest * RG_PLATE_CORNERS, sizeof *piece);
     const int ok = v && count && piece;
     for (int32_t f = 0; ok && f < m->nf; f++) {
@@ -125,7 +128,7 @@ static rg_status find_parts(rg_plates *p)
     return ok ? RG_OK : RG_ENOMEM;
 }
 
-/* ------------------------------------------------------------------------------------------------------ tree ---- */
+/* ---------------------------------------------------------------------------------- tree ---- */
 
 typedef struct place { rg_vec2 at; int32_t part; } place;
 
@@ -177,7 +180,7 @@ static rg_status find_tree(rg_plates *p)
     return RG_OK;
 }
 
-/* ------------------------------------------------------------------------------------------------------- all ---- */
+/* ----------------------------------------------------------------------------------- all ---- */
 
 rg_status rg_plates_init(const rg_mesh *m, rg_plates *p)
 {
@@ -237,7 +240,8 @@ int32_t rg_plates_shared(const rg_mesh *m, int32_t f, int32_t g, int32_t *v)
 
 int32_t rg_plates_shared_by_parts(const rg_plates *p, int32_t a, int32_t b, int32_t *v)
 {
-    return shared(p->vertex + p->start[a], p->start[a + 1] - p->start[a], p->vertex + p->start[b], p->start[b + 1] - p->start[b], v);
+    return shared(p->vertex + p->start[a], p->start[a + 1] - p->start[a], p->vertex + p->start[b],
+                  p->start[b + 1] - p->start[b], v);
 }
 
 rg_vec2 rg_plates_middle(const rg_mesh *m, int32_t f)
@@ -251,7 +255,7 @@ rg_vec2 rg_plates_middle(const rg_mesh *m, int32_t f)
     return middle;
 }
 
-/* ----------------------------------------------------------------------------------------------------- boxes ---- */
+/* --------------------------------------------------------------------------------- boxes ---- */
 
 static void around_children(const rg_plates *p, rg_box *box)
 {
@@ -280,12 +284,13 @@ void rg_plates_boxes_take_in(const rg_plates *p, const rg_vec3 *y, rg_box *box)
 {
     for (int32_t i = 0; i < p->nodes; i++) {
         const int32_t a = p->node[i].part;
-        for (int32_t j = a < 0 ? 0 : p->start[a]; a >= 0 && j < p->start[a + 1]; j++) rg_box_take_in(&box[i], y[p->vertex[j]]);
+        for (int32_t j = a < 0 ? 0 : p->start[a]; a >= 0 && j < p->start[a + 1]; j++)
+            rg_box_take_in(&box[i], y[p->vertex[j]]);
     }
     around_children(p, box);
 }
 
-/* ------------------------------------------------------------------------------------------------------ pairs ---- */
+/* ---------------------------------------------------------------------------------- pairs ---- */
 
 static void visit_two(const rg_plates_walk *w, int32_t i, int32_t k)
 {

@@ -6,14 +6,15 @@
 #include "mesh/mesh.h"
 #include "pose/pose.h"
 
-/* A crossing counts from this part of the sheet's size on: drawings are rounded to some 1e-5 of it, and paper is thicker. */
+/* A crossing counts from this part of the sheet's size on: drawings are rounded to some 1e-5 of it, and paper is
+ * thicker. */
 #define RG_CONTACT_TOLERANCE 1e-4
-/* Between two states the way is not known; what that leaves open may be added, but not to more than this part of the sheet's size: with
- * frames so far apart that more is open, a crossing could be anything. */
+/* Between two states the way is not known; what that leaves open may be added, but not to more than this part of the
+ * sheet's size: with frames so far apart that more is open, a crossing could be anything. */
 #define RG_CONTACT_BETWEEN 1e-3
 
-/* Facets about a common corner: a crossing over less of the sheet's size is how the corner is rounded. And layers that lie on each other
- * over less of it are beside each other. */
+/* Facets about a common corner: a crossing over less of the sheet's size is how the corner is rounded. And layers that
+ * lie on each other over less of it are beside each other. */
 #define RG_CONTACT_STRETCH 1e-3
 
 /* The most corners of one part, so that a pair of parts fits into fixed room; facets of more are cut. */
@@ -25,8 +26,8 @@ typedef struct rg_plates_node {
     int32_t end;   /* the node after the last one below it */
 } rg_plates_node;
 
-/* Parts are convex on the pattern that they were made from; facets that are convex are one part. Lives as long as the mesh,
- * which it borrows. Read only once made: any number of threads may share it. */
+/* Parts are convex on the pattern that they were made from; facets that are convex are one part. Lives as long as the
+ * mesh, which it borrows. Read only once made: any number of threads may share it. */
 typedef struct rg_plates {
     rg_memory mem;
     const rg_mesh *mesh;
@@ -36,7 +37,8 @@ typedef struct rg_plates {
     int32_t *start, *vertex;             /* [parts + 1] counter-clockwise corners of a part */
     int32_t *first;                      /* [nf + 1] the parts of a facet stand together */
     int32_t nodes;                       /* 2 parts - 1 */
-    rg_plates_node *node;                /* parents before children; neighbours on the sheet are neighbours in the tree */
+    /* parents before children; neighbours on the sheet are neighbours in the tree */
+    rg_plates_node *node;
     int32_t borders, *border;            /* edges of the sheet's border */
 } rg_plates;
 
@@ -60,8 +62,8 @@ typedef struct rg_plates_state {
 
 typedef struct rg_box { rg_vec3 low, high; } rg_box;
 
-/* Written with ?: as fmin takes care of NaN, which costs more than all the rest. A place that is NaN is missed; the motion is
- * not closed then, which is told elsewhere. */
+/* Written with ?: as fmin takes care of NaN, which costs more than all the rest. A place that is NaN is missed; the
+ * motion is not closed then, which is told elsewhere. */
 static inline void rg_box_take_in(rg_box *box, rg_vec3 x)
 {
     box->low.x = x.x < box->low.x ? x.x : box->low.x;
@@ -72,11 +74,12 @@ static inline void rg_box_take_in(rg_box *box, rg_vec3 x)
     box->high.z = x.z > box->high.z ? x.z : box->high.z;
 }
 
-/* Goes down the tree as far as two nodes may have to do with each other: meet is called for every two leaves i, k that are reached,
- * always in the same order. */
+/* Goes down the tree as far as two nodes may have to do with each other: meet is called for every two leaves i, k that
+ * are reached, always in the same order. */
 typedef struct rg_plates_walk {
     const rg_plates *p;
-    int (*may)(void *ctx, int32_t i, int32_t k);   /* zero: nothing below the one has to do with anything below the other */
+    /* zero: nothing below the one has to do with anything below the other */
+    int (*may)(void *ctx, int32_t i, int32_t k);
     void (*meet)(void *ctx, int32_t i, int32_t k);
     void *ctx;
 } rg_plates_walk;

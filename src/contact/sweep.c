@@ -5,11 +5,11 @@
 
 /* A facet that turns by more, as another one sees it, has leapt: there is no telling which way it went. */
 static const double LEAP = RG_PI / 2;
-/* Of the depth that is allowed: what is as near to it as this is contact. It keeps steps from getting ever shorter; what is told
- * as contact is off by no more. */
+/* Of the depth that is allowed: what is as near to it as this is contact. It keeps steps from getting ever shorter;
+ * what is told as contact is off by no more. */
 static const double CLOSE = 0.01;
-/* A pair that takes more is given up. Each advances at least by the root of what is left over what turning adds, so that even
- * quarter turns take some dozens. */
+/* A pair that takes more is given up. Each advances at least by the root of what is left over what turning adds, so
+ * that even quarter turns take some dozens. */
 enum { ADVANCEMENTS = 400 };
 
 rg_status rg_sweep_work_init(const rg_plates *p, rg_sweep_work *w)
@@ -34,10 +34,10 @@ void rg_sweep_work_free(rg_sweep_work *w)
 
 static double larger(double a, double b) { return a > b ? a : b; }
 
-/* ------------------------------------------------------------------------------------------- one pair, moving ---- */
+/* ----------------------------------------------------------------------- one pair, moving ---- */
 
-/* All as the first facet sees it. The second's corners: y = p(t) + turn(t) Q (r + t dr), where p' = turn(t) v: the point p is one
- * of the second's, and goes on a screw. */
+/* All as the first facet sees it. The second's corners: y = p(t) + turn(t) Q (r + t dr), where p' = turn(t) v: the
+ * point p is one of the second's, and goes on a screw. */
 typedef struct pair {
     int32_t na, nb;
     rg_vec2 a[RG_PLATE_CORNERS], da[RG_PLATE_CORNERS], r[RG_PLATE_CORNERS], dr[RG_PLATE_CORNERS];
@@ -49,7 +49,8 @@ typedef struct pair {
     int straight;       /* non-zero: p goes straight, p' = v */
     int stiff;            /* zero: the first changes its shape too */
     /* now */
-    rg_vec3 x[2 * RG_PLATE_CORNERS], u[2 * RG_PLATE_CORNERS]; /* the first's corners, then the second's: places, velocities */
+    /* the first's corners, then the second's: places, velocities */
+    rg_vec3 x[2 * RG_PLATE_CORNERS], u[2 * RG_PLATE_CORNERS];
 } pair;
 
 static rg_mat3 transposed_times(rg_mat3 A, rg_mat3 B)
@@ -76,18 +77,22 @@ static rg_vec3 turn_of(rg_mat3 R, double *angle)
 
 static rg_vec3 lifted(rg_mat3 Q, rg_vec2 r) { return rg_vec3_axpy(r.x, Q.c[0], rg_vec3_scale(r.y, Q.c[1])); }
 
-static rg_vec2 between(rg_vec2 from, rg_vec2 to, double t) { return (rg_vec2){from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)}; }
+static rg_vec2 between(rg_vec2 from, rg_vec2 to, double t)
+{
+    return (rg_vec2){from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)};
+}
 
 /* The place of the second facet as the first sees it. */
 static rg_place seen_from(const rg_plates_state *s, int32_t f, int32_t g)
 {
     const rg_place *A = &s->place[f], *B = &s->place[g];
     const rg_vec3 d = rg_vec3_sub(B->t, A->t);
-    return (rg_place){transposed_times(A->R, B->R), {rg_vec3_dot(A->R.c[0], d), rg_vec3_dot(A->R.c[1], d), rg_vec3_dot(A->R.c[2], d)}};
+    return (rg_place){transposed_times(A->R, B->R), {rg_vec3_dot(A->R.c[0], d), rg_vec3_dot(A->R.c[1], d),
+                                                     rg_vec3_dot(A->R.c[2], d)}};
 }
 
-/* The velocity with which a point starts on a screw of this turn that brings it to the end of d: of its circle the chord is the
- * part of d across the axis, so that it starts by half the angle off it. */
+/* The velocity with which a point starts on a screw of this turn that brings it to the end of d: of its circle the
+ * chord is the part of d across the axis, so that it starts by half the angle off it. */
 static rg_vec3 screw_of(rg_vec3 axis, double angle, rg_vec3 d)
 {
     const rg_vec3 lift = rg_vec3_scale(rg_vec3_dot(axis, d), axis), chord = rg_vec3_sub(d, lift);
@@ -100,11 +105,13 @@ static rg_vec3 on_screw(rg_vec3 axis, double angle, rg_vec3 v, double time, doub
 {
     const rg_vec3 lift = rg_vec3_scale(rg_vec3_dot(axis, v), axis), out = rg_vec3_sub(v, lift);
     if (!(angle > 0)) return rg_vec3_scale(time, v);
-    return rg_vec3_axpy(time, lift, rg_vec3_axpy(s / angle, out, rg_vec3_scale((1 - c) / angle, rg_vec3_cross(axis, out))));
+    return rg_vec3_axpy(time, lift, rg_vec3_axpy(s / angle, out,
+                                                 rg_vec3_scale((1 - c) / angle, rg_vec3_cross(axis, out))));
 }
 
 /* corner: the one that the two facets share, -1: none. Returns zero: it leaps. */
-static int set_pair(pair *m, const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, int32_t a, int32_t b, int32_t corner)
+static int set_pair(pair *m, const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, int32_t a,
+                    int32_t b, int32_t corner)
 {
     const int32_t *va = p->vertex + p->start[a], *vb = p->vertex + p->start[b];
     const rg_place begin = seen_from(from, p->facet[a], p->facet[b]), end = seen_from(to, p->facet[a], p->facet[b]);
@@ -138,7 +145,9 @@ static int set_pair(pair *m, const rg_plates *p, const rg_plates_state *from, co
     for (int32_t k = 0; k < m->nb; k++) {
         m->r[k] = rg_vec2_sub(from->X[vb[k]], pivot);
         m->dr[k] = rg_vec2_sub(rg_vec2_sub(to->X[vb[k]], pivot_to), m->r[k]);
-        m->reach = fmax(m->reach, sqrt(fmax(rg_vec2_dot(m->r[k], m->r[k]), rg_vec2_dot(between(m->r[k], rg_vec2_sub(to->X[vb[k]], pivot_to), 1), rg_vec2_sub(to->X[vb[k]], pivot_to)))));
+        m->reach = fmax(m->reach, sqrt(fmax(rg_vec2_dot(m->r[k], m->r[k]),
+                                            rg_vec2_dot(between(m->r[k], rg_vec2_sub(to->X[vb[k]], pivot_to), 1),
+                                                        rg_vec2_sub(to->X[vb[k]], pivot_to)))));
         m->stretch = fmax(m->stretch, sqrt(rg_vec2_dot(m->dr[k], m->dr[k])));
     }
     return 1;
@@ -147,19 +156,22 @@ static int set_pair(pair *m, const rg_plates *p, const rg_plates_state *from, co
 /* Rodrigues' formula. */
 static rg_vec3 turned(rg_vec3 axis, double c, double s, rg_vec3 x)
 {
-    return rg_vec3_axpy(c, x, rg_vec3_axpy(s, rg_vec3_cross(axis, x), rg_vec3_scale((1 - c) * rg_vec3_dot(axis, x), axis)));
+    return rg_vec3_axpy(c, x, rg_vec3_axpy(s, rg_vec3_cross(axis, x),
+                                           rg_vec3_scale((1 - c) * rg_vec3_dot(axis, x), axis)));
 }
 
 static void go_to(pair *m, double t)
 {
     const double c = cos(t * m->angle), s = sin(t * m->angle);
     const rg_vec3 omega = rg_vec3_scale(m->angle, m->axis);
-    const rg_mat3 Q = {{turned(m->axis, c, s, m->Q.c[0]), turned(m->axis, c, s, m->Q.c[1]), turned(m->axis, c, s, m->Q.c[2])}};
+    const rg_mat3 Q = {{turned(m->axis, c, s, m->Q.c[0]), turned(m->axis, c, s, m->Q.c[1]),
+                        turned(m->axis, c, s, m->Q.c[2])}};
     for (int32_t k = 0; k < m->na; k++) {
         m->x[k] = (rg_vec3){m->a[k].x + t * m->da[k].x, m->a[k].y + t * m->da[k].y, 0};
         m->u[k] = (rg_vec3){m->da[k].x, m->da[k].y, 0};
     }
-    const rg_vec3 p = rg_vec3_add(m->p, m->straight ? rg_vec3_scale(t, m->v) : on_screw(m->axis, m->angle, m->v, t, c, s));
+    const rg_vec3 way = m->straight ? rg_vec3_scale(t, m->v) : on_screw(m->axis, m->angle, m->v, t, c, s);
+    const rg_vec3 p = rg_vec3_add(m->p, way);
     const rg_vec3 v = m->straight ? m->v : turned(m->axis, c, s, m->v);
     for (int32_t k = 0; k < m->nb; k++) {
         const rg_vec3 arm = lifted(Q, (rg_vec2){m->r[k].x + t * m->dr[k].x, m->r[k].y + t * m->dr[k].y});
@@ -176,12 +188,14 @@ static double while_positive(double s, double v, double c)
     return v >= 0 ? (v + sqrt(v * v + 2 * c * s)) / c : 2 * s / (sqrt(v * v + 2 * c * s) - v);
 }
 
-/* Along the unit vector u, the second plate being on its side: how long they are surely no nearer than `limit`. *gap: out, now. */
+/* Along the unit vector u, the second plate being on its side: how long they are surely no nearer than `limit`. *gap:
+ * out, now. */
 static double holds(const pair *m, rg_vec3 u, double limit, double *gap)
 {
     const rg_vec3 lever = rg_vec3_scale(m->angle, rg_vec3_cross(m->axis, u));
     /* u . y'' = u . (omega x (p' + omega x arm + 2 Q dr)), and u . (omega x z) = (u x omega) . z. */
-    const double c = rg_vec3_length(lever) * (m->angle * m->reach + 2 * m->stretch + (m->straight ? 0 : rg_vec3_length(m->v)));
+    const double c = rg_vec3_length(lever) * (m->angle * m->reach + 2 * m->stretch +
+                                              (m->straight ? 0 : rg_vec3_length(m->v)));
     double top = -INFINITY, least = INFINITY, time = INFINITY;
     for (int32_t k = 0; k < m->na; k++) top = fmax(top, rg_vec3_dot(u, m->x[k]));
     for (int32_t i = m->na; i < m->na + m->nb; i++) {
@@ -212,7 +226,8 @@ static rg_vec3 normal_of(const pair *m, int32_t first, int32_t n)
 {
     rg_vec3 sum = {0, 0, 0};
     for (int32_t i = 1; i + 1 < n; i++)
-        sum = rg_vec3_add(sum, rg_vec3_cross(rg_vec3_sub(m->x[first + i], m->x[first]), rg_vec3_sub(m->x[first + i + 1], m->x[first])));
+        sum = rg_vec3_add(sum, rg_vec3_cross(rg_vec3_sub(m->x[first + i], m->x[first]),
+                                             rg_vec3_sub(m->x[first + i + 1], m->x[first])));
     return sum;
 }
 
@@ -227,8 +242,9 @@ static rg_vec3 unit(rg_vec3 d, double shortest)
     return length > shortest ? rg_vec3_scale(1 / length, d) : (rg_vec3){0, 0, 0};
 }
 
-/* The k-th axis along which two plates may be apart: the line of the middles; those of the separating-axis theorem, the normals
- * and all edges by all edges; and in one plane across an edge. None: where edges are parallel. Zero: there are no more. */
+/* The k-th axis along which two plates may be apart: the line of the middles; those of the separating-axis theorem, the
+ * normals and all edges by all edges; and in one plane across an edge. None: where edges are parallel. Zero: there are
+ * no more. */
 static int axis_number(const pair *m, int32_t k, rg_vec3 *u)
 {
     rg_vec3 d = {0, 0, 0};
@@ -253,8 +269,9 @@ static int axis_number(const pair *m, int32_t k, rg_vec3 *u)
     return 1;
 }
 
-/* What parts two plates along u and along v parts them along all between, by no less than the sum of both over |u + v|. That is at
- * least 1 up to 120 degrees; beyond it the middle one is looked at: layers that lie on each other are parted by none. */
+/* What parts two plates along u and along v parts them along all between, by no less than the sum of both over |u + v|.
+ * That is at least 1 up to 120 degrees; beyond it the middle one is looked at: layers that lie on each other are parted
+ * by none. */
 static int are_joined(const pair *m, rg_vec3 u, rg_vec3 v, double limit)
 {
     if (rg_vec3_dot(u, v) >= -0.5) return 1;
@@ -262,15 +279,16 @@ static int are_joined(const pair *m, rg_vec3 u, rg_vec3 v, double limit)
     return !is_none(middle) && gap_along(m, middle) >= limit - m->over;
 }
 
-/* Now they are apart along v and along u: do they come from the one to the other by axes between? Where both lie in one plane and
- * on each other, they don't come from above to below. */
+/* Now they are apart along v and along u: do they come from the one to the other by axes between? Where both lie in one
+ * plane and on each other, they don't come from above to below. */
 static int goes_over(const pair *m, rg_vec3 v, rg_vec3 u, double limit)
 {
     rg_vec3 w;
     if (is_none(v) || are_joined(m, v, u, limit)) return 1;
     for (int32_t k = 0; axis_number(m, k, &w); k++)
         for (int side = 0; side < 2; side++, w = rg_vec3_scale(-1, w))
-            if (!is_none(w) && gap_along(m, w) >= limit && are_joined(m, v, w, limit) && are_joined(m, w, u, limit)) return 1;
+            if (!is_none(w) && gap_along(m, w) >= limit && are_joined(m, v, w, limit) && are_joined(m, w, u, limit))
+                return 1;
     return 0;
 }
 
@@ -300,7 +318,7 @@ static void try_axes(const pair *m, rg_vec3 side, double limit, double enough, b
         if (!is_none(u) && try_axis(m, u, side, limit, enough, b)) return;
 }
 
-/* ------------------------------------------------------------------------------------------------- one pair, all ---- */
+/* ----------------------------------------------------------------------------- one pair, all ---- */
 
 typedef struct sweep {
     const rg_plates *p;
@@ -334,7 +352,8 @@ static int by_pair(const void *a, const void *b)
 static rg_vec3 side_before(const sweep *s, int32_t a, int32_t b)
 {
     const rg_sweep_side key = {{a, b}, {0, 0, 0}};
-    const rg_sweep_side *at = s->w->n_before ? bsearch(&key, s->w->before, (size_t)s->w->n_before, sizeof key, by_pair) : NULL;
+    const rg_sweep_side *at = s->w->n_before ? bsearch(&key, s->w->before, (size_t)s->w->n_before, sizeof key,
+                                                       by_pair) : NULL;
     return at ? at->axis : (rg_vec3){0, 0, 0};
 }
 
@@ -346,8 +365,8 @@ static void keep_side(sweep *s, int32_t a, int32_t b, rg_vec3 side)
     if (s->status == RG_OK) w->now[w->n_now++] = (rg_sweep_side){{a, b}, side};
 }
 
-/* They are apart along u now, and were on `side`, or on none that is known. It is known that they are on this one if it was so before,
- * or if nothing else parts them that is more than 60 degrees off. */
+/* They are apart along u now, and were on `side`, or on none that is known. It is known that they are on this one if it
+ * was so before, or if nothing else parts them that is more than 60 degrees off. */
 static rg_vec3 settled(const pair *m, rg_vec3 side, rg_vec3 u, double limit)
 {
     const rg_vec3 none = {0, 0, 0};
@@ -442,16 +461,16 @@ static int32_t hinge_of(const rg_plates *p, int32_t a, int32_t b)
     return -1;
 }
 
-/* A point on a screw that turns by up to `angle`, and comes farther by no more than d: how far off its chord it gets. It is faster
- * than that by the arc over its chord; what turns by more than half is looked at as if it did not. */
+/* A point on a screw that turns by up to `angle`, and comes farther by no more than d: how far off its chord it gets.
+ * It is faster than that by the arc over its chord; what turns by more than half is looked at as if it did not. */
 static double arc_over(double angle, double d)
 {
     const double half = fmin(angle, RG_PI) / 2;
     return half > 0 ? half / sin(half) * d * angle / 8 : 0;
 }
 
-/* As the first facet sees it, so that it stays where it is: do the second's corners stay on one side of it, near the one that is known? They go
- * straight but for the height of an arc about the middle, and of the middle's. */
+/* As the first facet sees it, so that it stays where it is: do the second's corners stay on one side of it, near the
+ * one that is known? They go straight but for the height of an arc about the middle, and of the middle's. */
 static int stays_away(sweep *s, int32_t a, int32_t b, double arm)
 {
     const rg_plates *p = s->p;
@@ -469,14 +488,16 @@ static int stays_away(sweep *s, int32_t a, int32_t b, double arm)
         goes = rg_vec3_axpy(1.0 / nb, rg_vec3_sub(d, c), goes);
     }
     const double by = arm * angle * angle / 8 + arc_over(angle, rg_vec3_length(goes));
-    const double gap[6] = {B.low.x - A.high.x, A.low.x - B.high.x, B.low.y - A.high.y, A.low.y - B.high.y, B.low.z - A.high.z, A.low.z - B.high.z};
+    const double gap[6] = {B.low.x - A.high.x, A.low.x - B.high.x, B.low.y - A.high.y, A.low.y - B.high.y,
+                           B.low.z - A.high.z, A.low.z - B.high.z};
     int most = 0;
     for (int k = 1; k < 6; k++)
         if (gap[k] > gap[most]) most = k;
     if (!(gap[most] > by)) return 0;
     const rg_mat3 *R = &s->from->place[p->facet[a]].R;
     const double sign = most % 2 ? -1 : 1;
-    const rg_vec3 row[3] = {{R->c[0].x, R->c[1].x, R->c[2].x}, {R->c[0].y, R->c[1].y, R->c[2].y}, {R->c[0].z, R->c[1].z, R->c[2].z}};
+    const rg_vec3 row[3] = {{R->c[0].x, R->c[1].x, R->c[2].x}, {R->c[0].y, R->c[1].y, R->c[2].y},
+                            {R->c[0].z, R->c[1].z, R->c[2].z}};
     const rg_vec3 u = rg_vec3_scale(sign, row[most / 2]), before = side_before(s, a, b);
     if (!is_none(before) && !(rg_vec3_dot(before, u) > 0.5)) return 0; /* to be looked at closely */
     if (!is_none(before)) keep_side(s, a, b, u);
@@ -506,9 +527,10 @@ static double nearest_on(rg_vec3 q, rg_vec3 r)
     return rg_vec3_length(t <= 0 ? q : t >= 1 ? r : rg_vec3_axpy(t, d, q));
 }
 
-/* Seen from a facet below the one node, so that it stays where it is, the middle of a part below the other goes along an arc; both
- * are within their arms of their middles. From another facet of that node its chord begins there too, but comes to an end that is off
- * by the distance times the angle between them. So if the one chord comes nowhere near, none does. */
+/* Seen from a facet below the one node, so that it stays where it is, the middle of a part below the other goes along
+ * an arc; both are within their arms of their middles. From another facet of that node its chord begins there too, but
+ * comes to an end that is off by the distance times the angle between them. So if the one chord comes nowhere near,
+ * none does. */
 static int passes(const sweep *s, const rg_sweep_ball *a, const rg_sweep_ball *b)
 {
     const rg_vec3 q = rg_vec3_sub(b->middle[0], a->middle[0]), d = rg_vec3_sub(b->middle[1], a->middle[1]);
@@ -536,10 +558,11 @@ static void meet_leaves(void *ctx, int32_t i, int32_t k)
     meet(s, s->p->node[i].part, s->p->node[k].part, larger(s->w->ball[i].arm, s->w->ball[k].arm));
 }
 
-/* ------------------------------------------------------------------------------------------------------- step ---- */
+/* ----------------------------------------------------------------------------------- step ---- */
 
 /* The corners of part a about their middle, in both states. */
-static void leaf_ball(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, int32_t a, rg_sweep_ball *ball)
+static void leaf_ball(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, int32_t a,
+                      rg_sweep_ball *ball)
 {
     const int32_t *v = p->vertex + p->start[a], n = p->start[a + 1] - p->start[a];
     *ball = (rg_sweep_ball){.facet = p->facet[a]};
@@ -572,7 +595,8 @@ static void join_balls(const rg_sweep_ball *a, const rg_sweep_ball *b, int end, 
     both->middle[end] = rg_vec3_axpy((both->radius[end] - r) / far, d, a->middle[end]);
 }
 
-/* Facets turn otherwise than the first below their node by no more than the next nodes differ, and theirs from these. */
+/* Facets turn otherwise than the first below their node by no more than the next nodes differ, and theirs from
+ * these. */
 static void find_balls(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, rg_sweep_work *w)
 {
     for (int32_t f = 0; f < p->mesh->nf; f++) {
@@ -591,7 +615,8 @@ static void find_balls(const rg_plates *p, const rg_plates_state *from, const rg
         join_balls(left, right, 1, ball);
         ball->arm = larger(left->arm, right->arm);
         ball->facet = left->facet;
-        ball->spread = larger(left->spread, right->spread + rg_front_angle(&w->back[left->facet].R, &w->back[right->facet].R));
+        const double angle = rg_front_angle(&w->back[left->facet].R, &w->back[right->facet].R);
+        ball->spread = larger(left->spread, right->spread + angle);
     }
 }
 
@@ -600,7 +625,8 @@ static int keeps_shape(const rg_plates *p, const rg_plates_state *from, const rg
     return from->X == to->X || memcmp(from->X, to->X, (size_t)p->mesh->nv * sizeof *from->X) == 0;
 }
 
-rg_status rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double depth, rg_sweep_work *w,
+rg_status rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double depth,
+                        rg_sweep_work *w,
                         rg_sweep_found *found)
 {
     sweep s = {.p = p, .from = from, .to = to, .depth = depth * p->size, .w = w};

@@ -1,15 +1,15 @@
 /* sweep.h -- whether facets would meet between two states.
  * Uses  plates.h front.h        Used by  course.c
  *
- * Between two states the second facet of a pair, the one of the greater number, moves, as the first one sees it, on a screw: it turns
- * steadily about one axis and goes along it. So both are rigid all the time, stacks that swing as a whole do not move against each
- * other, which facet is held fixed does not matter, and what turns about one line, as a simple fold does, turns about that line.
- * Facets with a common corner turn about it, and where the pattern of the two states differs, it and all others go straight in the
- * plane of their facet.
+ * Between two states the second facet of a pair, the one of the greater number, moves, as the first one sees it, on a
+ * screw: it turns steadily about one axis and goes along it. So both are rigid all the time, stacks that swing as a
+ * whole do not move against each other, which facet is held fixed does not matter, and what turns about one line, as a
+ * simple fold does, turns about that line. Facets with a common corner turn about it, and where the pattern of the two
+ * states differs, it and all others go straight in the plane of their facet.
  *
- * What is decided is conservative, after the advancement of Mirtich (1996), but of second order: along an axis u that parts two
- * plates by s, a corner with velocity v leaves at least s + (u . v) h - c h^2 / 2 after a time h, where c bounds what the
- * turning adds. Layers that lie close and move together are so passed in one step or two. */
+ * What is decided is conservative, after the advancement of Mirtich (1996), but of second order: along an axis u that
+ * parts two plates by s, a corner with velocity v leaves at least s + (u . v) h - c h^2 / 2 after a time h, where c
+ * bounds what the turning adds. Layers that lie close and move together are so passed in one step or two. */
 #ifndef RG_SWEEP_H
 #define RG_SWEEP_H
 
@@ -26,7 +26,8 @@ typedef struct rg_sweep_found {
     rg_sweep_verdict verdict;
     double time;         /* 0 ... 1: up to there nothing happens */
     int32_t facet[2];    /* of the first contact, or the pair that was given up, the smaller number first; -1: free */
-    rg_vec3 axis;        /* unit, as the state begins: from the second facet to the first, what parts them least badly */
+    /* unit, as the state begins: from the second facet to the first, what parts them least badly */
+    rg_vec3 axis;
     int in_front;        /* non-zero: proved at once for all pairs, by front.h */
     int32_t pairs, advancements; /* looked at, made */
 } rg_sweep_found;
@@ -40,8 +41,8 @@ typedef struct rg_sweep_ball {
     int32_t facet; /* that first one */
 } rg_sweep_ball;
 
-/* The second part of a pair, by the greater number, is apart from the first along this axis, unit, as the first part's facet sees it: its
- * front looks along z. */
+/* The second part of a pair, by the greater number, is apart from the first along this axis, unit, as the first part's
+ * facet sees it: its front looks along z. */
 typedef struct rg_sweep_side { int32_t part[2]; rg_vec3 axis; } rg_sweep_side;
 
 typedef struct rg_sweep_work {
@@ -58,11 +59,12 @@ typedef struct rg_sweep_work {
 rg_status rg_sweep_work_init(const rg_plates *p, rg_sweep_work *w);
 void rg_sweep_work_free(rg_sweep_work *w);
 
-/* Looks at all pairs of facets between two states, and says which first comes to cross deeper than `depth`, above 0, of the sheet's
- * size. Hinges are passed through where a crease goes through half a turn, and layers that lie on each other where one comes from
- * above to below: each pair keeps the side on which it was in w->before, or goes round from it. Where it is now, and known, is kept in
- * w->now. RG_ENOMEM. */
-rg_status rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double depth, rg_sweep_work *w,
+/* Looks at all pairs of facets between two states, and says which first comes to cross deeper than `depth`, above 0, of
+ * the sheet's size. Hinges are passed through where a crease goes through half a turn, and layers that lie on each
+ * other where one comes from above to below: each pair keeps the side on which it was in w->before, or goes round from
+ * it. Where it is now, and known, is kept in w->now. RG_ENOMEM. */
+rg_status rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double depth,
+                        rg_sweep_work *w,
                         rg_sweep_found *found);
 /* What is kept now is what the next step begins with. */
 void rg_sweep_go_on(rg_sweep_work *w);

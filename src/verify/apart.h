@@ -13,7 +13,8 @@ typedef struct rg_aparts { rg_memory mem; rg_apart *list; size_t room; int32_t n
 
 /* Adds one behind all others. RG_ENOMEM. */
 rg_status rg_aparts_add(rg_aparts *s, int32_t a, int32_t b, rg_vec3 axis);
-/* That of a pair, no length: not known. *at goes on from where it was: pairs are to be asked for in their order, from *at = 0 on. */
+/* That of a pair, no length: not known. *at goes on from where it was: pairs are to be asked for in their order, from
+ * *at = 0 on. */
 rg_vec3 rg_aparts_next(const rg_aparts *s, int32_t *at, int32_t a, int32_t b);
 void rg_aparts_free(rg_aparts *s);
 

@@ -60,7 +60,8 @@ static rg_status look(rg_certificate *c, rg_record *r, const rg_pattern *given)
     return s;
 }
 
-rg_status rg_certificate_parse(const void *bytes, size_t size, const rg_pattern *given, const rg_memory *memory, rg_certificate **certificate,
+rg_status rg_certificate_parse(const void *bytes, size_t size, const rg_pattern *given, const rg_memory *memory,
+                               rg_certificate **certificate,
                                rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(memory);
@@ -72,10 +73,14 @@ rg_status rg_certificate_parse(const void *bytes, size_t size, const rg_pattern 
     if (s == RG_OK) {
         s = look(c, &r, given);
         if (s == RG_ENOMEM) rg_fail(s, why, 0, "out of memory");
-        c->info = (rg_certificate_info){.valid = c->faults.count == 0, .facets = r.nf, .frames = r.frames, .faults = c->faults.count,
-            .max_sheet = c->isometry.sheet, .max_rigid = c->isometry.rigid, .max_closure = c->isometry.closed, .max_angle = c->isometry.angle,
-            .max_leap_deg = c->isometry.leap / RG_DEG, .max_wrong_side_deg = c->isometry.wrong / RG_DEG, .contact_depth = c->through.depth,
-            .between_depth = c->through.allowed, .ends_flat = c->pile.is_flat, .layer_pairs = c->pile.pairs, .layers_shown = c->pile.seen};
+        c->info = (rg_certificate_info){.valid = c->faults.count == 0, .facets = r.nf, .frames = r.frames,
+                                        .faults = c->faults.count,
+            .max_sheet = c->isometry.sheet, .max_rigid = c->isometry.rigid, .max_closure = c->isometry.closed,
+                .max_angle = c->isometry.angle,
+            .max_leap_deg = c->isometry.leap / RG_DEG, .max_wrong_side_deg = c->isometry.wrong / RG_DEG,
+                .contact_depth = c->through.depth,
+            .between_depth = c->through.allowed, .ends_flat = c->pile.is_flat, .layer_pairs = c->pile.pairs,
+                .layers_shown = c->pile.seen};
         c->percent = r.percent; /* kept, to say where */
         r.percent = NULL;
     }
@@ -88,7 +93,8 @@ rg_status rg_certificate_parse(const void *bytes, size_t size, const rg_pattern 
     return RG_OK;
 }
 
-rg_status rg_certificate_create(const char *path, const rg_pattern *given, const rg_memory *memory, rg_certificate **certificate,
+rg_status rg_certificate_create(const char *path, const rg_pattern *given, const rg_memory *memory,
+                                rg_certificate **certificate,
                                 rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(memory);
@@ -100,15 +106,18 @@ rg_status rg_certificate_create(const char *path, const rg_pattern *given, const
     return s;
 }
 
-/* ----------------------------------------------------------------------------------------------------------- said ---- */
+/* --------------------------------------------------------------------------------------- said ---- */
 
 static void where(const rg_certificate *c, const rg_fault *f, char *text, size_t room)
 {
     int n = f->frame < 0 ? rg_text(text, room, "pattern: ") : rg_text(text, room, "frame %d", (int)f->frame);
-    if (f->frame >= 0 && !isnan(c->percent[f->frame])) n += rg_text(text + n, room - (size_t)n, " (%.4g %%)", c->percent[f->frame]);
+    if (f->frame >= 0 && !isnan(c->percent[f->frame]))
+        n += rg_text(text + n, room - (size_t)n, " (%.4g %%)", c->percent[f->frame]);
     if (f->frame >= 0) n += rg_text(text + n, room - (size_t)n, ": ");
-    if (f->facet[0] >= 0 && f->facet[1] >= 0) rg_text(text + n, room - (size_t)n, "facets %d and %d ", (int)f->facet[0], (int)f->facet[1]);
-    else if (f->facet[0] >= 0 || f->facet[1] >= 0) rg_text(text + n, room - (size_t)n, "facet %d ", (int)(f->facet[0] >= 0 ? f->facet[0] : f->facet[1]));
+    if (f->facet[0] >= 0 && f->facet[1] >= 0)
+        rg_text(text + n, room - (size_t)n, "facets %d and %d ", (int)f->facet[0], (int)f->facet[1]);
+    else if (f->facet[0] >= 0 || f->facet[1] >= 0)
+        rg_text(text + n, room - (size_t)n, "facet %d ", (int)(f->facet[0] >= 0 ? f->facet[0] : f->facet[1]));
 }
 
 static void write_text(const rg_certificate *c, FILE *out)
@@ -122,11 +131,15 @@ static void write_text(const rg_certificate *c, FILE *out)
     }
     if (i->faults > SHOWN) rg_text_to(out, "and %d more\n", (int)(i->faults - SHOWN));
     if (!i->valid) return;
-    rg_text_to(out, "valid: one sheet, %d rigid facets, closed in all of %d frames; nothing crosses in them deeper than %g of the sheet, or on rigid ways "
-            "between them deeper than %.2g\n", (int)i->facets, (int)i->frames, RG_THROUGH_LEAST, i->between_depth);
+    rg_text_to(out,
+               "valid: one sheet, %d rigid facets, closed in all of %d frames; nothing crosses in them deeper than %g "
+               "of the sheet, or on rigid ways between them deeper than %.2g\n",
+               (int)i->facets, (int)i->frames, RG_THROUGH_LEAST, i->between_depth);
     if (i->ends_flat)
-        rg_text_to(out, "the last frame lies flat and rests on the order of its layers alone: %d pairs of facets, valid; %d of them are seen to come in it\n",
-                (int)i->layer_pairs, (int)i->layers_shown);
+        rg_text_to(out,
+                   "the last frame lies flat and rests on the order of its layers alone: %d pairs of facets, valid; %d "
+                   "of them are seen to come in it\n",
+                   (int)i->layer_pairs, (int)i->layers_shown);
 }
 
 static void write_json(const rg_certificate *c, FILE *out)

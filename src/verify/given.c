@@ -9,9 +9,15 @@ typedef struct line { rg_vec2 a, b; char letter; } line;
 /* Flat and undecided lines are told apart by few formats. */
 static char kind_of(char letter) { return letter == 'M' || letter == 'V' || letter == 'B' ? letter : 'F'; }
 
-static line of_record(const rg_record *r, int32_t e) { return (line){r->X[r->edge[e][0]], r->X[r->edge[e][1]], kind_of(r->assignment[e])}; }
+static line of_record(const rg_record *r, int32_t e)
+{
+    return (line){r->X[r->edge[e][0]], r->X[r->edge[e][1]], kind_of(r->assignment[e])};
+}
 
-static line of_pattern(const rg_pattern *p, int32_t e) { return (line){p->X[p->E[e].v[0]], p->X[p->E[e].v[1]], kind_of(p->E[e].assignment)}; }
+static line of_pattern(const rg_pattern *p, int32_t e)
+{
+    return (line){p->X[p->E[e].v[0]], p->X[p->E[e].v[1]], kind_of(p->E[e].assignment)};
+}
 
 static double off_line(const line *l, rg_vec2 x)
 {
@@ -28,7 +34,8 @@ static double on_line(const line *l, const line *of, double by)
     if (l->letter != of->letter || !(n > 0)) return 0;
     const double s = rg_vec2_dot(e, rg_vec2_sub(of->a, l->a)) / n, t = rg_vec2_dot(e, rg_vec2_sub(of->b, l->a)) / n;
     const double from = fmax(0, fmin(s, t)), to = fmin(n, fmax(s, t));
-    const rg_vec2 p = {l->a.x + from * e.x / n, l->a.y + from * e.y / n}, q = {l->a.x + to * e.x / n, l->a.y + to * e.y / n};
+    const rg_vec2 p = {l->a.x + from * e.x / n, l->a.y + from * e.y / n},
+        q = {l->a.x + to * e.x / n, l->a.y + to * e.y / n};
     return to > from && off_line(of, p) <= by && off_line(of, q) <= by ? to - from : 0;
 }
 
@@ -43,7 +50,8 @@ void rg_given_check(const rg_record *r, const rg_pattern *given, rg_faults *all)
             on += on_line(&l, &of, by);
         }
         if (!r->added[e] && !(on >= rg_vec2_length(rg_vec2_sub(l.b, l.a)) - 2 * by))
-            rg_faults_add(all, -1, -1, -1, "edge %d from (%.6g, %.6g) to (%.6g, %.6g) is no such line of the pattern given", (int)e,
+            rg_faults_add(all, -1, -1, -1,
+                          "edge %d from (%.6g, %.6g) to (%.6g, %.6g) is no such line of the pattern given", (int)e,
                           l.a.x, l.a.y, l.b.x, l.b.y);
     }
     for (int32_t g = 0; g < given->ne; g++) {
@@ -54,6 +62,8 @@ void rg_given_check(const rg_record *r, const rg_pattern *given, rg_faults *all)
             if (!r->added[e]) on += on_line(&l, &of, by);
         }
         if (!(on >= rg_vec2_length(rg_vec2_sub(l.b, l.a)) - 2 * by))
-            rg_faults_add(all, -1, -1, -1, "the line from (%.6g, %.6g) to (%.6g, %.6g) of the pattern given is not in it", l.a.x, l.a.y, l.b.x, l.b.y);
+            rg_faults_add(all, -1, -1, -1,
+                          "the line from (%.6g, %.6g) to (%.6g, %.6g) of the pattern given is not in it", l.a.x, l.a.y,
+                l.b.x, l.b.y);
     }
 }

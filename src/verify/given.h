@@ -7,8 +7,8 @@
 #include "verify/faults.h"
 #include "verify/record.h"
 
-/* Every line of the motion's pattern that was not added lies on lines of the given one that fold the same way, and every line of
- * that one on those. */
+/* Every line of the motion's pattern that was not added lies on lines of the given one that fold the same way, and
+ * every line of that one on those. */
 void rg_given_check(const rg_record *r, const rg_pattern *given, rg_faults *all);
 
 #endif

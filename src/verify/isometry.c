@@ -30,7 +30,7 @@ static double area_of(const rg_record *r, const rg_vec2 *X, int32_t f)
     return sum;
 }
 
-/* ---------------------------------------------------------------------------------------------------- pattern ---- */
+/* -------------------------------------------------------------------------------- pattern ---- */
 
 typedef struct way { int32_t from, to, face, edge; } way;
 
@@ -73,7 +73,8 @@ static rg_status find_sides(rg_record *r, rg_faults *all)
         r->side[e][1] = find(list, n, r->edge[e][1], r->edge[e][0], &right);
         used += left + right;
         if (left > 1 || right > 1 || left + right != (r->assignment[e] == 'B' ? 1 : 2))
-            rg_faults_add(all, -1, r->side[e][0], r->side[e][1], "edge %d has %d facets, %s", (int)e, (int)(left + right),
+            rg_faults_add(all, -1, r->side[e][0], r->side[e][1], "edge %d has %d facets, %s", (int)e,
+                          (int)(left + right),
                           r->assignment[e] == 'B' ? "and is border" : "and is a crease");
     }
     if (used != n) rg_faults_add(all, -1, -1, -1, "%d sides of facets are no edges", (int)(n - used));
@@ -119,7 +120,8 @@ static rg_status check_piece(const rg_record *r, rg_faults *all)
             if (a != b) part[a] = b, parts--;
         }
         for (int32_t v = 0; v < r->nv; v++) vertices += used[v];
-        if (parts != 1 || vertices != r->nv || r->nv - r->ne + r->nf != 1) rg_faults_add(all, -1, -1, -1, "the pattern is not one sheet without holes");
+        if (parts != 1 || vertices != r->nv || r->nv - r->ne + r->nf != 1)
+            rg_faults_add(all, -1, -1, -1, "the pattern is not one sheet without holes");
     }
     rg_mem_free(&r->mem, part);
     rg_mem_free(&r->mem, used);
@@ -137,7 +139,7 @@ rg_status rg_isometry_pattern(rg_record *r, rg_faults *all, int *whole)
     return s;
 }
 
-/* ----------------------------------------------------------------------------------------------- one frame ---- */
+/* --------------------------------------------------------------------------- one frame ---- */
 
 typedef struct border {
     int32_t n, *ring, *next;
@@ -163,7 +165,8 @@ static rg_status find_border(const rg_record *r, border *b)
     for (int32_t i = 0; i < b->n; i++) {
         const rg_vec2 p = r->X[b->ring[(i + b->n - 1) % b->n]], q = r->X[b->ring[i]], s = r->X[b->ring[(i + 1) % b->n]];
         const rg_vec2 u = rg_vec2_sub(q, p), v = rg_vec2_sub(s, q);
-        b->corner[i] = !(fabs(rg_vec2_cross(u, v)) <= STRAIGHT * rg_vec2_length(u) * rg_vec2_length(v) && rg_vec2_dot(u, v) > 0);
+        b->corner[i] = !(fabs(rg_vec2_cross(u, v)) <= STRAIGHT * rg_vec2_length(u) * rg_vec2_length(v) &&
+                         rg_vec2_dot(u, v) > 0);
     }
     b->area = b->n ? ring_area(b, r->X) : 0;
     return RG_OK;
@@ -187,8 +190,8 @@ static double off_border(const rg_record *r, const border *b, int32_t i, rg_vec2
     return least;
 }
 
-/* The border is the border given, with its corners where they were, and facets fill it: all have area, and together its own. A
- * map of a sheet that turns no facet over and keeps the border covers every point once. */
+/* The border is the border given, with its corners where they were, and facets fill it: all have area, and together its
+ * own. A map of a sheet that turns no facet over and keeps the border covers every point once. */
 static void check_sheet(const rg_record *r, const border *b, int32_t k, rg_faults *all, rg_isometry *found)
 {
     const rg_vec2 *X = flat_of(r, k);
@@ -199,7 +202,8 @@ static void check_sheet(const rg_record *r, const border *b, int32_t k, rg_fault
         if (!b->corner[i] && d > 0) d = off_border(r, b, i, X[v]);
         most = larger(most, d / r->size);
         const rg_vec2 e = rg_vec2_sub(X[w], X[v]), was = rg_vec2_sub(r->X[w], r->X[v]);
-        if (!(rg_vec2_dot(e, was) > 0)) rg_faults_add(all, k, -1, -1, "vertices %d and %d of the border have changed places", (int)v, (int)w);
+        if (!(rg_vec2_dot(e, was) > 0))
+            rg_faults_add(all, k, -1, -1, "vertices %d and %d of the border have changed places", (int)v, (int)w);
     }
     for (int32_t f = 0; f < r->nf; f++) {
         const double a = area_of(r, X, f);
@@ -207,8 +211,10 @@ static void check_sheet(const rg_record *r, const border *b, int32_t k, rg_fault
         if (!(a > 0)) rg_faults_add(all, k, f, -1, "has no area in the pattern of this frame");
     }
     found->sheet = larger(found->sheet, most);
-    if (!(most <= EXACT)) rg_faults_add(all, k, -1, -1, "the border of its pattern is off the border given by %.2g of the sheet", most);
-    if (!(fabs(sum / b->area - 1) <= EXACT)) rg_faults_add(all, k, -1, -1, "its facets do not fill the sheet, but %.9g of it", sum / b->area);
+    if (!(most <= EXACT))
+        rg_faults_add(all, k, -1, -1, "the border of its pattern is off the border given by %.2g of the sheet", most);
+    if (!(fabs(sum / b->area - 1) <= EXACT))
+        rg_faults_add(all, k, -1, -1, "its facets do not fill the sheet, but %.9g of it", sum / b->area);
 }
 
 static void check_facets(const rg_record *r, int32_t k, rg_record_place *place, rg_faults *all, rg_isometry *found)
@@ -223,25 +229,28 @@ static void check_facets(const rg_record *r, int32_t k, rg_record_place *place, 
 }
 
 /* The facets on the left and right turn towards each other's fronts in a valley. */
-static void check_angles(const rg_record *r, int32_t k, const rg_record_place *place, rg_faults *all, rg_isometry *found)
+static void check_angles(const rg_record *r, int32_t k, const rg_record_place *place, rg_faults *all,
+                         rg_isometry *found)
 {
     const rg_vec3 *x = places_of(r, k);
     const double *rho = angles_of(r, k);
     for (int32_t e = 0; e < r->ne; e++) {
         const int32_t left = r->side[e][0], right = r->side[e][1];
         if (left < 0 || right < 0) continue;
-        const rg_vec3 d = rg_vec3_sub(x[r->edge[e][1]], x[r->edge[e][0]]), n = place[right].R.c[2], m = place[left].R.c[2];
+        const rg_vec3 d = rg_vec3_sub(x[r->edge[e][1]], x[r->edge[e][0]]), n = place[right].R.c[2],
+            m = place[left].R.c[2];
         const double is = atan2(rg_vec3_dot(rg_vec3_cross(n, m), d) / rg_vec3_length(d), rg_vec3_dot(n, m));
         const double off = fabs(remainder(is - rho[e], 2 * RG_PI));
         found->angle = larger(found->angle, off);
         if (!(off <= SAME_ANGLE))
-            rg_faults_add(all, k, left, right, "are folded by %.6g degrees by their places, but by %.6g by the file", is / RG_DEG, rho[e] / RG_DEG);
+            rg_faults_add(all, k, left, right, "are folded by %.6g degrees by their places, but by %.6g by the file",
+                          is / RG_DEG, rho[e] / RG_DEG);
         if (!(fabs(rho[e]) <= RG_PI + BEYOND))
             rg_faults_add(all, k, left, right, "are folded by %.6g degrees, more than half a turn", rho[e] / RG_DEG);
     }
 }
 
-/* ------------------------------------------------------------------------------------------------------ vertices ---- */
+/* ---------------------------------------------------------------------------------- vertices ---- */
 
 typedef struct spoke { double at; int32_t edge, to; } spoke;
 
@@ -289,17 +298,19 @@ static void check_closed(const rg_record *r, int32_t k, const wheels *w, rg_faul
         for (int32_t i = 0; i < n; i++) {
             const double c = cos(rho[w->spoke[i].edge]), s = sin(rho[w->spoke[i].edge]), q = 1 - c;
             const double x = cos(w->spoke[i].at), y = sin(w->spoke[i].at);
-            const rg_mat3 turn = {{{c + x * x * q, x * y * q, -y * s}, {x * y * q, c + y * y * q, x * s}, {y * s, -x * s, c}}};
+            const rg_mat3 turn = {{{c + x * x * q, x * y * q, -y * s}, {x * y * q, c + y * y * q, x * s},
+                                   {y * s, -x * s, c}}};
             M = rg_mat3_mul(M, turn);
         }
         const double a = M.c[1].z - M.c[2].y, b = M.c[2].x - M.c[0].z, d = M.c[0].y - M.c[1].x;
         const double off = atan2(sqrt(a * a + b * b + d * d) / 2, (M.c[0].x + M.c[1].y + M.c[2].z - 1) / 2);
         found->closed = larger(found->closed, off);
-        if (!(off <= EXACT)) rg_faults_add(all, k, -1, -1, "vertex %d does not close: %.2g radians are left", (int)v, off);
+        if (!(off <= EXACT))
+            rg_faults_add(all, k, -1, -1, "vertex %d does not close: %.2g radians are left", (int)v, off);
     }
 }
 
-/* ---------------------------------------------------------------------------------------------------------- path ---- */
+/* -------------------------------------------------------------------------------------- path ---- */
 
 static double side_of(char assignment) { return assignment == 'V' ? 1 : assignment == 'M' ? -1 : 0; }
 
@@ -331,8 +342,8 @@ static int is_flat(const rg_record *r, int32_t k)
     return 1;
 }
 
-/* The frames come in the order in which they are passed: percent never goes back, it is that of the angles where the motion begins
- * flat, and no crease turns by more than a quarter at once. */
+/* The frames come in the order in which they are passed: percent never goes back, it is that of the angles where the
+ * motion begins flat, and no crease turns by more than a quarter at once. */
 static void check_path(const rg_record *r, rg_faults *all, rg_isometry *found)
 {
     const int begins_flat = is_flat(r, 0);
@@ -343,12 +354,14 @@ static void check_path(const rg_record *r, rg_faults *all, rg_isometry *found)
             rg_faults_add(all, k, -1, -1, "is %.6g %% folded by its angles, not %.6g %%", percent, r->percent[k]);
         if (k == 0) continue;
         if (r->percent[k] < r->percent[k - 1] - PERCENT)
-            rg_faults_add(all, k, -1, -1, "the path goes back, from %.6g %% to %.6g %%", r->percent[k - 1], r->percent[k]);
+            rg_faults_add(all, k, -1, -1, "the path goes back, from %.6g %% to %.6g %%", r->percent[k - 1],
+                          r->percent[k]);
         for (int32_t e = 0; e < r->ne; e++) {
             const double change = fabs(angles_of(r, k)[e] - angles_of(r, k - 1)[e]);
             if (side_of(r->assignment[e]) != 0 && change > found->leap) found->leap = change, found->leap_to = k;
             if (!(change <= LEAP))
-                rg_faults_add(all, k, r->side[e][0], r->side[e][1], "leap: the crease between them turns by %.4g degrees from the frame before",
+                rg_faults_add(all, k, r->side[e][0], r->side[e][1],
+                              "leap: the crease between them turns by %.4g degrees from the frame before",
                               change / RG_DEG);
         }
     }
@@ -360,7 +373,8 @@ static void check_assignments(const rg_record *r, rg_faults *all, rg_isometry *f
     const double *end = angles_of(r, r->frames - 1), as = way_of(r);
     for (int32_t e = 0; e < r->ne; e++) {
         const double side = r->added[e] ? 0 : as * side_of(r->assignment[e]);
-        for (int32_t k = 0; k < r->frames && side != 0; k++) found->wrong = larger(found->wrong, -side * angles_of(r, k)[e]);
+        for (int32_t k = 0; k < r->frames && side != 0; k++)
+            found->wrong = larger(found->wrong, -side * angles_of(r, k)[e]);
         if (side != 0 && !(side * end[e] >= -WRONG_SIDE))
             rg_faults_add(all, r->frames - 1, r->side[e][0], r->side[e][1], "the %s between them ends at %.4g degrees",
                           r->assignment[e] == 'V' ? "valley" : "mountain", as * end[e] / RG_DEG);

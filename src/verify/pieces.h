@@ -21,8 +21,8 @@ typedef struct rg_pieces {
 rg_status rg_pieces_init(const rg_record *r, rg_pieces *p);
 void rg_pieces_free(rg_pieces *p);
 
-/* What two convex polygons in a plane have in common, counter-clockwise; either way round they may be given. Returns how many
- * corners it has. */
+/* What two convex polygons in a plane have in common, counter-clockwise; either way round they may be given. Returns
+ * how many corners it has. */
 int32_t rg_pieces_common(const rg_vec2 *a, int32_t na, const rg_vec2 *b, int32_t nb, rg_vec2 common[RG_PIECE_COMMON]);
 double rg_pieces_area(const rg_vec2 *a, int32_t n);
 

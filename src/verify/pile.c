@@ -8,7 +8,8 @@ static const double NARROW = 1e-4;
 static const double PLANE = 1e-6;
 /* Radians: creases flat, or at half a turn. */
 static const double THERE = 0.5 * RG_DEG;
-/* Cosine of the angle that an axis which tells above from below may have with the normal: what lies over the other is not beside it. */
+/* Cosine of the angle that an axis which tells above from below may have with the normal: what lies over the other is
+ * not beside it. */
 static const double UPRIGHT = 0.5;
 
 typedef struct pile {
@@ -24,11 +25,17 @@ typedef struct pile {
     int32_t *crease, creases; /* edges at half a turn and flat ones between two facets */
 } pile;
 
-static signed char *order(const pile *q, int32_t f, int32_t g) { return &q->above[(size_t)f * (size_t)q->r->nf + (size_t)g]; }
-static unsigned char *over(const pile *q, int32_t f, int32_t g) { return &q->over[(size_t)f * (size_t)q->r->nf + (size_t)g]; }
+static signed char *order(const pile *q, int32_t f, int32_t g)
+{
+    return &q->above[(size_t)f * (size_t)q->r->nf + (size_t)g];
+}
+static unsigned char *over(const pile *q, int32_t f, int32_t g)
+{
+    return &q->over[(size_t)f * (size_t)q->r->nf + (size_t)g];
+}
 static const double *end_angles(const pile *q) { return q->r->rho + (size_t)q->last * (size_t)q->r->ne; }
 
-/* ---------------------------------------------------------------------------------------------------- the plane ---- */
+/* -------------------------------------------------------------------------------- the plane ---- */
 
 static int lies_flat(pile *q)
 {
@@ -41,7 +48,8 @@ static int lies_flat(pile *q)
         if (!(fabs(rg_vec3_dot(d, first.R.c[2])) <= PLANE * r->size)) return 0;
         q->at[v] = (rg_vec2){rg_vec3_dot(d, first.R.c[0]), rg_vec3_dot(d, first.R.c[1])};
     }
-    for (int32_t f = 0; f < r->nf; f++) q->up[f] = rg_vec3_dot(rg_record_fit(r, q->last, f, NULL).R.c[2], first.R.c[2]) > 0 ? 1 : -1;
+    for (int32_t f = 0; f < r->nf; f++)
+        q->up[f] = rg_vec3_dot(rg_record_fit(r, q->last, f, NULL).R.c[2], first.R.c[2]) > 0 ? 1 : -1;
     for (int32_t e = 0; e < r->ne; e++) {
         if (r->side[e][0] < 0 || r->side[e][1] < 0) continue;
         q->crease[q->creases++] = e;
@@ -78,7 +86,7 @@ static double common_width(const pile *q, int32_t f, int32_t g)
     return widest;
 }
 
-/* ---------------------------------------------------------------------------------------------------- what is said ---- */
+/* -------------------------------------------------------------------------------- what is said ---- */
 
 static void take_orders(pile *q)
 {
@@ -87,7 +95,8 @@ static void take_orders(pile *q)
         const int32_t f = r->order[i][0], g = r->order[i][1];
         const int sign = r->order[i][2] * q->up[g];
         if (sign == 0 || f == g) continue;
-        if (*order(q, f, g) * sign < 0) rg_faults_add(q->all, q->last, f, g, "lie above and below each other by the file's orders");
+        if (*order(q, f, g) * sign < 0)
+            rg_faults_add(q->all, q->last, f, g, "lie above and below each other by the file's orders");
         *order(q, f, g) = (signed char)sign;
         *order(q, g, f) = (signed char)-sign;
     }
@@ -116,7 +125,8 @@ static void check_sides(pile *q, const rg_aparts *sides)
         if (!*over(q, f, g) || !(fabs(s->axis.z) > UPRIGHT)) continue;
         q->found->seen += *over(q, f, g) == 1;
         *over(q, f, g) = *over(q, g, f) = 2;
-        if (*order(q, g, f) * q->up[f] * s->axis.z < 0) rg_faults_add(q->all, q->last, f, g, "lie in the other order than they came in");
+        if (*order(q, g, f) * q->up[f] * s->axis.z < 0)
+            rg_faults_add(q->all, q->last, f, g, "lie in the other order than they came in");
     }
 }
 
@@ -127,11 +137,13 @@ static void check_hinges(pile *q)
         const int32_t e = q->crease[i], f = q->r->side[e][0], g = q->r->side[e][1];
         const double rho = end_angles(q)[e];
         if (!(fabs(rho) >= RG_PI - THERE) || !*over(q, f, g)) continue;
-        if (*order(q, f, g) * q->up[g] * rho < 0) rg_faults_add(q->all, q->last, f, g, "lie in the other order than the %s between them asks for", rho > 0 ? "valley" : "mountain");
+        if (*order(q, f, g) * q->up[g] * rho < 0)
+            rg_faults_add(q->all, q->last, f, g, "lie in the other order than the %s between them asks for",
+                          rho > 0 ? "valley" : "mountain");
     }
 }
 
-/* ------------------------------------------------------------------------------------------------------------ triples ---- */
+/* ---------------------------------------------------------------------------------------- triples ---- */
 
 /* The widest place of three. */
 static double place_of_three(const pile *q, int32_t f, int32_t g, int32_t h)
@@ -149,8 +161,8 @@ static double place_of_three(const pile *q, int32_t f, int32_t g, int32_t h)
     return widest;
 }
 
-/* Only facets that are part of a circle of the whole order can be part of a small one: what is above nothing that is left is
- * taken away, as long as there is such a one. left[nf], under[nf]: room. */
+/* Only facets that are part of a circle of the whole order can be part of a small one: what is above nothing that is
+ * left is taken away, as long as there is such a one. left[nf], under[nf]: room. */
 static void check_triples(pile *q, int32_t *under, int32_t *left)
 {
     const int32_t nf = q->r->nf;
@@ -173,14 +185,15 @@ static void check_triples(pile *q, int32_t *under, int32_t *left)
             if (!(f < g) || !*over(q, f, g)) continue;
             for (int32_t j = 0; j < n; j++) {
                 const int32_t h = left[j], fg = *order(q, f, g);
-                if (!(f < h) || !*over(q, g, h) || !*over(q, h, f) || *order(q, g, h) != fg || *order(q, h, f) != fg || fg == 0) continue;
+                if (!(f < h) || !*over(q, g, h) || !*over(q, h, f) || *order(q, g, h) != fg || *order(q, h, f) != fg ||
+                    fg == 0) continue;
                 if (place_of_three(q, f, g, h) > NARROW * q->r->size)
                     rg_faults_add(q->all, q->last, f, g, "and facet %d lie over each other in a circle", (int)h);
             }
         }
 }
 
-/* ------------------------------------------------------------------------------------------------------------ creases ---- */
+/* ---------------------------------------------------------------------------------------- creases ---- */
 
 /* On which side of the line of an edge a facet of it lies: 1 left, -1 right. */
 static int side_of_line(const pile *q, int32_t e, int32_t f)
@@ -224,8 +237,8 @@ static int clip_segment(const rg_vec2 *c, int32_t n, rg_vec2 a, rg_vec2 b, doubl
     return *from < *to;
 }
 
-/* A facet that goes on across the line of a crease lies on one and the same side of both facets of it: of a folded one, as paper
- * can't be between there; of a flat one, as both are one piece there. */
+/* A facet that goes on across the line of a crease lies on one and the same side of both facets of it: of a folded one,
+ * as paper can't be between there; of a flat one, as both are one piece there. */
 static void check_across(pile *q)
 {
     const double by = NARROW * q->r->size;
@@ -241,9 +254,12 @@ static void check_across(pile *q)
                 double from, to;
                 const int32_t n = piece_of(q, k, c);
                 if (!clip_segment(c, n, a, b, &from, &to) || !((to - from) * length > 4 * by)) continue;
-                for (int part = 1; part < 8 && !across; part++) across = is_within(q, h, along(a, b, from + part * (to - from) / 8), by);
+                for (int part = 1; part < 8 && !across; part++)
+                    across = is_within(q, h, along(a, b, from + part * (to - from) / 8), by);
             }
-            if (across) rg_faults_add(q->all, q->last, f, g, "have facet %d between them, which goes on across their crease", (int)h);
+            if (across)
+                rg_faults_add(q->all, q->last, f, g, "have facet %d between them, which goes on across their crease",
+                              (int)h);
         }
     }
 }
@@ -251,7 +267,8 @@ static void check_across(pile *q)
 /* Two creases that lie on one line for more than a narrow stretch. */
 static int on_one_line(const pile *q, int32_t d, int32_t e)
 {
-    const rg_vec2 a = q->at[q->r->edge[d][0]], b = q->at[q->r->edge[d][1]], p = q->at[q->r->edge[e][0]], s = q->at[q->r->edge[e][1]];
+    const rg_vec2 a = q->at[q->r->edge[d][0]], b = q->at[q->r->edge[d][1]], p = q->at[q->r->edge[e][0]],
+        s = q->at[q->r->edge[e][1]];
     const rg_vec2 u = rg_vec2_sub(b, a);
     const double length = rg_vec2_length(u), by = NARROW * q->r->size;
     if (!(fabs(rg_vec2_turn(a, b, p)) <= by * length && fabs(rg_vec2_turn(a, b, s)) <= by * length)) return 0;
@@ -270,17 +287,21 @@ static void check_two(pile *q, int32_t d, int32_t e)
         if (side_of_line(q, d, f) != side_of_line(q, d, h)) return;
         if (!*over(q, f, h) || !*over(q, f, k) || !*over(q, g, h) || !*over(q, g, k)) return;
         if (between(q, h, f, g) != between(q, k, f, g))
-            rg_faults_add(q->all, q->last, f, g, "have one of facets %d and %d between them, whose crease lies on theirs", (int)h, (int)k);
+            rg_faults_add(q->all, q->last, f, g,
+                          "have one of facets %d and %d between them, whose crease lies on theirs", (int)h, (int)k);
     } else if (folded_d || folded_e) {
-        const int32_t A = folded_d ? f : h, B = folded_d ? g : k, C = folded_d ? h : f, D = folded_d ? k : g, line = folded_d ? d : e;
+        const int32_t A = folded_d ? f : h, B = folded_d ? g : k, C = folded_d ? h : f, D = folded_d ? k : g,
+            line = folded_d ? d : e;
         const int32_t in = side_of_line(q, line, A) == side_of_line(q, line, C) ? C : D;
         if (*over(q, A, in) && *over(q, B, in) && between(q, in, A, B))
-            rg_faults_add(q->all, q->last, A, B, "have facet %d between them, which goes on flat across their crease", (int)in);
+            rg_faults_add(q->all, q->last, A, B, "have facet %d between them, which goes on flat across their crease",
+                          (int)in);
     } else {
         const int same = side_of_line(q, d, f) == side_of_line(q, d, h);
         const int32_t F = same ? h : k, G = same ? k : h;
         if (*over(q, f, F) && *over(q, g, G) && *order(q, f, F) != *order(q, g, G))
-            rg_faults_add(q->all, q->last, f, g, "change places with facets %d and %d at a flat crease", (int)F, (int)G);
+            rg_faults_add(q->all, q->last, f, g, "change places with facets %d and %d at a flat crease", (int)F,
+                          (int)G);
     }
 }
 

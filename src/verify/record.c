@@ -12,7 +12,10 @@ typedef struct reader {
     rg_diag *why;
 } reader;
 
-static rg_status bad(const reader *q, const char *what, const char *where) { return rg_fail(RG_EFORMAT, q->why, 0, "%s: %s", where, what); }
+static rg_status bad(const reader *q, const char *what, const char *where)
+{
+    return rg_fail(RG_EFORMAT, q->why, 0, "%s: %s", where, what);
+}
 
 /* A list of exactly n (any number, where n < 0) things. */
 static rg_status list(const reader *q, const rg_value *of, const char *key, int32_t n, const rg_value **v)
@@ -67,7 +70,8 @@ static rg_status angles(const reader *q, const rg_value *of, double *rho)
     for (int32_t e = 0; s == RG_OK && e < q->r->ne; e++) {
         double degrees = 0;
         const rg_value *angle = rg_value_at(v, (size_t)e);
-        if (rg_value_kind(angle) != RG_KIND_NULL && !rg_value_number(angle, &degrees)) return bad(q, "not a number", "edges_foldAngle");
+        if (rg_value_kind(angle) != RG_KIND_NULL && !rg_value_number(angle, &degrees))
+            return bad(q, "not a number", "edges_foldAngle");
         rho[e] = degrees * RG_DEG;
     }
     return s;
@@ -92,8 +96,10 @@ static rg_status edges(const reader *q)
         const rg_value *row = rg_value_at(v, (size_t)e);
         const char *letter = rg_value_text(rg_value_at(a, (size_t)e));
         for (int k = 0; k < 2; k++)
-            if (!index_of(rg_value_at(row, (size_t)k), r->nv, &r->edge[e][k])) return bad(q, "no such vertex", "edges_vertices");
-        if (!letter || !strchr("BMVFUCJ", letter[0]) || !letter[0] || letter[1]) return bad(q, "no such letter", "edges_assignment");
+            if (!index_of(rg_value_at(row, (size_t)k), r->nv, &r->edge[e][k]))
+                return bad(q, "no such vertex", "edges_vertices");
+        if (!letter || !strchr("BMVFUCJ", letter[0]) || !letter[0] || letter[1])
+            return bad(q, "no such letter", "edges_assignment");
         r->assignment[e] = letter[0];
         r->added[e] = rg_value_is_true(rg_value_at(added, (size_t)e)) != 0;
         r->side[e][0] = r->side[e][1] = -1;
@@ -130,7 +136,8 @@ static rg_status faces(const reader *q)
         int32_t *c = r->corner + r->start[f];
         const int32_t n = r->start[f + 1] - r->start[f];
         for (int32_t k = 0; k < n; k++)
-            if (!index_of(rg_value_at(rg_value_at(v, (size_t)f), (size_t)k), r->nv, &c[k])) return bad(q, "no such vertex", "faces_vertices");
+            if (!index_of(rg_value_at(rg_value_at(v, (size_t)f), (size_t)k), r->nv, &c[k]))
+                return bad(q, "no such vertex", "faces_vertices");
         r->turned[f] = area_of(r, f) < 0;
         for (int32_t k = 0; r->turned[f] && k < n / 2; k++) {
             const int32_t swap = c[k];
@@ -152,7 +159,8 @@ static rg_status one_frame(const reader *q, const rg_value *frame, int32_t k)
     if (s == RG_OK) s = angles(q, frame, r->rho + (size_t)k * (size_t)r->ne);
     if (s != RG_OK) return s;
     if (!rg_value_number(rg_value_get(frame, "rigami:percent"), &r->percent[k])) r->percent[k] = NAN;
-    if (rg_value_get(frame, "rigami:vertices_flatCoords")) return coordinates(q, frame, "rigami:vertices_flatCoords", r->flat + at);
+    if (rg_value_get(frame, "rigami:vertices_flatCoords"))
+        return coordinates(q, frame, "rigami:vertices_flatCoords", r->flat + at);
     memcpy(r->flat + at, r->X, (size_t)r->nv * sizeof *r->X);
     return RG_OK;
 }
@@ -169,7 +177,8 @@ static rg_status orders(const reader *q, const rg_value *frame)
     for (int32_t i = 0; i < r->orders; i++) {
         const rg_value *row = rg_value_at(v, (size_t)i);
         int64_t sign;
-        if (!index_of(rg_value_at(row, 0), r->nf, &r->order[i][0]) || !index_of(rg_value_at(row, 1), r->nf, &r->order[i][1]) ||
+        if (!index_of(rg_value_at(row, 0), r->nf, &r->order[i][0]) ||
+            !index_of(rg_value_at(row, 1), r->nf, &r->order[i][1]) ||
             !rg_value_integer(rg_value_at(row, 2), &sign) || sign < -1 || sign > 1)
             return bad(q, "not two facets and 1, -1 or 0", "faceOrders");
         r->order[i][2] = (int32_t)(r->turned[r->order[i][1]] ? -sign : sign);
@@ -234,7 +243,8 @@ rg_status rg_record_parse(const char *bytes, size_t size, const rg_memory *mem, 
 void rg_record_free(rg_record *r)
 {
     if (!r->mem.resize) return;
-    void *block[] = {r->X, r->edge, r->assignment, r->target, r->added, r->start, r->corner, r->turned, r->side, r->percent, r->x, r->rho,
+    void *block[] = {r->X, r->edge, r->assignment, r->target, r->added, r->start, r->corner, r->turned, r->side,
+                     r->percent, r->x, r->rho,
                      r->flat, r->order};
     for (int i = 0; i < 14; i++) rg_mem_free(&r->mem, block[i]);
     memset(r, 0, sizeof *r);
@@ -249,7 +259,8 @@ rg_record_place rg_record_fit(const rg_record *r, int32_t frame, int32_t f, doub
     double far = -1;
     for (int32_t i = 0; i < n; i++)
         for (int32_t k = 0; k < i; k++)
-            if (rg_vec2_length(rg_vec2_sub(X[c[i]], X[c[k]])) > far) far = rg_vec2_length(rg_vec2_sub(X[c[i]], X[c[k]])), a = k, b = i;
+            if (rg_vec2_length(rg_vec2_sub(X[c[i]], X[c[k]])) > far)
+                far = rg_vec2_length(rg_vec2_sub(X[c[i]], X[c[k]])), a = k, b = i;
     rg_vec3 normal = {0, 0, 0};
     for (int32_t k = 1; k + 1 < n; k++)
         normal = rg_vec3_add(normal, rg_vec3_cross(rg_vec3_sub(x[c[k]], x[c[0]]), rg_vec3_sub(x[c[k + 1]], x[c[0]])));
@@ -268,7 +279,10 @@ rg_record_place rg_record_fit(const rg_record *r, int32_t frame, int32_t f, doub
     p.t = rg_vec3_sub(x[c[a]], rg_mat3_mul_vec(p.R, (rg_vec3){X[c[a]].x, X[c[a]].y, 0}));
     double most = 0;
     for (int32_t k = 0; k < n; k++) {
-        const double d = rg_vec3_length(rg_vec3_sub(x[c[k]], rg_vec3_add(rg_mat3_mul_vec(p.R, (rg_vec3){X[c[k]].x, X[c[k]].y, 0}), p.t)));
+        const double d = rg_vec3_length(rg_vec3_sub(x[c[k]],
+                                                    rg_vec3_add(rg_mat3_mul_vec(p.R,
+                                                                                (rg_vec3){X[c[k]].x, X[c[k]].y, 0}),
+            p.t)));
         if (!(d <= most)) most = d;
     }
     if (off) *off = most;

@@ -3,7 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Facets with a common corner: over less of the sheet it is how the corner is rounded. And what lies over the other by less is beside it. */
+/* Facets with a common corner: over less of the sheet it is how the corner is rounded. And what lies over the other by
+ * less is beside it. */
 static const double STRETCH = 1e-3;
 /* Sine of sides that count as parallel. */
 static const double PARALLEL = 1e-9;
@@ -38,7 +39,8 @@ static int32_t find_axes(const polygon *a, const polygon *b, rg_vec3 *axis)
     axis[n++] = normal_of(b);
     for (int32_t i = 0; i < a->n; i++)
         for (int32_t k = 0; k < b->n; k++) {
-            const rg_vec3 e = rg_vec3_sub(a->x[(i + 1) % a->n], a->x[i]), g = rg_vec3_sub(b->x[(k + 1) % b->n], b->x[k]);
+            const rg_vec3 e = rg_vec3_sub(a->x[(i + 1) % a->n], a->x[i]),
+                g = rg_vec3_sub(b->x[(k + 1) % b->n], b->x[k]);
             const rg_vec3 u = rg_vec3_cross(e, g);
             const double length = rg_vec3_length(u);
             if (length > PARALLEL * rg_vec3_length(e) * rg_vec3_length(g)) axis[n++] = rg_vec3_scale(1 / length, u);
@@ -91,7 +93,7 @@ static double stretch_of(const polygon *a, const polygon *b)
     return high > low ? high - low : 0;
 }
 
-/* ------------------------------------------------------------------------------------------------- one frame ---- */
+/* ----------------------------------------------------------------------------- one frame ---- */
 
 typedef struct look {
     const rg_record *r;
@@ -109,7 +111,8 @@ typedef struct look {
 static polygon piece_at(const look *l, int32_t frame, int32_t a)
 {
     polygon p = {.n = l->p->start[a + 1] - l->p->start[a]};
-    for (int32_t k = 0; k < p.n; k++) p.x[k] = l->r->x[(size_t)frame * (size_t)l->r->nv + (size_t)l->p->corner[l->p->start[a] + k]];
+    for (int32_t k = 0; k < p.n; k++)
+        p.x[k] = l->r->x[(size_t)frame * (size_t)l->r->nv + (size_t)l->p->corner[l->p->start[a] + k]];
     return p;
 }
 
@@ -163,7 +166,8 @@ static rg_status check_frame(look *l, int32_t frame)
     for (int32_t i = 0; i < l->p->n; i++)
         for (int32_t k = i + 1; k < l->p->n && s[k].at <= l->high[s[i].piece].x; k++) {
             const int32_t a = s[i].piece, b = s[k].piece;
-            if (l->p->facet[a] == l->p->facet[b] || l->low[a].y > l->high[b].y || l->low[b].y > l->high[a].y || l->low[a].z > l->high[b].z ||
+            if (l->p->facet[a] == l->p->facet[b] || l->low[a].y > l->high[b].y || l->low[b].y > l->high[a].y ||
+                l->low[a].z > l->high[b].z ||
                 l->low[b].z > l->high[a].z)
                 continue;
             check_pair(l, frame, a < b ? a : b, a < b ? b : a);
@@ -172,11 +176,11 @@ static rg_status check_frame(look *l, int32_t frame)
     return RG_OK;
 }
 
-/* ---------------------------------------------------------------------------------------------- between frames ---- */
+/* -------------------------------------------------------------------------- between frames ---- */
 
-/* A pair as its first facet sees it: corner i of the second is at p + way of the pivot + turn(t) Q (r + t dr). The pivot, a common
- * corner, goes straight by dp; or else it is the middle and goes on the screw of the turn: dp = rise + chord, the one
- * along the axis, the other that of the arc about it. */
+/* A pair as its first facet sees it: corner i of the second is at p + way of the pivot + turn(t) Q (r + t dr). The
+ * pivot, a common corner, goes straight by dp; or else it is the middle and goes on the screw of the turn: dp = rise +
+ * chord, the one along the axis, the other that of the arc about it. */
 typedef struct way {
     int32_t na, nb;
     rg_vec2 a[RG_PIECE_MOST], da[RG_PIECE_MOST], r[RG_PIECE_MOST], dr[RG_PIECE_MOST];
@@ -195,14 +199,21 @@ static rg_mat3 inverse_times(const rg_mat3 *A, const rg_mat3 *B)
     return C;
 }
 
-static rg_vec3 put(const rg_mat3 *Q, rg_vec2 r) { return rg_vec3_add(rg_vec3_scale(r.x, Q->c[0]), rg_vec3_scale(r.y, Q->c[1])); }
+static rg_vec3 put(const rg_mat3 *Q, rg_vec2 r)
+{
+    return rg_vec3_add(rg_vec3_scale(r.x, Q->c[0]), rg_vec3_scale(r.y, Q->c[1]));
+}
 
 /* The arc of a circle that is seen under an angle, by its chord. */
-static double arc_length(double angle, double chord) { return angle > 0 ? chord * (angle / 2) / sin(angle / 2) : chord; }
+static double arc_length(double angle, double chord)
+{
+    return angle > 0 ? chord * (angle / 2) / sin(angle / 2) : chord;
+}
 
 static void set_way(const look *l, int32_t frame, int32_t a, int32_t b, int32_t corner, way *w)
 {
-    const int32_t *ca = l->p->corner + l->p->start[a], *cb = l->p->corner + l->p->start[b], f = l->p->facet[a], g = l->p->facet[b];
+    const int32_t *ca = l->p->corner + l->p->start[a], *cb = l->p->corner + l->p->start[b], f = l->p->facet[a],
+        g = l->p->facet[b];
     const rg_vec2 *X = l->r->flat + (size_t)frame * (size_t)l->r->nv, *Y = X + l->r->nv;
     rg_mat3 Q[2];
     rg_vec3 at[2];
@@ -212,7 +223,8 @@ static void set_way(const look *l, int32_t frame, int32_t a, int32_t b, int32_t 
         const rg_vec2 *Z = end ? Y : X;
         const rg_record_place *A = &l->place[end][f], *B = &l->place[end][g];
         pivot[end] = (rg_vec2){0, 0};
-        for (int32_t k = 0; corner < 0 && k < w->nb; k++) pivot[end] = (rg_vec2){pivot[end].x + Z[cb[k]].x / w->nb, pivot[end].y + Z[cb[k]].y / w->nb};
+        for (int32_t k = 0; corner < 0 && k < w->nb; k++)
+            pivot[end] = (rg_vec2){pivot[end].x + Z[cb[k]].x / w->nb, pivot[end].y + Z[cb[k]].y / w->nb};
         if (corner >= 0) pivot[end] = Z[corner];
         Q[end] = inverse_times(&A->R, &B->R);
         const rg_vec3 d = rg_vec3_sub(rg_vec3_add(put(&B->R, pivot[end]), B->t), A->t);
@@ -243,11 +255,14 @@ static void set_way(const look *l, int32_t frame, int32_t a, int32_t b, int32_t 
     w->chord = rg_vec3_sub(w->dp, w->rise);
     w->over = STRETCH * l->r->size;
     w->screw = corner < 0 && w->angle > 0;
-    if (w->screw) w->bend += w->angle * arc_length(w->angle, rg_vec3_length(w->chord)); /* speed squared over the radius */
+    /* speed squared over the radius */
+    if (w->screw)
+        w->bend += w->angle * arc_length(w->angle, rg_vec3_length(w->chord));
 }
 
-/* On a circle with a chord c that is seen under the angle a from its middle, after the part t of the arc: along the chord
- * c sin(ta/2) cos((1-t)a/2) / sin(a/2), and beside it c sin(ta/2) sin((1-t)a/2) / sin(a/2), away from the middle. *v: velocity. */
+/* On a circle with a chord c that is seen under the angle a from its middle, after the part t of the arc: along the
+ * chord c sin(ta/2) cos((1-t)a/2) / sin(a/2), and beside it c sin(ta/2) sin((1-t)a/2) / sin(a/2), away from the middle.
+ * *v: velocity. */
 static rg_vec3 along_screw(const way *w, double t, rg_vec3 *v)
 {
     if (!w->screw) {
@@ -274,7 +289,8 @@ static void at_time(const way *w, double t, polygon *a, polygon *b, rg_vec3 *va,
     for (int32_t k = 0; k < w->nb; k++) {
         rg_vec3 turned[2];
         for (int i = 0; i < 2; i++) {
-            const rg_vec3 z = put(&w->Q, i ? w->dr[k] : (rg_vec2){w->r[k].x + t * w->dr[k].x, w->r[k].y + t * w->dr[k].y});
+            const rg_vec3 z = put(&w->Q, i ? w->dr[k] : (rg_vec2){w->r[k].x + t * w->dr[k].x,
+                                                                  w->r[k].y + t * w->dr[k].y});
             const rg_vec3 along = rg_vec3_scale(rg_vec3_dot(w->axis, z), w->axis), out = rg_vec3_sub(z, along);
             turned[i] = rg_vec3_add(along, rg_vec3_axpy(c, out, rg_vec3_scale(s, rg_vec3_cross(w->axis, out))));
         }
@@ -283,9 +299,10 @@ static void at_time(const way *w, double t, polygon *a, polygon *b, rg_vec3 *va,
     }
 }
 
-/* Within h of this time, the second plate is never deeper than allowed beyond the first along u: places are linear in time but for
- * bend h^2 / 2, and what is linear is least at an end. */
-static int holds_along(const way *w, rg_vec3 u, double h, const polygon *a, const polygon *b, const rg_vec3 *va, const rg_vec3 *vb)
+/* Within h of this time, the second plate is never deeper than allowed beyond the first along u: places are linear in
+ * time but for bend h^2 / 2, and what is linear is least at an end. */
+static int holds_along(const way *w, rg_vec3 u, double h, const polygon *a, const polygon *b, const rg_vec3 *va,
+                       const rg_vec3 *vb)
 {
     for (int end = -1; end <= 1; end += 2) {
         double top = -INFINITY, low = INFINITY;
@@ -307,8 +324,8 @@ static double gap_along(const polygon *a, const polygon *b, rg_vec3 u)
     return bl - ah;
 }
 
-/* Axes along which two plates may be apart: the way from middle to middle, those of find_axes, and, for plates in one plane, across
- * their sides. */
+/* Axes along which two plates may be apart: the way from middle to middle, those of find_axes, and, for plates in one
+ * plane, across their sides. */
 static int32_t all_axes(const polygon *a, const polygon *b, rg_vec3 *axis)
 {
     rg_vec3 middle = {0, 0, 0};
@@ -319,24 +336,26 @@ static int32_t all_axes(const polygon *a, const polygon *b, rg_vec3 *axis)
     for (int side = 0; side < 2; side++) {
         const polygon *p = side ? b : a;
         const rg_vec3 m = axis[1 + side];
-        for (int32_t k = 0; k < p->n; k++) axis[n++] = unit(rg_vec3_cross(rg_vec3_sub(p->x[(k + 1) % p->n], p->x[k]), m));
+        for (int32_t k = 0; k < p->n; k++)
+            axis[n++] = unit(rg_vec3_cross(rg_vec3_sub(p->x[(k + 1) % p->n], p->x[k]), m));
     }
     return n;
 }
 
 static int is_known(rg_vec3 side) { return side.x != 0 || side.y != 0 || side.z != 0; }
 
-/* What parts two things along u and along v parts them along all between: along (u + v) / |u + v| by no less than the sum of both
- * over |u + v|, which is 1 or more up to 120 degrees. Beyond that the middle is asked: what lies on the other over more than a STRETCH is not parted
- * by it. So one and the same side goes over into the other. */
+/* What parts two things along u and along v parts them along all between: along (u + v) / |u + v| by no less than the
+ * sum of both over |u + v|, which is 1 or more up to 120 degrees. Beyond that the middle is asked: what lies on the
+ * other over more than a STRETCH is not parted by it. So one and the same side goes over into the other. */
 static int is_one_side(const polygon *a, const polygon *b, rg_vec3 u, rg_vec3 v, double allowed, double over)
 {
     const rg_vec3 both = rg_vec3_add(u, v);
-    return rg_vec3_dot(u, v) >= -0.5 || (rg_vec3_length(both) > PARALLEL && gap_along(a, b, unit(both)) >= -allowed - over);
+    return rg_vec3_dot(u, v) >= -0.5 || (rg_vec3_length(both) > PARALLEL &&
+                                         gap_along(a, b, unit(both)) >= -allowed - over);
 }
 
-/* At a time, they are apart along v and along u; is there a way from the one to the other without passing through each other? Where
- * both lie in one plane, over each other, there is none from above to below. */
+/* At a time, they are apart along v and along u; is there a way from the one to the other without passing through each
+ * other? Where both lie in one plane, over each other, there is none from above to below. */
 static int goes_over(const way *w, double t, rg_vec3 v, rg_vec3 u, rg_vec3 *axis)
 {
     polygon a, b;
@@ -365,7 +384,8 @@ static int is_only(const polygon *a, const polygon *b, rg_vec3 u, double allowed
     return 1;
 }
 
-/* From t - h to t + h. *side: that on which the second is known to be as it begins, and then as it ends. axis: room for axes. */
+/* From t - h to t + h. *side: that on which the second is known to be as it begins, and then as it ends. axis: room for
+ * axes. */
 static outcome prove(const way *w, double t, double h, int halvings, rg_vec3 *axis, rg_vec3 *side)
 {
     polygon a, b, c, d;
@@ -403,8 +423,8 @@ static double from_origin(rg_vec3 q, rg_vec3 r)
     return rg_vec3_length(rg_vec3_axpy(t, d, q));
 }
 
-/* The middle of the second goes on an arc of a quarter at most, as the first sees it (what turns by more is no way at all): does it
- * come near enough for corners to meet? */
+/* The middle of the second goes on an arc of a quarter at most, as the first sees it (what turns by more is no way at
+ * all): does it come near enough for corners to meet? */
 static int comes_near(const look *l, int32_t a, int32_t b)
 {
     rg_vec3 at[2];
@@ -453,7 +473,8 @@ static void check_pair_on_way(look *l, int32_t frame, int32_t a, int32_t b, doub
     l->found->proofs++;
     set_way(l, frame, a, b, corner, &w);
     if (!(w.angle <= LEAP)) {
-        rg_faults_add(l->all, frame + 1, f, g, "come near, and turn by %.3g degrees against each other from the frame before: no telling how",
+        rg_faults_add(l->all, frame + 1, f, g,
+                      "come near, and turn by %.3g degrees against each other from the frame before: no telling how",
                       w.angle / RG_DEG);
         return;
     }
@@ -467,8 +488,13 @@ static void check_pair_on_way(look *l, int32_t frame, int32_t a, int32_t b, doub
     }
     if (o == PROVED) return;
     *side = (rg_vec3){0, 0, 0};
-    if (o == THROUGH) rg_faults_add(l->all, frame + 1, f, g, "pass through each other on the way from the frame before, deeper than %.2g of the sheet", allowed);
-    else if (o == ROUND) rg_faults_add(l->all, frame + 1, f, g, "lie on each other, and come to lie the other way round on the way from the frame before");
+    if (o == THROUGH)
+        rg_faults_add(l->all, frame + 1, f, g,
+                      "pass through each other on the way from the frame before, deeper than %.2g of the sheet",
+            allowed);
+    else if (o == ROUND)
+        rg_faults_add(l->all, frame + 1, f, g,
+                      "lie on each other, and come to lie the other way round on the way from the frame before");
     else rg_faults_add(l->all, frame + 1, f, g, "could not be proved apart on the way from the frame before");
 }
 
@@ -491,13 +517,15 @@ static rg_status check_way(look *l, int32_t frame, double allowed)
     return s;
 }
 
-/* The most that a corner's path bends at frame k: a steady curve is off its chords by no more than an eighth of that. */
+/* The most that a corner's path bends at frame k: a steady curve is off its chords by no more than an eighth of
+ * that. */
 static double bend_at(const rg_record *r, int32_t k)
 {
     double most = 0;
     if (k <= 0 || k + 1 >= r->frames) return 0;
     const rg_vec3 *x = r->x + (size_t)(k - 1) * (size_t)r->nv, *y = x + r->nv, *z = y + r->nv;
-    for (int32_t v = 0; v < r->nv; v++) most = fmax(most, rg_vec3_length(rg_vec3_add(rg_vec3_axpy(-2, y[v], x[v]), z[v])));
+    for (int32_t v = 0; v < r->nv; v++)
+        most = fmax(most, rg_vec3_length(rg_vec3_add(rg_vec3_axpy(-2, y[v], x[v]), z[v])));
     return most / r->size;
 }
 
