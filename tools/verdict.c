@@ -172,8 +172,9 @@ void verdict_say_contact(const options *o, const char *name, const rg_pattern *p
              o->settings.contact == RG_CONTACT_REPORT ? "--contact avoid looks for a motion without"
              : u                                      ? "mend the vertex"
              : *why                                   ? "change a crease there"
+             : r->states > 0                          ? "take the steps in another order, or put one between"
                                                       : "fold in steps, a file or a --frame each");
-    if (before >= 1)
+    if (before >= 1 && r->states == 0)
         snprintf(next + strlen(next), sizeof next - strlen(next), ", or fold part of the way: --to %.0f", before);
     say("%s: reaches its end only by passing through itself, from %.0f %%: facets %d at (%.6g, %.6g) and %d at (%.6g, "
         "%.6g)%s. Next: %s",
