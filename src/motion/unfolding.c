@@ -16,12 +16,15 @@ static const double MOST_TIMES = 4;
 /* What moving a vertex of the pattern by the shortest line at it counts, in radians of a crease, as in relax.h. */
 static const double GIVE = 1;
 
+/* Where not all of the ways between frames could be proved free, another motion is looked for until it has cost so many times as much. */
+static const double AGAIN = 3;
+
 /* A path is looked at in so many states, evenly in percent, whatever frames are asked for: what is chosen must not depend on them. */
 static const int32_t LOOKED_AT = 121;
 
 /* The first frame in which facets cross, or before which they do on the way; -1: none, or the watch (NULL: nobody's) stopped it
- * before it came to one. */
-static rg_status first_crossing(const rg_attempt *t, rg_watch *watch, int32_t *frame)
+ * before it came to one. *unproved: out, ways between frames of which neither is sure. */
+static rg_status first_crossing(const rg_attempt *t, rg_watch *watch, int32_t *frame, int32_t *unproved)
 {
     const rg_mesh *m = &t->mesh;
     rg_course course = {0};
@@ -39,6 +42,7 @@ static rg_status first_crossing(const rg_attempt *t, rg_watch *watch, int32_t *f
     }
     if (s == RG_OK && course.found.states == t->count) s = rg_course_end(&course);
     if (s == RG_OK) *frame = course.found.first;
+    *unproved = course.found.unproved;
     rg_course_free(&course);
     rg_tree_free(&tree);
     rg_mem_free(&t->mem, place);
@@ -53,7 +57,8 @@ rg_status rg_unfolding_crosses(rg_attempt *t, const rg_settings *settings, rg_wa
     look.frames = LOOKED_AT;
     look.pace = RG_PACE_PERCENT;
     rg_status s = rg_attempt_read(t, &look);
-    if (s == RG_OK) s = first_crossing(t, watch, frame);
+    int32_t unproved;
+    if (s == RG_OK) s = first_crossing(t, watch, frame, &unproved);
     rg_attempt_forget_frames(t);
     return s;
 }
@@ -92,7 +97,7 @@ static rg_status take_over(rg_attempt *t, rg_unfold *u, const rg_mesh *none, con
     return RG_OK;
 }
 
-static void adopt(rg_search *c, rg_attempt *t, const rg_unfold *u)
+static void adopt(rg_search *c, rg_attempt *t, const char *how)
 {
     rg_attempt_free(&c->best);
     c->best = *t;
@@ -102,7 +107,7 @@ static void adopt(rg_search *c, rg_attempt *t, const rg_unfold *u)
     c->rung = RG_UNFOLDED;
     c->direction = "backward";
     c->compliance = GIVE;
-    snprintf(c->strategy, sizeof c->strategy, "%s", u->how);
+    snprintf(c->strategy, sizeof c->strategy, "%s", how);
 }
 
 /* Who takes what unfolding finds. */
@@ -111,7 +116,8 @@ typedef struct taker {
     const rg_settings *settings;
     rg_watch *watch;
     rg_diag *why;
-    rg_attempt found;
+    rg_attempt found; /* the first of which all is proved free, or else the first */
+    char how[160];
 } taker;
 
 static int stop_taking(void *ctx, double done) { return stop(((taker *)ctx)->watch, done); }
@@ -121,11 +127,20 @@ static int stop_taking(void *ctx, double done) { return stop(((taker *)ctx)->wat
 static rg_status accept(void *ctx, rg_unfold *u, int *yes)
 {
     taker *k = ctx;
-    int32_t crossing = -1;
-    rg_status s = take_over(&k->found, u, k->none, k->settings, 0, k->why);
-    if (s == RG_OK) s = first_crossing(&k->found, k->watch, &crossing);
-    *yes = s == RG_OK && crossing < 0 && !k->watch->cancelled && rg_search_is_folded(&k->found);
-    if (!*yes) rg_attempt_free(&k->found);
+    rg_attempt t = {0};
+    int32_t crossing = -1, unproved = 0;
+    rg_status s = take_over(&t, u, k->none, k->settings, 0, k->why);
+    if (s == RG_OK) s = first_crossing(&t, k->watch, &crossing, &unproved);
+    const int good = s == RG_OK && crossing < 0 && !k->watch->cancelled && rg_search_is_folded(&t);
+    *yes = good && unproved == 0;
+    if (good && (*yes || !k->found.mem.resize)) {
+        rg_attempt_free(&k->found);
+        k->found = t;
+        memcpy(k->how, u->how, sizeof k->how);
+        u->most = fmin(u->most, AGAIN * u->work);
+    } else {
+        rg_attempt_free(&t);
+    }
     return s;
 }
 
@@ -141,7 +156,7 @@ rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings 
     rg_unfold u;
     const rg_status status = rg_unfold_run(&u, &mem, none, &wish);
     c->tries += u.tries;
-    if (status == RG_OK && u.outcome == RG_UNFOLD_FREE) adopt(c, &k.found, &u);
+    if (status == RG_OK && k.found.mem.resize && !watch->cancelled) adopt(c, &k.found, k.how);
     c->cost.seconds += rg_seconds() - begun;
     rg_attempt_free(&k.found);
     rg_unfold_free(&u);

@@ -557,13 +557,12 @@ static rg_status attempt(rg_unfold *u, const try_ *t, double budget, const rg_un
 /* One entry of the plan; *is_free: out. */
 static rg_status go_by(rg_unfold *u, const step_of_plan *p, const rg_unfold_wish *wish, int *is_free)
 {
-    const double budget = PART_OF_BUDGET * (wish->budget - u->work);
+    const double budget = PART_OF_BUDGET * (u->most - u->work);
     const int forward = p->way < 0;
     *is_free = u->as_seen = 0;
     if (forward ? wish->order >= 0 : !number_order(u, wish, p->order)) return RG_OK;
     rg_status s = rg_layers_choose(u->layers, forward ? NULL : u->which);
     if (s == RG_OK) s = forward ? forwards(u, budget, wish, is_free) : attempt(u, &TRIES[p->way], budget, wish, is_free);
-    if (s == RG_OK && *is_free && wish->accept) s = wish->accept(wish->ctx, u, is_free);
     if (s != RG_OK || !*is_free) return s;
     if (forward) snprintf(u->how, sizeof u->how, "folded from flat with contacts");
     else if (u->as_seen)
@@ -571,7 +570,7 @@ static rg_status go_by(rg_unfold *u, const step_of_plan *p, const rg_unfold_wish
     else
         snprintf(u->how, sizeof u->how, "unfolded from the flat end: order of layers %d of those tried, way of opening %d",
                  (int)p->order + 1, p->way + 1);
-    return RG_OK;
+    return wish->accept ? wish->accept(wish->ctx, u, is_free) : RG_OK;
 }
 
 static rg_status search(rg_unfold *u, const rg_unfold_wish *wish)
@@ -579,7 +578,7 @@ static rg_status search(rg_unfold *u, const rg_unfold_wish *wish)
     u->outcome = RG_UNFOLD_FAILED;
     for (int k = 0; k < PLAN_COUNT; k++) {
         int is_free;
-        if (!(u->work < wish->budget) || is_stopped(wish, 0)) return RG_OK;
+        if (!(u->work < u->most) || is_stopped(wish, 0)) return RG_OK;
         const rg_status s = go_by(u, &PLAN[k], wish, &is_free);
         if (s != RG_OK) return s;
         if (!is_free) continue;
@@ -594,6 +593,7 @@ rg_status rg_unfold_run(rg_unfold *u, const rg_memory *mem, const rg_mesh *none,
     memset(u, 0, sizeof *u);
     u->mem = *mem;
     u->size = none->size;
+    u->most = wish->budget;
     u->outcome = RG_UNFOLD_NO_END;
     rg_status s = wish->shorter ? rg_triangulate_short(none, &u->mesh) : rg_triangulate_all(none, &u->mesh);
     if (s != RG_OK) return s;

@@ -52,7 +52,7 @@ typedef struct rg_unfold {
     rg_unfold_outcome outcome;
     int32_t tries, steps, refused;
     double opened, landed; /* progress where it was opened; to which it was followed from there. Beyond, the order is all there is */
-    double work;
+    double work, most;     /* of multiplications; what ends the search, which who accepts may lower */
     char how[160];
 } rg_unfold;
 
