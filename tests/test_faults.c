@@ -31,7 +31,6 @@
 enum { ROOM = 1 << 22, ALL = 20, FRAMES = 6 };
 
 static char program[PATH_MAX], folder[] = "/tmp/rigami-faults-XXXXXX";
-static double whole_run; /* seconds that the slowest form takes */
 static int times = 2;    /* moments of a signal, sizes of memory; RIGAMI_FAULTS says how many, ALL in make check-long */
 
 /* Forms; of a folder of frames, one of them is looked at. */
@@ -41,6 +40,7 @@ static const struct form { const char *output, *looked_at; int by_ffmpeg; const 
     {"x.html", "x.html", 0, NULL}, {"x.png", "x.png", 0, "IEND\xae\x42\x60\x82"}, {"x.gif", "x.gif", 0, ";"}, {"x.apng", "x.apng", 0, "IEND\xae\x42\x60\x82"},
     {"x%03d.png", "x002.png", 0, "IEND\xae\x42\x60\x82"}, {"x%03d.obj", "x002.obj", 0, NULL}, {"x.mp4", "x.mp4", 1, NULL}, {"x.webm", "x.webm", 1, NULL}};
 enum { FORMS = sizeof forms / sizeof *forms };
+static double whole_run[FORMS]; /* seconds that each takes, so that moments are drawn from all of its own run */
 
 /* ----------------------------------------------------------------------------------------------- running ---- */
 
@@ -225,7 +225,7 @@ static void signals(const struct form *f)
             snprintf(fault, sizeof fault, "signal %d", numbers[s]);
             const double begun = now();
             const pid_t pid = start(f->output, "/dev/null", (limits){0}, 0);
-            wait_until(begun + whole_run * fabs(noise(&seed)));
+            wait_until(begun + whole_run[f - forms] * fabs(noise(&seed)));
             kill(pid, numbers[s]);
             const int status = finish(pid);
             check(f, fault, numbers[s] == SIGKILL && status == 1000 + SIGKILL ? 0 : status, numbers[s] == SIGKILL ? "0" : "01", "old", 0);
@@ -239,7 +239,7 @@ static void whole_runs(void)
         if (is_skipped(&forms[i])) continue;
         const double begun = now();
         assert_int_equal(finish(start(forms[i].output, "/dev/null", (limits){0}, 0)), 0);
-        if (!forms[i].by_ffmpeg) whole_run = fmax(whole_run, now() - begun);
+        whole_run[i] = now() - begun;
         reference(&forms[i], whole);
         assert_int_equal(rename(forms[i].looked_at, whole), 0);
         clear();

@@ -752,6 +752,36 @@ static void what_is_left_out_is_said(void **state)
 }
 
 /* Thousands of faults of one kind are a few sentences and a number. */
+/* A gap is told from whichever side, as far as what joins it is sensible; a corner beside the line is told with it. */
+static void gaps_are_told_with_what_joins_them(void **state)
+{
+    (void)state;
+    static const double end[8][2] = {{0.3, 0.51}, {0.7, 0.49}, {0.51, 0.2}, {0.49, 0.8}, {0.3, 0.53}, {0.7, 0.47}, {0.53, 0.2}, {0.47, 0.8}};
+    for (int k = 0; k < 16; k++) {
+        const double *x = end[k % 8];
+        const int upright = k / 2 % 2, gap = k / 4 % 2, corner = k >= 8; /* 0.01, which is sensible, or 0.03 */
+        rg_reading s = rg_reading_default();
+        rg_lines l = drawing();
+        rg_graph g;
+        char says[80];
+        draw_box(&l, 0, 0, 1, 1);
+        if (upright) draw(&l, RG_VALLEY, 0.5, 0, 0.5, 1);
+        else draw(&l, RG_VALLEY, 0, 0.5, 1, 0.5);
+        if (corner && upright) draw(&l, RG_VALLEY, 0.5, x[1] + 0.012, x[0] < 0.5 ? 1 : 0, x[1] + 0.012);
+        if (corner && !upright) draw(&l, RG_VALLEY, x[0] + 0.012, 0.5, x[0] + 0.012, x[1] < 0.5 ? 1 : 0);
+        if (upright) draw(&l, RG_MOUNTAIN, x[0] < 0.5 ? 0 : 1, x[1], x[0], x[1]);
+        else draw(&l, RG_MOUNTAIN, x[0], x[1] < 0.5 ? 0 : 1, x[0], x[1]);
+        assert_int_equal(rg_planar_from_lines(&l, &s, &g, NULL), RG_OK);
+        assert_int_equal(l.warnings, 1);
+        if (gap) snprintf(says, sizeof says, "is left out");
+        else snprintf(says, sizeof says, corner ? "the next line is 0.01 away, a corner 0.016; --merge 0.016 joins" : "the next line is 0.01 away; --merge 0.01");
+        if (!strstr(l.warning[0].text, says)) fail_msg("%d: \"%s\", not \"%s\"", k, l.warning[0].text, says);
+        assert_int_equal(strstr(l.warning[0].text, "away") == NULL, gap);
+        rg_graph_free(&g);
+        rg_lines_free(&l);
+    }
+}
+
 static void faults_do_not_flood(void **state)
 {
     (void)state;
@@ -866,7 +896,7 @@ int main(void)
         cmocka_unit_test(crossings_are_guessed_before_they_are_kept),
         cmocka_unit_test(it_can_be_ended_in_the_middle), cmocka_unit_test(what_is_plane_stays_as_it_is),
         cmocka_unit_test(what_is_left_out_is_said),
-        cmocka_unit_test(faults_do_not_flood),
+        cmocka_unit_test(gaps_are_told_with_what_joins_them), cmocka_unit_test(faults_do_not_flood),
         cmocka_unit_test(no_lines_and_hopeless_ones),
         cmocka_unit_test(merge_out_of_range),
     };
