@@ -13,6 +13,7 @@
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { WATCHER_STACK = 256 * 1024 };
@@ -34,8 +35,18 @@ static atomic_int phase, time_is_up;
 static _Atomic double grace, time_allowed, end_at; /* end_at: seconds_now(), 0: never */
 static _Atomic(const options *) outputs;
 static _Atomic(const char *) doing;
+static struct stat old;                  /* what was there when that was begun, if anything was */
+static int is_old_there;
 
 /* ---------------------------------------------------------------------------------------------- the end ---- */
+
+/* What is at a path is another file than when it was begun to be written: it has its place already. */
+static int is_written(const char *path)
+{
+    struct stat now;
+    if (stat(path, &now) != 0) return 0;
+    return !is_old_there || now.st_ino != old.st_ino || now.st_dev != old.st_dev;
+}
 
 /* Standard error may be a pipe that nobody reads. */
 static void say_last(const char *why)
@@ -43,6 +54,7 @@ static void say_last(const char *why)
     char line[PATH_MAX + 200];
     struct pollfd err = {.fd = STDERR_FILENO, .events = POLLOUT};
     const char *what = doing;
+    if (what && is_written(what)) what = NULL;
     const int n = snprintf(line, sizeof line, "rigami: %s%s%s%s\n", why, what ? ": " : "", what ? what : "",
                            what ? " is not written" : "");
     for (char *c = line; *c && c[1]; c++)
@@ -170,7 +182,12 @@ void interrupt_hold(double seconds)
 }
 
 void interrupt_release(void) { phase = WRITING; }
-void interrupt_doing(const char *what) { doing = what; }
+void interrupt_doing(const char *what)
+{
+    doing = NULL; /* while what it is about changes */
+    is_old_there = what && stat(what, &old) == 0;
+    doing = what;
+}
 
 /* Called before anything else is going on: the thread is waked so that it looks at the clock. */
 void interrupt_after(double seconds)
