@@ -140,13 +140,14 @@ static double assemble(rg_relax *F, const double *z, int evenly, double *off)
     return evenly && F->by_orbits ? rg_orbits_assemble(&F->orbits, z, z + F->N, off) : rg_coupled_assemble(&F->J, z, z + F->N, off);
 }
 
-static void renew(rg_relax *F, int evenly)
+static void renew(rg_relax *F, int evenly, double damping)
 {
     const int by_orbits = evenly && F->by_orbits;
     const rg_least *A = by_orbits ? &F->orbits.A : &F->J.A;
     /* A factorisation is worth its flops; filling and solving go with the entries. */
     F->work += 1.5e-9 * A->L.S.flops + 6e-7 * A->start[A->columns];
     for (int32_t i = 0; evenly && i < F->N; i++) F->scale[i] = F->scale[F->symmetry->crease_orbit[i]];
+    F->orbits.A.damping = F->J.A.damping = damping;
     if (by_orbits) rg_orbits_renew(&F->orbits, F->scale);
     else rg_coupled_renew(&F->J, F->scale);
 }
@@ -170,7 +171,7 @@ static void solve(rg_relax *F, int evenly, const double *y, const double *r, dou
 /* Works off r and r' as assembled, to first order: eqs. (14), (19) with no wish. */
 static void correct_once(rg_relax *F, double *z, int evenly)
 {
-    renew(F, evenly);
+    renew(F, evenly, F->damping * F->closure);
     solve(F, evenly, NULL, F->J.r, F->dz);
     for (int32_t i = 0; i < F->n; i++) F->dz[i] *= F->scale[i];
     if (evenly && !F->by_orbits) even_out(F, F->dz);
@@ -204,7 +205,7 @@ static double project_slope(rg_relax *F, const double *z, int evenly)
 static void correct_held(rg_relax *F, double s, double *z, int evenly)
 {
     double least, along = 0;
-    renew(F, evenly);
+    renew(F, evenly, F->damping * F->closure);
     solve(F, evenly, NULL, F->J.r, F->dz);
     const double left = project_slope(F, z, evenly);
     for (int32_t i = 0; i < F->n; i++) along += F->g[i] * F->dz[i];
@@ -348,7 +349,7 @@ static void keep_gaining(rg_relax *F, int evenly)
 static void project(rg_relax *F, int evenly)
 {
     double *y = F->chord;
-    renew(F, evenly);
+    renew(F, evenly, 0);
     for (int32_t i = 0; i < F->n; i++) y[i] = F->wish[i] / F->scale[i];
     solve(F, evenly, y, F->J.r, F->dz);
     for (int32_t i = 0; i < F->n; i++) F->dz[i] = F->wish[i] - F->scale[i] * F->dz[i];
@@ -393,22 +394,37 @@ void rg_relax_wish_and_step(rg_relax *F)
     project(F, 0);
 }
 
-static int close_at(rg_relax *F, double s, double *z, double *best);
+static int close_at(rg_relax *F, const double *a, const double *b, double s, double *z, double *best);
 
-/* Does the path between z and trial stay on their branch? The middle of their chord, closed at its progress, must lie as near to the chord
- * as a step to its prediction; where it does not, states between are not shown to be of one branch, and the step is too long. */
+/* Does the path stay on its branch between its states a and b, parts `from` and `to` of the chord from z to trial? Its middle, closed,
+ * must lie as near to the chord as a step to its prediction. What is smooth lies a quarter as near to the chord of each half, and so on,
+ * while a leap to another branch stays in one of the halves as large as it is. */
+static int is_smooth(rg_relax *F, double s, double size, const double *a, double from, const double *b, double to, int32_t halved)
+{
+    const size_t n = (size_t)F->n;
+    double *best = F->node + (size_t)(F->nodes + 1) * n, *middle = best + (size_t)(halved + 1) * n, off = 0, far = 0;
+    const double part = (from + to) / 2;
+    for (size_t i = 0; i < n; i++) middle[i] = (1 - part) * F->z[i] + part * F->trial[i];
+    if (!close_at(F, F->z, F->trial, (1 - part) * F->s + part * s, middle, best)) return 0;
+    for (int32_t i = 0; i < F->N; i++) {
+        far = fmax(far, fabs(middle[i] - (1 - part) * F->z[i] - part * F->trial[i]));
+        off = fmax(off, fabs(middle[i] - (a[i] + b[i]) / 2));
+    }
+    if (!(far <= FARTHEST_CORRECTION * size / 2 + LITTLE)) return 0;
+    if (off <= SMOOTH * size) return 1;
+    return halved < MOST_HALVES && is_smooth(F, s, size, a, from, middle, part, halved + 1) &&
+           is_smooth(F, s, size, middle, part, b, to, halved + 1);
+}
+
+/* Where states between z and trial are not shown to be of one branch, the step is too long. */
 static int chord_holds(rg_relax *F)
 {
     const size_t n = (size_t)F->n;
-    double *spare = F->node + (size_t)F->nodes * n, *middle = spare + n, *best = middle + n, least;
+    double *scale = F->node + (size_t)F->nodes * n, least;
     if (F->nodes < 2) return 1; /* the path has not begun */
-    const double size = turned(F, F->z, F->trial), s = (F->s + progress(F, F->trial, &least)) / 2;
-    memcpy(spare, F->scale, n * sizeof *spare);
-    for (size_t i = 0; i < n; i++) middle[i] = (F->z[i] + F->trial[i]) / 2;
-    int holds = close_at(F, s, middle, best);
-    for (int32_t i = 0; holds && i < F->N; i++)
-        holds = fabs(middle[i] - (F->z[i] + F->trial[i]) / 2) <= FARTHEST_CORRECTION * size / 2 + LITTLE;
-    memcpy(F->scale, spare, n * sizeof *spare);
+    memcpy(scale, F->scale, n * sizeof *scale);
+    const int holds = is_smooth(F, progress(F, F->trial, &least), turned(F, F->z, F->trial), F->z, 0, F->trial, 1, 0);
+    memcpy(F->scale, scale, n * sizeof *scale);
     return holds;
 }
 
@@ -630,26 +646,30 @@ static int32_t node_before(const rg_relax *F, double s)
     return low;
 }
 
-/* Creases past half a turn, as a chord or a correction may take them, are put back there and give way less than the others. */
-static void put_back(rg_relax *F, double *z)
+/* Creases past half a turn, farther than they are at a and b, are put back and give way less than the others. What is allowed there is
+ * allowed between, else states near them would not come nearer to them. */
+static void put_back(rg_relax *F, const double *a, const double *b, double *z)
 {
     for (int32_t i = 0; i < F->N; i++) {
-        if (!(fabs(z[i]) > RG_PI + BEYOND / 10)) continue;
-        z[i] = copysign(RG_PI, z[i]);
+        const double most = fmax(RG_PI, fmax(fabs(a[i]), fabs(b[i]))) + BEYOND / 10;
+        if (!(fabs(z[i]) > most)) continue;
+        z[i] = copysign(most, z[i]);
         F->scale[i] = HELD_GIVES;
     }
 }
 
-/* z closed as well as rounding lets it, at progress s; s NAN: whatever becomes of progress. best[n]: scratch. Zero: it does not
- * close. */
-static int close_at(rg_relax *F, double s, double *z, double *best)
+/* z, between nodes a and b, closed as well as rounding lets it, at progress s; s NAN: whatever becomes of progress. best[n]: scratch.
+ * Zero: it does not close. */
+static int close_at(rg_relax *F, const double *a, const double *b, double s, double *z, double *best)
 {
     double least_closure = INFINITY, before = INFINITY, off, least;
     int evenly = F->symmetry != NULL;
     for (int32_t i = 0; i < F->N; i++) F->scale[i] = 1;
+    for (int32_t i = F->N; i < F->n; i++) F->scale[i] = fmax(F->how.compliance, 1e-6) * F->freedom.reach[i - F->N];
+    F->damping = DAMPING;
     for (int32_t n = 0; n < CORRECTIONS_AT_END; n++) {
-        put_back(F, z);
-        const double closure = assemble(F, z, evenly, &off);
+        put_back(F, a, b, z);
+        const double closure = F->closure = assemble(F, z, evenly, &off);
         if (!(closure <= 2.5)) break;
         if (off <= F->tol && (isnan(s) || fabs(progress(F, z, &least) - s) <= SAME_PROGRESS)) {
             const int no_better = closure <= F->tol && closure > 0.5 * least_closure;
@@ -667,6 +687,7 @@ static int close_at(rg_relax *F, double s, double *z, double *best)
         if (isnan(s)) correct_once(F, z, evenly);
         else correct_held(F, s, z, evenly);
     }
+    F->damping = 0;
     if (!(least_closure <= F->tol)) return 0;
     memcpy(z, best, (size_t)F->n * sizeof *z);
     F->closure = least_closure;
@@ -692,10 +713,11 @@ double rg_relax_at(rg_relax *F, double s, double *z)
     const double s0 = F->node_s[k], s1 = last > 0 ? F->node_s[k + 1] : s0;
     const double t = s >= F->node_s[last] ? 1 : s1 > s0 ? fmin(1, fmax(0, (s - s0) / (s1 - s0))) : 1;
     if (t > 0 && t < 1) {
+        const double *a = F->node + (size_t)k * n;
         take_chord(F, k, t, z);
-        if (close_at(F, s0 + t * (s1 - s0), z, F->trial)) return F->closure;
+        if (close_at(F, a, a + n, s0 + t * (s1 - s0), z, F->trial)) return F->closure;
         take_chord(F, k, t, z);
-        if (close_at(F, NAN, z, F->trial)) return F->closure;
+        if (close_at(F, a, a + n, NAN, z, F->trial)) return F->closure;
     }
     /* A node, closed as it is; or the nearer one, where nothing between closes. */
     const int32_t at = s >= F->node_s[last] ? last : last > 0 && t >= 0.5 ? k + 1 : k;

@@ -61,6 +61,7 @@ typedef struct rg_relax {
     double work, budget;      /* of factorisations, about seconds of a slow machine; 0: no budget */
     int foresees;             /* ends as soon as the budget cannot do */
     int waits;                /* ended so, or for being slow: may go on with foresees zero, rg_relax_go_on */
+    double damping;           /* of corrections, against what is open; 0 but where states between nodes are closed */
     double closure;           /* of trial */
     rg_outcome outcome;
     char reason[240];

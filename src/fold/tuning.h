@@ -55,6 +55,15 @@ static const double BETTER_MEAN = 0.002, BETTER_LEAST = 0.01;
 static const double SLOW_FROM = 30, MOST_STEPS = 180;
 /* From so many steps the work of one is known. */
 static const int32_t KNOWN_FROM = 5;
+/* Where states between nodes are closed, it is damped by so much of what is open, radians (Yamashita and Fukushima, "On the rate of
+ * convergence of the Levenberg-Marquardt method", 2001). A sheet may have more ways than its equations say, as symmetric ones
+ * have: where it is closed some equations follow from others, and beside that they almost do. What is off by d would be led astray
+ * by as much there, and to another place a little farther on. */
+static const double DAMPING = 0.1;
+/* A path is smooth where the middle of a part of a chord, closed, lies within this much of the chord from the middle of its ends; so often
+ * it is halved to find out. */
+static const double SMOOTH = 0.02;
+static const int32_t MOST_HALVES = 4;
 /* Nodes of a path, at most, however short its steps are. */
 static const int32_t MOST_NODES = 12000;
 /* Within this part of its way a crease counts as arrived: the exit status's 1 %. A relaxation lands from a little nearer, and from where

@@ -1,6 +1,7 @@
 #include "linalg/least.h"
 #include "base/lanes.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Rounding in a factor of norm 2 or so is some 1e-15 and must not make a pivot negative; slow modes are far above. */
@@ -110,7 +111,7 @@ void rg_least_free(rg_least *A)
 void rg_least_renew(rg_least *A)
 {
     if (A->rows == 0) return;
-    for (A->beta = BETA; A->beta <= BETA_LARGEST; A->beta *= BETA_GROWTH) {
+    for (A->beta = fmax(BETA, A->damping); A->beta <= BETA_LARGEST; A->beta *= BETA_GROWTH) {
         const int32_t *to = A->to;
         rg_supernodal_clear(&A->L);
         for (int32_t c = 0; c < A->columns; c++)
@@ -183,7 +184,9 @@ void rg_least_solve(rg_least *A, const double *b, double *x)
     memcpy(A->r, b, (size_t)m * sizeof *A->r);
     precondition(A, A->r, A->z);
     memcpy(A->p, A->z, (size_t)m * sizeof *A->p);
-    if (!iterate(A)) {
+    if (A->damping > BETA) {
+        memcpy(A->y, A->z, (size_t)m * sizeof *A->y);
+    } else if (!iterate(A)) {
         leave_out_of_reach(A);
         iterate(A);
     }

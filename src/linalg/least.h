@@ -3,7 +3,7 @@
  *
  * Conjugate gradients on A A^T, preconditioned by a factor of A A^T + beta I: a few iterations undo the beta. A A^T is
  * singular flat and folded flat; started from zero the iteration stays in its range, and stops where nothing is left to
- * gain. */
+ * gain. Damped, min ||A x - b||^2 + damping ||x||^2, one solve with that factor is all. */
 #ifndef RG_LEAST_H
 #define RG_LEAST_H
 
@@ -15,6 +15,7 @@ typedef struct rg_least {
     int32_t *start, *row;  /* compressed columns: [columns + 1], [start[columns]] */
     double *x;             /* [start[columns]] the numbers; all that ever changes */
     rg_supernodal L;       /* of A A^T + beta I */
+    double damping;        /* of what is renewed and solved from now on; 0: none */
     double beta;           /* at the last renewal */
     int32_t *to;           /* where each product of two entries of a column goes among the numbers of L */
     double *y, *r, *z, *p, *q; /* [rows] */
