@@ -14,6 +14,7 @@
 #include "corpus.h"
 #include "counted.h"
 #include "folded.h"
+#include "fold/chord.h"
 #include "fold/relax.h"
 #include "generate/generate.h"
 #include "motion/diagnose.h"
@@ -321,7 +322,7 @@ static void states_between(void **state)
             const int states = fine ? 1600 : 400;
             for (int i = 0; i <= states; i++) {
                 const double s = (double)i / states;
-                below(rg_relax_at(&r.F, s, z), r.s.tol);
+                below(rg_chord_at(&r.F, s, z), r.s.tol);
                 rg_freedom_move(&r.F.freedom, z + r.F.N, r.X);
                 below(unclosed(&r.m, r.X, z), 4 * r.s.tol);
                 near(progress(&r, z), s, 1e-6);
@@ -355,7 +356,7 @@ static double beyond_from_the_end(rg_pattern *p)
     assert_true(z && back.nodes > 20);
     for (int i = 0; i <= 200; i++) {
         const double s = i / 200.0 * fmin(0.3, back.node_s[back.nodes - 1]);
-        below(rg_relax_at(&back, s, z), r.s.tol);
+        below(rg_chord_at(&back, s, z), r.s.tol);
         is_proper(&r, z, z + back.N);
     }
     rg_relax_free(&back);
@@ -400,7 +401,7 @@ static void as_far_as_asked_for(void **state)
     assert_true(r.F.s >= 0.4 && r.F.s < 0.45);
     double *z = calloc((size_t)r.F.n, sizeof *z);
     assert_true(z);
-    below(rg_relax_at(&r.F, 0.4, z), r.s.tol);
+    below(rg_chord_at(&r.F, 0.4, z), r.s.tol);
     near(progress(&r, z), 0.4, 1e-6);
     free(z);
     end(&r);
@@ -468,7 +469,7 @@ static void memory(void **state)
     assert_true(z);
     while (F.outcome == RG_RUNNING) {
         rg_relax_step(&F);
-        rg_relax_at(&F, 0.9 * F.s, z);
+        rg_chord_at(&F, 0.9 * F.s, z);
     }
     free(z);
     assert_int_equal(c.asked, asked);

@@ -1,6 +1,7 @@
 #include "chart/relaxed.h"
 #include "base/clock.h"
 #include "chart/order.h"
+#include "fold/chord.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -39,7 +40,7 @@ static void read_off(rg_relax *F, const rg_settings *s, const rg_attempt *best, 
     double *z = F->wish; /* nothing is wished for any more */
     for (int32_t k = 0; k < s->frames; k++) {
         const double part = fabs(s->to) * k / (s->frames - 1), due = best->backwards ? 1 - part : part;
-        const double closure = rg_relax_at(F, fmin(due, F->node_s[F->nodes - 1]), z);
+        const double closure = rg_chord_at(F, fmin(due, F->node_s[F->nodes - 1]), z);
         if (!(closure <= r->closure)) r->closure = closure;
         for (size_t i = 0; i < N; i++)
             if (!(fabs(z[i]) - RG_PI <= r->beyond)) r->beyond = fabs(z[i]) - RG_PI;

@@ -60,6 +60,8 @@ static const int32_t KNOWN_FROM = 5;
  * have: where it is closed some equations follow from others, and beside that they almost do. What is off by d would be led astray
  * by as much there, and to another place a little farther on. */
 static const double DAMPING = 0.1;
+/* Where a correction leaves more than this part of what was open, it is damped so much less from then on: what has to give way hardly does. */
+static const double HARDLY_CLOSES = 0.5, LESS_DAMPING = 0.1;
 /* A path is smooth where the middle of a part of a chord, closed, lies within this much of the chord from the middle of its ends; so often
  * it is halved to find out. */
 static const double SMOOTH = 0.02;
@@ -69,9 +71,10 @@ static const int32_t MOST_NODES = 12000;
 /* Within this part of its way a crease counts as arrived: the exit status's 1 %. A relaxation lands from a little nearer, and from where
  * the pattern is within that part of its reach. */
 static const double ARRIVED = 0.01, LANDS_FROM = 0.007, RETURNED = 0.05;
-/* Near a singular end what closes is homogeneous: so many nodes, each this much nearer to the end. */
-static const int32_t END_NODES = 5;
-static const double NEARER = 0.5;
+/* Near a singular end what closes is homogeneous: each node is this much nearer to it, or less so where the path between two would not
+ * be smooth, but no less than that, until they are that near; so many at most. */
+static const double NEARER = 0.5, HARDLY_NEARER = 0.9, NEAR_ENOUGH = 0.04;
+static const int32_t END_NODES = 20;
 /* Progress of a state that is read off is exact to this. */
 static const double SAME_PROGRESS = 1e-9;
 /* Part of the tolerance that it is closed to. */

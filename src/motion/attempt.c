@@ -2,6 +2,7 @@
 #include "base/clock.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "fold/chord.h"
 #include "fold/tuning.h"
 #include "motion/diagnose.h"
 #include "motion/rest.h"
@@ -277,7 +278,7 @@ static rg_status run_relaxed(rg_attempt *t, rg_watch *watch)
         const double to = t->backwards ? 1 - fabs(t->to) : fabs(t->to);
         double *z = rg_mem_array(&t->mem, (size_t)F->n, sizeof *z);
         if (!z) return RG_ENOMEM;
-        rg_relax_at(F, fmin(to, F->node_s[F->nodes - 1]), z);
+        rg_chord_at(F, fmin(to, F->node_s[F->nodes - 1]), z);
         judge(t, z);
         rg_mem_free(&t->mem, z);
     }
@@ -366,7 +367,7 @@ static rg_status read_off(rg_attempt *t, const double *due)
     rg_relax *F = t->relax;
     double *z = rg_mem_array(&t->mem, (size_t)F->n, sizeof *z);
     for (int32_t k = 0; z && k < t->count; k++) {
-        rg_relax_at(F, due[k], z);
+        rg_chord_at(F, due[k], z);
         memcpy(t->rho + (size_t)k * (size_t)t->mesh.N, z, (size_t)t->mesh.N * sizeof *z);
         if (t->flat) rg_freedom_move(&F->freedom, z + F->N, t->flat + (size_t)k * (size_t)t->mesh.nv);
     }

@@ -1,5 +1,6 @@
 #include "motion/states.h"
 #include "base/status.h"
+#include "fold/closing.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -60,7 +61,7 @@ static rg_status close_up(const rg_states *q, const rg_mesh *m, double *rho, int
     rg_status s = rg_relax_init(&F, m, &q->settings, &still, NULL, rho);
     if (s == RG_OK) {
         memcpy(closed, rho, (size_t)m->N * sizeof *rho);
-        *closes = rg_relax_close_on_pattern(&F, closed);
+        *closes = rg_closing_on_pattern(&F, closed);
         for (int32_t i = 0; i < m->N; i++) *closes &= fabs(closed[i] - rho[i]) <= SAME_STATE;
         if (*closes) memcpy(rho, closed, (size_t)m->N * sizeof *rho);
         rg_relax_free(&F);

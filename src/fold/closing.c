@@ -1,0 +1,202 @@
+#include "fold/closing.h"
+#include "fold/tuning.h"
+
+#include <string.h>
+
+double rg_closing_progress(const rg_relax *F, const double *rho, double *least)
+{
+    double sum = 0;
+    *least = F->driven ? INFINITY : 1;
+    for (int32_t i = 0; i < F->N; i++) {
+        if (!F->slope[i] != 0) continue;
+        const double part = fmin(1, (rho[i] - F->from[i]) * F->slope[i]);
+        sum += part;
+        *least = fmin(*least, part);
+    }
+    return F->driven ? sum / F->driven : 1;
+}
+
+void rg_closing_even_out(rg_relax *F, double *z)
+{
+    if (!F->symmetry) return;
+    rg_symmetry_mean(F->symmetry, z);
+    rg_freedom_mean(&F->freedom, F->symmetry, z + F->N, F->spare);
+}
+
+/* -------------------------------------------------- the constraint; evenly: one of each orbit, if that tells all ---- */
+
+double rg_closing_assemble(rg_relax *F, const double *z, int evenly, double *off)
+{
+    F->assemblies++;
+    return evenly && F->by_orbits ? rg_orbits_assemble(&F->orbits, z, z + F->N, off) : rg_coupled_assemble(&F->J, z, z + F->N, off);
+}
+
+void rg_closing_renew(rg_relax *F, int evenly, double damping)
+{
+    const int by_orbits = evenly && F->by_orbits;
+    const rg_least *A = by_orbits ? &F->orbits.A : &F->J.A;
+    /* A factorisation is worth its flops; filling and solving go with the entries. */
+    F->work += 1.5e-9 * A->L.S.flops + 6e-7 * A->start[A->columns];
+    for (int32_t i = 0; evenly && i < F->N; i++) F->scale[i] = F->scale[F->symmetry->crease_orbit[i]];
+    F->orbits.A.damping = F->J.A.damping = damping;
+    if (by_orbits) rg_orbits_renew(&F->orbits, F->scale);
+    else rg_coupled_renew(&F->J, F->scale);
+}
+
+void rg_closing_solve(rg_relax *F, int evenly, const double *y, const double *r, double *x)
+{
+    double *b = F->J.A.q;
+    if (evenly && F->by_orbits) {
+        rg_orbits_solve(&F->orbits, y, r, x);
+        return;
+    }
+    if (y) rg_least_mul(&F->J.A, y, b);
+    for (int32_t i = 0; r && i < F->J.A.rows; i++) F->J.r[i] = r[i] + (y ? b[i] : 0);
+    for (int32_t i = 0; !r && i < F->J.A.rows; i++) F->J.r[i] = b[i];
+    rg_least_solve(&F->J.A, F->J.r, x);
+}
+
+/* ---------------------------------------------------------------------------------------------- closing ---- */
+
+/* Works off r and r' as assembled, to first order: eqs. (14), (19) with no wish. */
+static void correct_once(rg_relax *F, double *z, int evenly)
+{
+    rg_closing_renew(F, evenly, F->damping * F->closure);
+    rg_closing_solve(F, evenly, NULL, F->J.r, F->dz);
+    for (int32_t i = 0; i < F->n; i++) F->dz[i] *= F->scale[i];
+    if (evenly && !F->by_orbits) rg_closing_even_out(F, F->dz);
+    for (int32_t i = 0; i < F->n; i++) z[i] -= F->dz[i];
+}
+
+static void stiffen(rg_relax *F, double by)
+{
+    for (int32_t i = 0; i < F->N; i++) F->scale[i] *= by;
+}
+
+double rg_closing_project_slope(rg_relax *F, const double *z, int evenly)
+{
+    double left = 0, all = 0;
+    for (int32_t i = 0; i < F->n; i++) {
+        const int counts = i < F->N && F->slope[i] != 0 && (z[i] - F->from[i]) * F->slope[i] < 1;
+        F->g[i] = counts ? F->scale[i] * F->slope[i] / F->driven : 0;
+    }
+    rg_closing_solve(F, evenly, F->g, NULL, F->t);
+    for (int32_t i = 0; i < F->n; i++) {
+        F->t[i] = F->g[i] - F->t[i];
+        left += F->t[i] * F->g[i];
+        all += F->g[i] * F->g[i];
+    }
+    return left > LEAST_LEFT * all ? left : 0;
+}
+
+/* Works off r and what progress is off s by, as one more row: eq. (14), with the wish along the part of the slope of progress
+ * that the constraint leaves over. */
+static void correct_held(rg_relax *F, double s, double *z, int evenly)
+{
+    double least, along = 0;
+    rg_closing_renew(F, evenly, F->damping * F->closure);
+    rg_closing_solve(F, evenly, NULL, F->J.r, F->dz);
+    const double left = rg_closing_project_slope(F, z, evenly);
+    for (int32_t i = 0; i < F->n; i++) along += F->g[i] * F->dz[i];
+    const double by = left > 0 ? (s - rg_closing_progress(F, z, &least) + along) / left : 0;
+    for (int32_t i = 0; i < F->n; i++) F->dz[i] = F->scale[i] * (by * F->t[i] - F->dz[i]);
+    if (evenly && !F->by_orbits) rg_closing_even_out(F, F->dz);
+    for (int32_t i = 0; i < F->n; i++) z[i] += F->dz[i];
+}
+
+static int is_within(const rg_relax *F, const rg_leash *by)
+{
+    double far = 0;
+    for (int32_t i = 0; by && i < F->N; i++) far = fmax(far, fabs(F->trial[i] - F->z[i] - by->f * F->chord[i]));
+    return !by || far <= by->farthest;
+}
+
+int rg_closing_correct(rg_relax *F, double *z, double s, int32_t most, const rg_leash *by)
+{
+    double before = INFINITY;
+    int poor = 0, evenly = F->symmetry != NULL, closes = 0, stiff = 0;
+    for (int32_t n = 0;; n++) {
+        double off;
+        F->closure = rg_closing_assemble(F, z, evenly, &off);
+        closes = F->closure <= F->tol && off <= F->tol;
+        if (closes || n >= most || !(F->closure <= 2.5) || !is_within(F, by)) break;
+        if (evenly && F->closure > STILL_CLOSES * before) {
+            evenly = F->by_orbits;
+            if (!stiff && F->U > 0) stiffen(F, STIFF);
+            stiff = F->U > 0;
+        }
+        poor = F->closure > 0.7 * before && F->closure > 100 * F->tol ? poor + 1 : 0;
+        if (poor >= 3) break;
+        before = F->closure;
+        if (isnan(s)) correct_once(F, z, evenly);
+        else correct_held(F, s, z, evenly);
+    }
+    if (stiff) stiffen(F, 1 / STIFF);
+    return closes && is_within(F, by);
+}
+
+int rg_closing_on_pattern(rg_relax *F, double *rho)
+{
+    double *z = F->trial;
+    memcpy(z, rho, (size_t)F->N * sizeof *rho);
+    memset(z + F->N, 0, (size_t)F->U * sizeof *z);
+    if (rg_closing_assemble(F, z, 0, NULL) <= F->tol) return 1;
+    for (int32_t i = 0; i < F->N; i++) F->scale[i] = 1;
+    for (int32_t i = F->N; i < F->n; i++) F->scale[i] *= FIXED;
+    int closed = rg_closing_correct(F, z, NAN, CORRECTIONS, NULL);
+    for (int32_t i = F->N; i < F->n; i++) F->scale[i] /= FIXED;
+    memset(z + F->N, 0, (size_t)F->U * sizeof *z);
+    closed = closed && rg_closing_assemble(F, z, 0, NULL) <= F->tol;
+    for (int32_t i = 0; i < F->N; i++) closed = closed && fabs(z[i] - rho[i]) <= END_OFF;
+    if (closed) memcpy(rho, z, (size_t)F->N * sizeof *rho);
+    return closed;
+}
+
+/* ------------------------------------------------------------------------------------- between two nodes ---- */
+
+/* Creases past half a turn, farther than they are at a and b, are put back and give way less than the others. What is allowed there is
+ * allowed between, else states near them would not come nearer to them. */
+static void put_back(rg_relax *F, const double *a, const double *b, double *z)
+{
+    for (int32_t i = 0; i < F->N; i++) {
+        const double most = fmax(RG_PI, fmax(fabs(a[i]), fabs(b[i]))) + BEYOND / 10;
+        if (!(fabs(z[i]) > most)) continue;
+        z[i] = copysign(most, z[i]);
+        F->scale[i] = HELD_GIVES;
+    }
+}
+
+int rg_closing_between(rg_relax *F, const double *a, const double *b, double s, double *z, double *best)
+{
+    double least_closure = INFINITY, before = INFINITY, off, least;
+    int evenly = F->symmetry != NULL;
+    for (int32_t i = 0; i < F->N; i++) F->scale[i] = 1;
+    for (int32_t i = F->N; i < F->n; i++) F->scale[i] = fmax(F->how.compliance, 1e-6) * F->freedom.reach[i - F->N];
+    F->damping = DAMPING;
+    for (int32_t n = 0; n < CORRECTIONS_AT_END; n++) {
+        put_back(F, a, b, z);
+        const double closure = F->closure = rg_closing_assemble(F, z, evenly, &off);
+        if (!(closure <= 2.5)) break;
+        if (off <= F->tol && (isnan(s) || fabs(rg_closing_progress(F, z, &least) - s) <= SAME_PROGRESS)) {
+            const int no_better = closure <= F->tol && closure > 0.5 * least_closure;
+            if (closure < least_closure) {
+                memcpy(best, z, (size_t)F->n * sizeof *z);
+                least_closure = closure;
+            }
+            if (closure <= CLOSE_ENOUGH * F->tol || no_better) break;
+        }
+        if (evenly && !F->by_orbits && closure > STILL_CLOSES * before) {
+            evenly = 0;
+            if (F->U > 0) stiffen(F, STIFF);
+        }
+        if (closure > HARDLY_CLOSES * before) F->damping *= LESS_DAMPING;
+        before = closure;
+        if (isnan(s)) correct_once(F, z, evenly);
+        else correct_held(F, s, z, evenly);
+    }
+    F->damping = 0;
+    if (!(least_closure <= F->tol)) return 0;
+    memcpy(z, best, (size_t)F->n * sizeof *z);
+    F->closure = least_closure;
+    return 1;
+}
