@@ -8,7 +8,7 @@ double rg_closing_progress(const rg_relax *F, const double *rho, double *least)
     double sum = 0;
     *least = F->driven ? INFINITY : 1;
     for (int32_t i = 0; i < F->N; i++) {
-        if (!F->slope[i] != 0) continue;
+        if (F->slope[i] == 0) continue;
         const double part = fmin(1, (rho[i] - F->from[i]) * F->slope[i]);
         sum += part;
         *least = fmin(*least, part);
@@ -171,7 +171,7 @@ int rg_closing_between(rg_relax *F, const double *a, const double *b, double s, 
     double least_closure = INFINITY, before = INFINITY, off, least;
     int evenly = F->symmetry != NULL;
     for (int32_t i = 0; i < F->N; i++) F->scale[i] = 1;
-    for (int32_t i = F->N; i < F->n; i++) F->scale[i] = fmax(F->how.compliance, 1e-6) * F->freedom.reach[i - F->N];
+    for (int32_t i = F->N; i < F->n; i++) F->scale[i] = F->how.compliance * F->freedom.reach[i - F->N];
     F->damping = DAMPING;
     for (int32_t n = 0; n < CORRECTIONS_AT_END; n++) {
         put_back(F, a, b, z);

@@ -51,6 +51,7 @@ rg_status rg_relax_init(rg_relax *F, const rg_mesh *m, const rg_settings *s, con
     F->mesh = *m;
     m = &F->mesh;
     F->how = *how;
+    F->how.compliance = fmax(how->compliance, LEAST_COMPLIANCE);
     F->step = fmin(s->step, MOST_STEP);
     F->share = fmin(1, F->step / USUAL_STEP);
     F->foresees = 1;
@@ -70,7 +71,7 @@ rg_status rg_relax_init(rg_relax *F, const rg_mesh *m, const rg_settings *s, con
     }
     if (from) memcpy(F->from, from, (size_t)F->N * sizeof *from);
     memcpy(F->target, target, (size_t)F->N * sizeof *target);
-    for (int32_t i = 0; i < F->U; i++) F->scale[F->N + i] = fmax(how->compliance, 1e-6) * F->freedom.reach[i];
+    for (int32_t i = 0; i < F->U; i++) F->scale[F->N + i] = F->how.compliance * F->freedom.reach[i];
     for (int32_t i = 0; i < F->N; i++) F->end[i] = isnan(F->target[i]) ? F->from[i] : F->target[i];
     F->end_is_closed = rg_closing_on_pattern(F, F->end);
     int closes = 1;
@@ -137,7 +138,7 @@ static void make_wish(rg_relax *F)
     }
     rg_freedom_room(&F->freedom, F->J.X, LEAST_AREA, F->wish + F->N);
     for (int32_t i = F->N; i < F->n; i++)
-        F->scale[i] = fmax(F->how.compliance, 1e-6) * F->freedom.reach[i - F->N] * sqrt(fmax(LEAST_READY * LEAST_READY, F->wish[i]));
+        F->scale[i] = F->how.compliance * F->freedom.reach[i - F->N] * sqrt(fmax(LEAST_READY * LEAST_READY, F->wish[i]));
     rg_adjust_wish(&F->adjust, F->z, F->how.gain, F->wish + F->N);
     for (int32_t i = F->N; i < F->n; i++) F->wish[i] = RETURN * part * (F->wish[i] - F->z[i]);
 }

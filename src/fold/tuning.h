@@ -81,6 +81,8 @@ static const double SAME_PROGRESS = 1e-9;
 static const double CLOSE_ENOUGH = 0.01;
 /* Part of the wish for progress that must be left over for it to be held as one more row. */
 static const double LEAST_LEFT = 1e-6;
+/* A pattern that is kept moves so little. */
+static const double LEAST_COMPLIANCE = 1e-6;
 /* Ways of the pattern that count as none; and how far from where it should be a crease may end for the pattern to close. */
 static const double FIXED = 1e-12, END_OFF = 1 * RG_DEG;
 
