@@ -154,27 +154,31 @@ int rg_closing_on_pattern(rg_relax *F, double *rho)
 
 /* ------------------------------------------------------------------------------------- between two nodes ---- */
 
-/* Creases past half a turn, farther than they are at a and b, are put back and give way less than the others. What is allowed there is
+/* Creases past half a turn, farther than they are at a and b, are put back and give way less than the others: how many. What is allowed there is
  * allowed between, else states near them would not come nearer to them. */
-static void put_back(rg_relax *F, const double *a, const double *b, double *z)
+static int32_t put_back(rg_relax *F, const double *a, const double *b, double *z)
 {
+    int32_t held = 0;
     for (int32_t i = 0; i < F->N; i++) {
-        const double most = fmax(RG_PI, fmax(fabs(a[i]), fabs(b[i]))) + BEYOND / 10;
-        if (!(fabs(z[i]) > most)) continue;
+        const double most = fmax(RG_PI, fmax(fabs(a[i]), fabs(b[i])));
+        if (!(fabs(z[i]) > most + BEYOND / 10)) continue;
         z[i] = copysign(most, z[i]);
         F->scale[i] = HELD_GIVES;
+        held++;
     }
+    return held;
 }
 
 int rg_closing_between(rg_relax *F, const double *a, const double *b, double s, double *z, double *best)
 {
     double least_closure = INFINITY, before = INFINITY, off, least;
     int evenly = F->symmetry != NULL;
+    int32_t held = 0;
     for (int32_t i = 0; i < F->N; i++) F->scale[i] = 1;
     for (int32_t i = F->N; i < F->n; i++) F->scale[i] = F->how.compliance * F->freedom.reach[i - F->N];
     F->damping = DAMPING;
     for (int32_t n = 0; n < CORRECTIONS_AT_END; n++) {
-        put_back(F, a, b, z);
+        held += put_back(F, a, b, z);
         const double closure = F->closure = rg_closing_assemble(F, z, evenly, &off);
         if (!(closure <= 2.5)) break;
         if (off <= F->tol && (isnan(s) || fabs(rg_closing_progress(F, z, &least) - s) <= SAME_PROGRESS)) {
@@ -189,7 +193,7 @@ int rg_closing_between(rg_relax *F, const double *a, const double *b, double s, 
             evenly = 0;
             if (F->U > 0) stiffen(F, STIFF);
         }
-        if (closure > HARDLY_CLOSES * before) F->damping *= LESS_DAMPING;
+        if (held && closure > HARDLY_CLOSES * before) F->damping *= LESS_DAMPING;
         before = closure;
         if (isnan(s)) correct_once(F, z, evenly);
         else correct_held(F, s, z, evenly);

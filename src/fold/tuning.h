@@ -60,7 +60,8 @@ static const int32_t KNOWN_FROM = 5;
  * have: where it is closed some equations follow from others, and beside that they almost do. What is off by d would be led astray
  * by as much there, and to another place a little farther on. */
 static const double DAMPING = 0.1;
-/* Where a correction leaves more than this part of what was open, it is damped so much less from then on: what has to give way hardly does. */
+/* Where creases are held and a correction leaves more than this part of what was open, it is damped so much less from then on: what has to
+ * give way hardly does. */
 static const double HARDLY_CLOSES = 0.5, LESS_DAMPING = 0.1;
 /* A path is smooth where the middle of a part of a chord, closed, lies within this much of the chord from the middle of its ends; so often
  * it is halved to find out. */
