@@ -4,6 +4,7 @@
  * the motion that was found, which is the one that rg_motion_create finds, to the bit; or, where somebody has steered, one state further. */
 #include "base/settings.h"
 #include "base/status.h"
+#include "fold/chord.h"
 #include "motion/fold.h"
 
 #include <string.h>
@@ -328,7 +329,7 @@ static rg_status find_on_path(rg_fold *f, int32_t k, int32_t c, double goal, int
         if (n == 0 && c < 0 && (straight - low) * (high - straight) > 0) s = straight;
         else if (n % 4 == 3) s = (low + high) / 2;
         pthread_mutex_lock(&of->reading);
-        closure = rg_relax_at(F, s, f->read);
+        closure = rg_chord_at(F, s, f->read);
         pthread_mutex_unlock(&of->reading);
         off = (c < 0 ? progress_of(f, f->read) : f->read[c]) - goal;
         if (!(closure <= F->tol) || s == low || s == high) break;
