@@ -222,6 +222,35 @@ static void out_of_reach(void **state)
     }
 }
 
+/* Damped, x is where the slope of |A x - b|^2 + damping |x|^2 is zero, whether b can be reached or not. */
+static void damped(void **state)
+{
+    (void)state;
+    const rg_memory mem = rg_mem_default(NULL);
+    unsigned seed = 77;
+    for (int k = 0; k < 8; k++) {
+        rg_least A = random_step(&mem, k % 2 ? 40 : 25, k % 2 ? 25 : 60, &seed);
+        for (int32_t j = A.start[4]; k >= 4 && j < A.start[A.columns]; j++) A.x[j] *= 1e-5; /* hardly any column reaches */
+        const dense d = copy_of(&A);
+        double b[ROWS], x[COLUMNS], Ax[ROWS], size = 0;
+        for (int32_t i = 0; i < A.rows; i++) b[i] = noise(&seed);
+        for (double damping = 1e-6; damping < 1; damping *= 30) {
+            A.damping = damping;
+            rg_least_renew(&A);
+            rg_least_solve(&A, b, x);
+            times(&d, x, Ax);
+            for (int32_t c = 0; c < A.columns; c++) {
+                double slope = damping * x[c];
+                for (int32_t i = 0; i < A.rows; i++) slope += d.a[i][c] * (Ax[i] - b[i]);
+                near(slope, 0, 1e-14 / damping); /* rounding over the least pivot */
+                size = fmax(size, fabs(x[c]));
+            }
+        }
+        assert_true(size > 1e-3);
+        rg_least_free(&A);
+    }
+}
+
 static void not_a_number(void **state)
 {
     (void)state;
@@ -291,7 +320,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(products), cmocka_unit_test(wide_and_narrow), cmocka_unit_test(zero_rows_and_double_rows),
-        cmocka_unit_test(out_of_reach), cmocka_unit_test(not_a_number), cmocka_unit_test(nothing_at_all),
+        cmocka_unit_test(out_of_reach), cmocka_unit_test(damped), cmocka_unit_test(not_a_number), cmocka_unit_test(nothing_at_all),
         cmocka_unit_test(memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -371,6 +371,34 @@ static void a_part_too_far(void **state)
     }
 }
 
+/* However many frames there are, none is a leap, and percents rise. Both leaped by 7 and by 12 times the mean. */
+static void steadily(void **state)
+{
+    (void)state;
+    static const char *const kinds[] = {"boxpleat", "crane"};
+    for (int k = 0; k < 2; k++) {
+        rg_settings s = rg_settings_default();
+        s.pace = RG_PACE_STEADY;
+        s.frames = 2401;
+        s.contact = RG_CONTACT_IGNORE;
+        rg_motion *m = motion_of(generated(kinds[k], 0), &s);
+        const rg_report *r = &m->report;
+        double most = 0, all = 0;
+        assert_int_equal(r->outcome, RG_FOLDED);
+        assert_int_equal(r->frame_count, 2401);
+        for (int32_t f = 1; f < r->frame_count; f++) {
+            double turned = 0;
+            for (int32_t i = 0; i < m->mesh.N; i++)
+                turned = fmax(turned, fabs(rg_motion_angles(m, f)[i] - rg_motion_angles(m, f - 1)[i]));
+            most = fmax(most, turned);
+            all += turned;
+            assert_true(m->frame[f].percent >= m->frame[f - 1].percent - 1e-9);
+        }
+        below(most, 2 * all / 2400);
+        rg_motion_destroy(m);
+    }
+}
+
 static void the_same_bits_twice(void **state)
 {
     (void)state;
@@ -533,7 +561,7 @@ int main(void)
         cmocka_unit_test(closed_vertices_that_adjusting_frees), cmocka_unit_test(more_that_fold_adjusted),
         cmocka_unit_test(switched_off_nothing_moves), cmocka_unit_test(what_cannot_fold_is_told), cmocka_unit_test(the_other_way),
         cmocka_unit_test(interrupted), cmocka_unit_test(no_more_cuts_than_have_to_be), cmocka_unit_test(straight_on_with_fewer_cuts), cmocka_unit_test(a_part_of_the_way), cmocka_unit_test(a_part_too_far),
-        cmocka_unit_test(the_same_bits_twice), cmocka_unit_test(fold_files_carry_the_pattern_of_each_frame),
+        cmocka_unit_test(steadily), cmocka_unit_test(the_same_bits_twice), cmocka_unit_test(fold_files_carry_the_pattern_of_each_frame),
         cmocka_unit_test(the_report_file_says_the_same),
         cmocka_unit_test(patterns_are_as_their_readme_says),
     };

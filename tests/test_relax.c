@@ -338,6 +338,42 @@ static void states_between(void **state)
     }
 }
 
+/* The path comes to each of its nodes from both sides, and so evenly that no part of a chord is a leap. A box pleat kept symmetric has more
+ * ways than its equations say; closed without damping, its chords leaped by 19 times their even part. */
+static void no_chord_leaps(void **state)
+{
+    (void)state;
+    static const struct { const char *kind; int32_t n; } made[] = {{"boxpleat", 8}, {"frog", 0}, {"crane", 0}};
+    static const rg_relaxation how = {0.125, 0.1, 0, 0};
+    for (int k = 0; k < 3; k++) {
+        run r;
+        rg_symmetry G;
+        begin(&r, generated(made[k].kind, made[k].n), 1, &how, NULL);
+        assert_int_equal(rg_symmetry_find(&G, &r.m.mem, &r.m), RG_OK);
+        assert_int_equal(rg_relax_keep(&r.F, &G), RG_OK);
+        go(&r);
+        assert_true(r.F.nodes > 20 && (k > 0 || r.F.outcome == RG_FOLDED));
+        double *z = calloc((size_t)r.F.n, sizeof *z), *before = calloc((size_t)r.F.n, sizeof *before);
+        assert_true(z && before);
+        enum { PARTS = 40 };
+        for (int32_t i = 1; i + 1 < r.F.nodes; i++) { /* but the first, which begins flat, and the last */
+            const double *a = r.F.node + (size_t)i * (size_t)r.F.n, *b = a + r.F.n, s = r.F.node_s[i], ds = r.F.node_s[i + 1] - s;
+            const double size = rg_chord_size(&r.F, a, b);
+            memcpy(before, a, (size_t)r.F.n * sizeof *a);
+            for (int32_t p = 1; ds > 1e-6 && p <= PARTS; p++) {
+                if (p < PARTS) below(rg_chord_at(&r.F, s + ds * p / PARTS, z), r.s.tol);
+                else memcpy(z, b, (size_t)r.F.n * sizeof *b);
+                below(rg_chord_size(&r.F, before, z), 3 * size / PARTS + 1e-4);
+                memcpy(before, z, (size_t)r.F.n * sizeof *z);
+            }
+        }
+        free(z);
+        free(before);
+        rg_symmetry_free(&G);
+        end(&r);
+    }
+}
+
 /* The most that a crease is beyond half a turn between the states of a path that begins at the folded end; takes p. */
 static double beyond_from_the_end(rg_pattern *p)
 {
@@ -512,6 +548,7 @@ int main(void)
         cmocka_unit_test(a_miura_has_one_way_to_fold), cmocka_unit_test(a_sheet_folded_in_four),
         cmocka_unit_test(rings_of_closed_vertices_are_locked), cmocka_unit_test(splitting_frees_the_one_and_adjusting_the_other),
         cmocka_unit_test(four_mountains_never_fold), cmocka_unit_test(kept_flat_foldable), cmocka_unit_test(states_between),
+        cmocka_unit_test(no_chord_leaps),
         cmocka_unit_test(no_crease_goes_past_half_a_turn), cmocka_unit_test(nor_does_one_of_a_crane),
         cmocka_unit_test(as_far_as_asked_for), cmocka_unit_test(unfolding), cmocka_unit_test(the_same_bits_twice),
         cmocka_unit_test(memory), cmocka_unit_test(one_percent_is_one_percent),
