@@ -963,8 +963,8 @@ typedef struct rg_certificate_info {
     double contact_depth;              /* the deepest crossing in a frame, over the sheet's size; 0: none above 1e-4 */
     double between_depth;              /* no crossing between frames is deeper than this */
     int ends_flat;                     /* non-zero: the last frame lies in a plane */
-    int32_t layer_pairs, layers_shown; /* facets over each other at a flat end; of these, whose order the frame
-                                        * before shows */
+    int32_t layer_pairs, layers_shown; /* facets over each other at a flat end; of these, that were seen to
+                                        * come in their order */
 } rg_certificate_info;
 
 /* motion: a .fold file, "-" standard input. given: the pattern that it is to be a motion of, NULL: any. memory NULL:

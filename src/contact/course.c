@@ -53,6 +53,9 @@ static rg_status look_between(rg_course *c, int32_t k, double bend)
     const double allowed = fmin(RG_CONTACT_BETWEEN, RG_CONTACT_TOLERANCE + 2 * bend / 8 / c->plates.size);
     if (s == RG_OK && way.verdict == RG_SWEEP_CONTACT)
         s = rg_sweep_step(&c->plates, from, to, allowed, &c->sweep, &way);
+    /* Where something was found, the rest was followed no farther than there. */
+    if (way.verdict != RG_SWEEP_FREE) c->sweep.n_now = 0;
+    else if (first.verdict != RG_SWEEP_FREE) rg_sweep_forget_new(&c->sweep);
     rg_sweep_go_on(&c->sweep);
     if (s != RG_OK || first.verdict == RG_SWEEP_FREE) return s;
     if (way.verdict == RG_SWEEP_CONTACT) {

@@ -643,6 +643,17 @@ rg_status rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const r
     return s.status;
 }
 
+void rg_sweep_forget_new(rg_sweep_work *w)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < w->n_now; i++) {
+        const rg_sweep_side *now = &w->now[i];
+        const rg_sweep_side *at = w->n_before ? bsearch(now, w->before, (size_t)w->n_before, sizeof *now, by_pair) : NULL;
+        if (at && rg_vec3_dot(at->axis, now->axis) > 0.5) w->now[kept++] = *now;
+    }
+    w->n_now = kept;
+}
+
 void rg_sweep_go_on(rg_sweep_work *w)
 {
     rg_sweep_side *list = w->before;
