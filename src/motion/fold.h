@@ -70,6 +70,9 @@ const rg_vec2 *rg_fold_pattern(const rg_fold *f, int32_t k);
 rg_status rg_fold_on(rg_shared *shared, const rg_memory *mem, const rg_settings *s, rg_fold **fold);
 /* What is in f->rho and f->flat becomes the present state. */
 const rg_step_info *rg_fold_look(rg_fold *f);
+/* State k of the track becomes the present one; its progress. */
+const rg_step_info *rg_fold_stand(rg_fold *f, int32_t k);
+double rg_fold_progress(const rg_fold *f, int32_t k);
 /* Is there more to come of the last leg? Then one state more of it, at the end of the track. */
 int rg_fold_has_more(const rg_fold *f);
 void rg_fold_advance(rg_fold *f);

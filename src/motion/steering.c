@@ -91,8 +91,6 @@ static const double *sectors(rg_fold *f)
     return f->theta;
 }
 
-int rg_fold_has_more(const rg_fold *f) { return f->steered && f->ending.outcome == RG_RUNNING; }
-
 /* From where the fold stands, which is the last state of the track then. */
 static void begin(rg_fold *f)
 {

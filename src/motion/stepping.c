@@ -13,76 +13,6 @@
 static const double SAME_PLACE = 1e-13, NOT_THERE = 1e-11;
 static const int32_t SECANTS = 40;
 
-/* --------------------------------------------------------------------------------------------- the track ---- */
-
-const rg_mesh *rg_fold_mesh(const rg_fold *f) { return &f->shared->motion->mesh; }
-
-int32_t rg_fold_states(const rg_fold *f) { return f->steered ? f->track.count : f->shared->motion->report.frame_count; }
-
-const double *rg_fold_state(const rg_fold *f, int32_t k)
-{
-    return f->steered ? f->track.rho + (size_t)k * (size_t)rg_fold_mesh(f)->N : rg_motion_angles(f->shared->motion, k);
-}
-
-const rg_vec2 *rg_fold_pattern(const rg_fold *f, int32_t k)
-{
-    return f->steered ? f->track.flat + (size_t)k * (size_t)rg_fold_mesh(f)->nv : rg_motion_pattern(f->shared->motion, k);
-}
-
-static double progress_at(const rg_fold *f, int32_t k)
-{
-    return f->steered ? f->track.progress[k] : f->shared->motion->frame[k].percent / 100;
-}
-
-/* ----------------------------------------------------------------------------------------------- standing ---- */
-
-/* Linear solves of the engines so far, and their iterations. */
-static void count(const rg_fold *f, int64_t *solves, int64_t *iterations)
-{
-    *solves = *iterations = 0;
-    const rg_steer *const steer[] = {f->steer, f->way[0] ? &f->way[0]->steer : NULL};
-    for (int i = 0; i < 2; i++)
-        if (steer[i]) *solves += steer[i]->P.solves, *iterations += steer[i]->P.iterations;
-    if (f->way[1]) *solves += f->way[1]->J.A.solves, *iterations += f->way[1]->J.A.iterations;
-}
-
-const rg_step_info *rg_fold_look(rg_fold *f)
-{
-    const rg_motion *m = f->shared->motion;
-    const rg_report *r = &m->report;
-    const int is_last = !f->between && f->at == rg_fold_states(f) - 1 && !rg_fold_has_more(f);
-    int64_t solves, iterations;
-    count(f, &solves, &iterations);
-    rg_pose_facets(&m->mesh, f->flat, &m->tree, f->rho, f->place);
-    rg_pose_vertices(&m->mesh, f->flat, &m->tree, f->place, f->x);
-    f->info = (rg_step_info){.outcome = RG_RUNNING, .progress = f->progress, .frame = f->between ? -1 : f->at, .closure = f->closure,
-                             .frames = rg_fold_states(f), .reason = "", .solves = (int32_t)(solves - f->solves),
-                             .iterations = (int32_t)(iterations - f->iterations)};
-    f->solves = solves, f->iterations = iterations;
-    if (!is_last) return &f->info;
-    f->info.outcome = f->steered ? f->ending.outcome : r->outcome;
-    f->info.reason = f->steered ? f->ending.reason : r->reason;
-    if (f->info.outcome != RG_STOPPED) return &f->info;
-    f->info.blocking_vertex_count = f->steered ? f->ending.vertices : r->blocking_vertex_count;
-    f->info.blocking_crease_count = f->steered ? f->ending.creases : r->blocking_crease_count;
-    f->info.blocking_vertices = f->steered ? f->ending.vertex : r->blocking_vertices;
-    f->info.blocking_creases = f->steered ? f->ending.crease : r->blocking_creases;
-    return &f->info;
-}
-
-/* The present state becomes state k of the track. */
-static const rg_step_info *stand(rg_fold *f, int32_t k)
-{
-    const rg_mesh *m = rg_fold_mesh(f);
-    memcpy(f->rho, rg_fold_state(f, k), (size_t)m->N * sizeof *f->rho);
-    memcpy(f->flat, rg_fold_pattern(f, k), (size_t)m->nv * sizeof *f->flat);
-    f->at = k;
-    f->between = 0;
-    f->progress = progress_at(f, k);
-    f->closure = f->steered ? f->track.closure[k] : f->shared->motion->frame[k].closure_residual;
-    return rg_fold_look(f);
-}
-
 /* ------------------------------------------------------------------------------------------- making one ---- */
 
 void rg_shared_let_go(const rg_memory *mem, rg_shared *s)
@@ -128,7 +58,7 @@ rg_status rg_fold_on(rg_shared *shared, const rg_memory *mem, const rg_settings 
     }
     f->shared = shared;
     atomic_fetch_add(&shared->holders, 1);
-    stand(f, 0);
+    rg_fold_stand(f, 0);
     *fold = f;
     return RG_OK;
 }
@@ -184,7 +114,7 @@ rg_status rg_fold_create_flat(const rg_pattern *p, const rg_settings *given, rg_
     f->aimed = 1;
     f->ending.outcome = RG_RUNNING;
     f->ending.reason = "";
-    stand(f, 0);
+    rg_fold_stand(f, 0);
     *fold = f;
     return RG_OK;
 }
@@ -196,12 +126,12 @@ const rg_step_info *rg_fold_get_info(const rg_fold *f) { return &f->info; }
 const rg_step_info *rg_fold_step(rg_fold *f)
 {
     if (f->at == rg_fold_states(f) - 1 && rg_fold_has_more(f)) rg_fold_advance(f);
-    return stand(f, f->at < rg_fold_states(f) - 1 ? f->at + 1 : f->at);
+    return rg_fold_stand(f, f->at < rg_fold_states(f) - 1 ? f->at + 1 : f->at);
 }
 
 const rg_step_info *rg_fold_step_back(rg_fold *f)
 {
-    return stand(f, f->between ? f->at : f->at > 0 ? f->at - 1 : 0);
+    return rg_fold_stand(f, f->between ? f->at : f->at > 0 ? f->at - 1 : 0);
 }
 
 /* -------------------------------------------------------------------------------------- between two states ---- */
@@ -260,17 +190,17 @@ static int follow(rg_fold *f, int32_t k, double part)
     enum { SIDE = 3 };
     const int32_t N = rg_fold_mesh(f)->N;
     const double *a = rg_fold_state(f, k), *b = rg_fold_state(f, k + 1);
-    const double s = progress_at(f, k) + part * (progress_at(f, k + 1) - progress_at(f, k));
+    const double s = rg_fold_progress(f, k) + part * (rg_fold_progress(f, k + 1) - rg_fold_progress(f, k));
     int32_t first = k, last = k + 1;
     double turn = 0;
-    while (first > 0 && k - first < SIDE - 1 && progress_at(f, first - 1) < progress_at(f, first)) first--;
-    while (last < rg_fold_states(f) - 1 && last - k < SIDE && progress_at(f, last) < progress_at(f, last + 1)) last++;
+    while (first > 0 && k - first < SIDE - 1 && rg_fold_progress(f, first - 1) < rg_fold_progress(f, first)) first--;
+    while (last < rg_fold_states(f) - 1 && last - k < SIDE && rg_fold_progress(f, last) < rg_fold_progress(f, last + 1)) last++;
     for (int32_t i = 0; i < N; i++) f->guess[i] = 0;
     for (int32_t j = first; j <= last; j++) {
         const double *rho = rg_fold_state(f, j);
         double w = 1;
         for (int32_t l = first; l <= last; l++)
-            if (l != j) w *= (s - progress_at(f, l)) / (progress_at(f, j) - progress_at(f, l));
+            if (l != j) w *= (s - rg_fold_progress(f, l)) / (rg_fold_progress(f, j) - rg_fold_progress(f, l));
         for (int32_t i = 0; i < N; i++) f->guess[i] += w * rho[i];
     }
     for (int32_t i = 0; i < N; i++) turn = fmax(turn, fabs(b[i] - a[i]));
@@ -303,7 +233,7 @@ static void stand_between(rg_fold *f, const rg_between *b, int32_t k, double par
 {
     const rg_mesh *m = rg_fold_mesh(f);
     if (isnan(closure)) {
-        stand(f, part < 0.5 ? k : k + 1);
+        rg_fold_stand(f, part < 0.5 ? k : k + 1);
         return;
     }
     memcpy(f->rho, b->z, (size_t)m->N * sizeof *f->rho);
@@ -321,8 +251,8 @@ static rg_status find_on_path(rg_fold *f, int32_t k, int32_t c, double goal, int
     if (f->steered || !of->path.due) return RG_OK;
     if (!f->read && !(f->read = rg_mem_array(&f->mem, (size_t)F->n, sizeof *f->read))) return RG_ENOMEM;
     const double *due = of->path.due;
-    double low = due[k], high = due[k + 1], off_low = (c < 0 ? progress_at(f, k) : rg_fold_state(f, k)[c]) - goal;
-    double off_high = (c < 0 ? progress_at(f, k + 1) : rg_fold_state(f, k + 1)[c]) - goal, off = NAN, closure = NAN;
+    double low = due[k], high = due[k + 1], off_low = (c < 0 ? rg_fold_progress(f, k) : rg_fold_state(f, k)[c]) - goal;
+    double off_high = (c < 0 ? rg_fold_progress(f, k + 1) : rg_fold_state(f, k + 1)[c]) - goal, off = NAN, closure = NAN;
     for (int32_t n = 0; n < SECANTS && !(fabs(off) <= SAME_PLACE); n++) {
         const double straight = of->path.backwards ? 1 - goal : goal; /* as frames are, where they are even in it */
         double s = low - off_low * (high - low) / (off_high - off_low);
@@ -349,7 +279,7 @@ static rg_status find_on_path(rg_fold *f, int32_t k, int32_t c, double goal, int
 static rg_status find_progress(rg_fold *f, int32_t k, double goal)
 {
     const double *a = rg_fold_state(f, k), *b = rg_fold_state(f, k + 1);
-    double low = 0, high = 1, at_low = progress_at(f, k), at_high = progress_at(f, k + 1), part = 0, closure = NAN;
+    double low = 0, high = 1, at_low = rg_fold_progress(f, k), at_high = rg_fold_progress(f, k + 1), part = 0, closure = NAN;
     int32_t c = 0;
     int found;
     const rg_status s = find_on_path(f, k, -1, goal, &found);
@@ -377,15 +307,15 @@ rg_status rg_fold_go_to(rg_fold *f, double percent)
     if (!(goal >= 0 && goal <= 1)) return RG_EARG;
     if (f->aimed) rg_fold_advance(f);
     for (int32_t k = f->first;; k++) {
-        if (fabs(progress_at(f, k) - goal) <= SAME_PLACE) {
-            stand(f, k);
+        if (fabs(rg_fold_progress(f, k) - goal) <= SAME_PLACE) {
+            rg_fold_stand(f, k);
             return RG_OK;
         }
         if (k == rg_fold_states(f) - 1 && rg_fold_has_more(f)) rg_fold_advance(f);
         if (k == rg_fold_states(f) - 1) break;
-        if ((progress_at(f, k) - goal) * (progress_at(f, k + 1) - goal) < 0) return find_progress(f, k, goal);
+        if ((rg_fold_progress(f, k) - goal) * (rg_fold_progress(f, k + 1) - goal) < 0) return find_progress(f, k, goal);
     }
-    stand(f, goal <= progress_at(f, f->first) ? f->first : rg_fold_states(f) - 1);
+    rg_fold_stand(f, goal <= rg_fold_progress(f, f->first) ? f->first : rg_fold_states(f) - 1);
     return RG_OK;
 }
 
@@ -414,7 +344,7 @@ static rg_status stand_at_angle(rg_fold *f, int32_t k, int32_t c, double angle)
 {
     const double a = rg_fold_state(f, k)[c], b = rg_fold_state(f, k + 1)[c], part = (angle - a) / (b - a);
     if (angle == a || angle == b) {
-        stand(f, angle == a ? k : k + 1);
+        rg_fold_stand(f, angle == a ? k : k + 1);
         return RG_OK;
     }
     int found;
