@@ -350,7 +350,7 @@ static void what_does_not_move_is_told(void **state)
     /* An end near a corner: the tolerance that is named joins it there, and leaves the paper's other corners. */
     write_file("still.svg", "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 8 8'><rect width='8' height='8' stroke='#000'/>"
                "<path d='M.03 .03 8 8' stroke='red'/></svg>");
-    double line, corner, merge;
+    double line = NAN, corner = NAN, merge = NAN;
     const char *told = strstr(ends(1, run("fold", "still.svg"))->err, "the next line is");
     assert_true(told && sscanf(told, "the next line is %lf away, a corner %lf; --merge %lf joins", &line, &corner, &merge) == 3);
     near(corner, 0.03 * sqrt(2), 0.001);

@@ -373,7 +373,7 @@ static void lay_out(builder *w)
     }
 }
 
-rg_status rg_end_init(rg_end *e, const rg_memory *mem, rg_linkage *P, const double *rho, const rg_end_rules *rules,
+rg_status rg_end_init(rg_end *e, const rg_memory *mem, rg_linkage *P, const double *z, const rg_end_rules *rules,
                       rg_end_above above_, void *ctx)
 {
     const rg_mesh *m = P->mesh;
@@ -389,7 +389,7 @@ rg_status rg_end_init(rg_end *e, const rg_memory *mem, rg_linkage *P, const doub
     rg_status s = e->z && e->x && w.triangle && w.corner && w.line ? RG_OK : RG_ENOMEM;
     if (s == RG_OK) s = rg_sides_init(&e->sides, mem, m);
     if (s == RG_OK) {
-        memcpy(e->z, rho, (size_t)P->N * sizeof *rho);
+        memcpy(e->z, z, (size_t)P->n * sizeof *z);
         rg_linkage_put(P, e->z);
         lay_out(&w);
         s = overlaps(&w);

@@ -42,7 +42,7 @@ typedef struct rg_end_rules {
 
 typedef struct rg_end {
     rg_memory mem;
-    double *z;           /* [n] the flat end: fold angles, and the pattern as given */
+    double *z;           /* [n] the flat end: fold angles, and its pattern */
     rg_end_row *row;
     size_t room;
     int32_t count;
@@ -54,8 +54,8 @@ typedef struct rg_end {
 /* The order between facets of the linkage's mesh: +1: f lies over g, seen with the front of facet `root` up; 0: no overlap. */
 typedef int (*rg_end_above)(void *ctx, int32_t f, int32_t g);
 
-/* rho[N]: fold angles at the flat end, 0 or half a turn. RG_ENOMEM. Owner: the caller, rg_end_free, also after a failure. */
-rg_status rg_end_init(rg_end *e, const rg_memory *mem, rg_linkage *P, const double *rho, const rg_end_rules *rules,
+/* z[n]: the flat end, fold angles 0 or half a turn. RG_ENOMEM. Owner: the caller, rg_end_free, also after a failure. */
+rg_status rg_end_init(rg_end *e, const rg_memory *mem, rg_linkage *P, const double *z, const rg_end_rules *rules,
                       rg_end_above above, void *ctx);
 void rg_end_free(rg_end *e);
 

@@ -31,6 +31,8 @@ enum { LEAST_BETWEEN = 4, MOST_BETWEEN = 40 };
 static const double BENT = 2e-5;
 /* From this progress on the order of layers is to be seen, where it is. */
 static const double NEAR_THE_END = 0.98;
+/* So far the end's pattern may be from the one drawn, lengths of the sheet: what counts as being there. */
+static const double END_MOVES = 1e-4;
 /* Closing a state that is read off. */
 static const double READ_CLOSED = 1e-13, NEAR_DUE = 1e-6;
 static const int READ_NEWTON = 12, SECANTS = 8;
@@ -79,8 +81,22 @@ static int lies_over(void *ctx, int32_t f, int32_t g)
     return -turned * rg_layers_above(u->layers, flat->facet_of[f], flat->facet_of[g]);
 }
 
+/* Drawings are rounded: of patterns as near as END_MOVES to the one drawn, the nearest on which the flat end closes. Where there is
+ * none it stays as drawn. */
+static void close_end(rg_unfold *u)
+{
+    const int32_t N = u->P.N;
+    double most = 0;
+    memset(u->end + N, 0, (size_t)u->P.U * sizeof *u->end);
+    rg_stride_scale(&u->P, 1, u->q.scale);
+    memset(u->q.scale, 0, (size_t)N * sizeof *u->q.scale);
+    int closed = rg_stride_close(&u->P, &u->q, u->end, READ_CLOSED, READ_NEWTON);
+    for (int32_t i = 0; i < u->P.U; i++) most = fmax(most, fabs(u->end[N + i]));
+    if (!closed || !(most <= END_MOVES)) memset(u->end + N, 0, (size_t)u->P.U * sizeof *u->end);
+}
+
 /* Fold angles at the end: what is aimed at, and what a crease without target folds to there. */
-static void find_angles(rg_unfold *u)
+static void find_end(rg_unfold *u)
 {
     const rg_flat *flat = &u->layers->flat;
     for (int32_t i = 0; i < u->P.N; i++) {
@@ -89,6 +105,7 @@ static void find_angles(rg_unfold *u)
         if (turn == 2) turn = -flat->up[flat->beside[e][1]] * rg_layers_above(u->layers, flat->beside[e][0], flat->beside[e][1]);
         u->end[i] = turn * RG_PI;
     }
+    close_end(u);
 }
 
 static rg_status find_layers(rg_unfold *u, double sign)
@@ -351,7 +368,7 @@ static rg_status choose_as_seen(rg_unfold *u)
         s = rg_seen_order(u->layers, &seen, wish);
     }
     if (s == RG_OK) s = rg_layers_choose_near(u->layers, wish);
-    if (s == RG_OK) find_angles(u);
+    if (s == RG_OK) find_end(u);
     if (tree.mem.resize) rg_tree_free(&tree);
     rg_mem_free(&u->mem, wish);
     rg_mem_free(&u->mem, rho);
@@ -466,7 +483,7 @@ static rg_status forwards(rg_unfold *u, double budget, const rg_unfold_wish *wis
     u->count = 0;
     u->tries++;
     if (status == RG_OK) {
-        find_angles(u);
+        find_end(u);
         status = keep(u, z);
         rg_stride_scale(&u->P, 1, u->q.scale);
         for (int32_t i = 0; i < N; i++) target[i] = u->end[i] == 0 ? NAN : u->end[i];
@@ -503,7 +520,7 @@ static rg_status forwards(rg_unfold *u, double budget, const rg_unfold_wish *wis
     if (*through) {
         u->opened = u->landed = u->progress[u->count - 1];
         memset(z, 0, (size_t)n * sizeof *z);
-        memcpy(z, u->end, (size_t)N * sizeof *z);
+        memcpy(z, u->end, (size_t)n * sizeof *z);
         status = keep(u, z);
         *through = status == RG_OK && !crosses_between(u);
     }
@@ -530,7 +547,7 @@ static rg_status attempt(rg_unfold *u, const try_ *t, double budget, const rg_un
     double *z = rg_mem_array(&u->mem, n, sizeof *z), *target = rg_mem_array(&u->mem, n, sizeof *target);
     *through = 0;
     u->tries++;
-    find_angles(u);
+    find_end(u);
     rg_status s = z && target ? rg_end_init(&end, &u->mem, &u->P, u->end, &t->rules, lies_over, u) : RG_ENOMEM;
     if (s == RG_OK) s = rg_proximity_init(&near, &u->mem, &u->mesh);
     if (s == RG_OK) {
@@ -607,7 +624,7 @@ rg_status rg_unfold_run(rg_unfold *u, const rg_memory *mem, const rg_mesh *none,
     if (s != RG_OK) return s;
     u->crossed.plates = &u->plates;
     u->crossed.look = &u->look;
-    u->end = rg_mem_array(mem, (size_t)u->P.N, sizeof *u->end);
+    u->end = rg_mem_array(mem, (size_t)u->P.n, sizeof *u->end);
     u->scratch = rg_mem_array(mem, (size_t)u->P.n, sizeof *u->scratch);
     u->x = rg_mem_array(mem, 2 * (size_t)u->mesh.nv, sizeof *u->x);
     s = u->end && u->scratch && u->x ? find_layers(u, wish->sign) : RG_ENOMEM;

@@ -43,7 +43,7 @@ typedef struct rg_unfold {
     double *progress;      /* [count] 0 ... 1 */
     size_t z_room, progress_room;
     int32_t count;
-    double *end;           /* [N] fold angles of the end */
+    double *end;           /* [n] the end: fold angles, and the pattern nearest to the one drawn that closes */
     double *scratch;       /* [n] */
     rg_vec3 *x;            /* [2][nv] */
     rg_layers *layers;     /* of mesh, the order chosen that the motion has */
