@@ -261,7 +261,7 @@ static void the_verdict_comes_first(void **state)
     /* What crosses says what speaks against it, if anything does, and how far it may be folded. */
     write_file("over.cp", "1 0 0 10 0\n1 10 0 10 1\n1 10 1 0 1\n1 0 1 0 0\n3 4 0 4 1\n3 5 0 5 1\n");
     r = ends(1, run("fold", "over.cp"));
-    int to;
+    int to = 0;
     assert_true(strstr(r->err, "cannot be put in order") && strstr(r->err, "Next: ") && sscanf(strstr(r->err, "--to "), "--to %d", &to) == 1);
     char part[20];
     snprintf(part, sizeof part, "%d", to);
