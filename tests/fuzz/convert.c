@@ -76,6 +76,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             if (to != RG_FORMAT_FOLD) keeps(&l, &k, to);
             rg_lines_free(&k);
             promise(rg_convert(out, twice, to, &s, NULL, NULL, &why) == RG_OK);
+            /* A .fold file also maps what changed to what was read, which is nothing any more the second time. */
+            if (to == RG_FORMAT_FOLD) promise(rg_convert(twice, out, to, &s, NULL, NULL, &why) == RG_OK);
             if (!changes_once(&l)) same_bytes(out, twice);
         }
         watch_end(SECONDS);
