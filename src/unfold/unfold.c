@@ -31,8 +31,8 @@ enum { LEAST_BETWEEN = 4, MOST_BETWEEN = 40 };
 static const double BENT = 2e-5;
 /* From this progress on the order of layers is to be seen, where it is. */
 static const double NEAR_THE_END = 0.98;
-/* So far the end's pattern may be from the one drawn, lengths of the sheet: what counts as being there. */
-static const double END_MOVES = 1e-4;
+/* So far the end's pattern may be from the one drawn, lengths of the sheet, and so much it may be open, radians. */
+static const double END_MOVES = 1e-2, END_CLOSES = 1e-8;
 /* Closing a state that is read off. */
 static const double READ_CLOSED = 1e-13, NEAR_DUE = 1e-6;
 static const int READ_NEWTON = 12, SECANTS = 8;
@@ -81,18 +81,26 @@ static int lies_over(void *ctx, int32_t f, int32_t g)
     return -turned * rg_layers_above(u->layers, flat->facet_of[f], flat->facet_of[g]);
 }
 
-/* Drawings are rounded: of patterns as near as END_MOVES to the one drawn, the nearest on which the flat end closes. Where there is
- * none it stays as drawn. */
+/* Drawings are rounded: the pattern nearest to the one drawn on which the flat end closes. Where there is none as near as END_MOVES it
+ * stays as drawn. A vertex at which many creases meet at half a turn comes to END_CLOSES only. */
 static void close_end(rg_unfold *u)
 {
     const int32_t N = u->P.N;
-    double most = 0;
-    memset(u->end + N, 0, (size_t)u->P.U * sizeof *u->end);
+    double *move = u->end + N, *best = u->scratch, least = INFINITY, most = 0;
+    memset(move, 0, (size_t)u->P.U * sizeof *move);
     rg_stride_scale(&u->P, 1, u->q.scale);
     memset(u->q.scale, 0, (size_t)N * sizeof *u->q.scale);
-    int closed = rg_stride_close(&u->P, &u->q, u->end, READ_CLOSED, READ_NEWTON);
-    for (int32_t i = 0; i < u->P.U; i++) most = fmax(most, fabs(u->end[N + i]));
-    if (!closed || !(most <= END_MOVES)) memset(u->end + N, 0, (size_t)u->P.U * sizeof *u->end);
+    for (int k = 0; k < READ_NEWTON && least > READ_CLOSED; k++) {
+        rg_stride_close(&u->P, &u->q, u->end, READ_CLOSED, 1);
+        const double angle = rg_coupled_assemble(&u->P.J, u->end, move, NULL);
+        if (!(angle < least)) continue;
+        least = angle;
+        memcpy(best, move, (size_t)u->P.U * sizeof *move);
+    }
+    for (int32_t i = 0; least <= END_CLOSES && i < u->P.U; i++) most = fmax(most, fabs(best[i]));
+    const int use = least <= END_CLOSES && most <= END_MOVES;
+    for (int32_t i = 0; i < u->P.U; i++) move[i] = use ? best[i] : 0;
+    memset(u->scratch, 0, (size_t)u->P.n * sizeof *u->scratch);
 }
 
 /* Fold angles at the end: what is aimed at, and what a crease without target folds to there. */
