@@ -17,7 +17,7 @@ coverage:
 	@$(MAKE) --no-print-directory $(jobs) config=coverage run-coverage
 	@$(MAKE) --no-print-directory config=coverage coverage-table
 run-coverage: all $(coverage_bin)
-	@RIGAMI=$B/rigami TEST_JOBS=1 GCOV_ERROR_FILE=/dev/null sh tools/run_tests $(coverage_bin)
+	@RIGAMI=$B/rigami GCOV_ERROR_FILE=/dev/null sh tools/run_tests $(coverage_bin)
 
 coverage-table:
 	@for o in $(lib_o); do gcov -n -o $$o $$o 2>/dev/null; done | sh tools/check_coverage $(floor) $(floor_readers)

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <poll.h>
 #include <pthread.h>
+#include <semaphore.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -104,10 +105,13 @@ static void end_in_time(void)
     if (phase == HELD) end(why); /* else what there is is being written */
 }
 
+static sem_t is_up;
+
 static void *watch(void *unused)
 {
     (void)unused;
     int what;
+    sem_post(&is_up);
     while ((what = wait_for_signal(end_at)) == NOTHING) end_in_time();
     if (what == WITH_GRACE) wait_for_signal(seconds_now() + grace);
     end("interrupted");
@@ -134,6 +138,7 @@ static int make_watcher(void)
     sigset_t all, before;
     pthread_attr_t attributes;
     pthread_t thread;
+    if (sem_init(&is_up, 0, 0) != 0) return 0;
     if (pthread_attr_init(&attributes) != 0) return 0;
     pthread_attr_setstacksize(&attributes, WATCHER_STACK);
     pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
@@ -142,6 +147,8 @@ static int make_watcher(void)
     const int made = pthread_create(&thread, &attributes, watch, NULL) == 0;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     pthread_attr_destroy(&attributes);
+    /* What forks next must not find it half made: a lock that it holds then is held in the child for ever. */
+    while (made && sem_wait(&is_up) != 0 && errno == EINTR) {}
     return made;
 }
 
