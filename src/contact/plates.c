@@ -238,12 +238,6 @@ int32_t rg_plates_shared(const rg_mesh *m, int32_t f, int32_t g, int32_t *v)
     return shared(m->facet_vertex + at[f], at[f + 1] - at[f], m->facet_vertex + at[g], at[g + 1] - at[g], v);
 }
 
-int32_t rg_plates_shared_by_parts(const rg_plates *p, int32_t a, int32_t b, int32_t *v)
-{
-    return shared(p->vertex + p->start[a], p->start[a + 1] - p->start[a], p->vertex + p->start[b],
-                  p->start[b + 1] - p->start[b], v);
-}
-
 rg_vec2 rg_plates_middle(const rg_mesh *m, int32_t f)
 {
     const int32_t n = m->facet_start[f + 1] - m->facet_start[f];

@@ -48,8 +48,6 @@ void rg_plates_free(rg_plates *p);
 
 /* How many corners two facets have in common, counted up to 2; *v: one of them, -1: none. */
 int32_t rg_plates_shared(const rg_mesh *m, int32_t f, int32_t g, int32_t *v);
-/* The same of two parts. */
-int32_t rg_plates_shared_by_parts(const rg_plates *p, int32_t a, int32_t b, int32_t *v);
 /* The middle of a facet's corners in the pattern, file coordinates. */
 rg_vec2 rg_plates_middle(const rg_mesh *m, int32_t f);
 
