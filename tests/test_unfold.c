@@ -504,34 +504,34 @@ static void unfolds_mesh(const rg_mesh *none, double sign, double over, double d
     rg_unfold u;
     assert_int_equal(rg_unfold_run(&u, &mem, none, &wish), RG_OK);
     assert_int_equal(u.outcome, RG_UNFOLD_FREE);
-    below(0.99, u.landed);
-    double *rho = calloc((size_t)u.P.N, sizeof *rho);
-    rg_vec2 *X = calloc((size_t)u.mesh.nv, sizeof *X);
-    rg_place *place = calloc((size_t)u.mesh.nf, sizeof *place);
-    rg_vec3 *x = calloc((size_t)u.mesh.nv, sizeof *x);
+    below(0.99, u.pass.landed);
+    double *rho = calloc((size_t)u.pass.P.N, sizeof *rho);
+    rg_vec2 *X = calloc((size_t)u.pass.mesh.nv, sizeof *X);
+    rg_place *place = calloc((size_t)u.pass.mesh.nf, sizeof *place);
+    rg_vec3 *x = calloc((size_t)u.pass.mesh.nv, sizeof *x);
     rg_tree tree;
-    assert_int_equal(rg_tree_init(&u.mesh, 0, &tree), RG_OK);
+    assert_int_equal(rg_tree_init(&u.pass.mesh, 0, &tree), RG_OK);
     for (int k = 0; k <= 150; k++) {
         double sum = 0;
         int n = 0;
         rg_unfold_read(&u, k / 150.0, rho, X);
-        for (int32_t i = 0; i < u.P.N - u.mesh.added; i++) {
-            const double target = u.mesh.target[u.mesh.crease_edge[i]];
+        for (int32_t i = 0; i < u.pass.P.N - u.pass.mesh.added; i++) {
+            const double target = u.pass.mesh.target[u.pass.mesh.crease_edge[i]];
             if (isnan(target) || target == 0) continue;
             sum += rho[i] / (sign * target);
             n++;
             below(fabs(rho[i]), RG_PI + over);
         }
         near(sum / n, k / 150.0, 1e-3);
-        rg_pose_facets(&u.mesh, X, &tree, rho, place);
-        rg_pose_vertices(&u.mesh, X, &tree, place, x);
+        rg_pose_facets(&u.pass.mesh, X, &tree, rho, place);
+        rg_pose_vertices(&u.pass.mesh, X, &tree, place, x);
         below(rg_pose_gap(X, &tree, place), 1e-8 * none->size);
-        for (int32_t v = 0; v < u.mesh.nv; v++) x[v] = rg_vec3_scale(1 / none->size, x[v]);
-        assert_false(pierces(&u.mesh, x, deep));
+        for (int32_t v = 0; v < u.pass.mesh.nv; v++) x[v] = rg_vec3_scale(1 / none->size, x[v]);
+        assert_false(pierces(&u.pass.mesh, x, deep));
     }
-    for (int32_t v = 0; v < u.mesh.nv; v++) { /* the end is of the pattern given */
-        near(X[v].x, u.mesh.X[v].x * none->size, 1e-12 * none->size);
-        near(X[v].y, u.mesh.X[v].y * none->size, 1e-12 * none->size);
+    for (int32_t v = 0; v < u.pass.mesh.nv; v++) { /* the end is of the pattern given */
+        near(X[v].x, u.pass.mesh.X[v].x * none->size, 1e-12 * none->size);
+        near(X[v].y, u.pass.mesh.X[v].y * none->size, 1e-12 * none->size);
     }
     free(rho), free(X), free(place), free(x);
     rg_tree_free(&tree);
@@ -772,8 +772,8 @@ static void same_bits(void **state)
     rg_unfold u[2];
     mesh_of("patterns/open-sink.opx", &none);
     for (int k = 0; k < 2; k++) assert_int_equal(rg_unfold_run(&u[k], &mem, &none, &wish), RG_OK);
-    assert_int_equal(u[0].count, u[1].count);
-    assert_memory_equal(u[0].z, u[1].z, (size_t)u[0].count * (size_t)u[0].P.n * sizeof *u[0].z);
+    assert_int_equal(u[0].pass.track.count, u[1].pass.track.count);
+    assert_memory_equal(u[0].pass.track.z, u[1].pass.track.z, (size_t)u[0].pass.track.count * (size_t)u[0].pass.P.n * sizeof(double));
     for (int k = 0; k < 2; k++) rg_unfold_free(&u[k]);
     rg_mesh_free(&none);
 }

@@ -1,5 +1,5 @@
 /* landing.h -- from a state a little open back into the flat end, step by step.
- * Uses  stride.h open.h        Used by  unfold.c
+ * Uses  stride.h open.h        Used by  passage.c
  *
  * Creases are open by e, to first order, and the pattern has moved by e^2: so each step wishes e to become less by a part of
  * itself, and lets each distance become less by a part of itself. What is left when e is small rests on the order of layers

@@ -1,5 +1,5 @@
 /* seen.h -- the order in which facets came to lie on each other, as the frames before show it.
- * Uses  layers.h pose.h        Used by  unfold.c, motion */
+ * Uses  layers.h pose.h        Used by  passage.c, motion */
 #ifndef RG_SEEN_H
 #define RG_SEEN_H
 

@@ -1,6 +1,6 @@
 /* stride.h -- one step of a motion in which no two facets pass through each other.
  * Paper    eqs. (10), (14), (15), (19); what section 4 leaves as future work
- * Uses  crossed.h proximity.h nearest.h sides.h end.h        Used by  landing.c open.c unfold.c
+ * Uses  crossed.h proximity.h nearest.h sides.h end.h        Used by  home.c landing.c open.c passage.c track.c
  *
  * Each step wishes every crease on towards its target, and takes the nearest step that keeps the sheet closed and every near
  * pair apart: a velocity damper (Faverjon and Tournassoud, 1987) lets a pair close in by a part of its distance only. Below a

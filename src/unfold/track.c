@@ -1,0 +1,152 @@
+#include "unfold/track.h"
+#include "unfold/stride.h"
+
+#include <string.h>
+
+/* A state whose facets cross deeper (lengths of the sheet) is none: less than what counts as a crossing. */
+static const double WRONG = 8e-5;
+/* Between two states so many places are looked at, less one, that the way between two of them is straight to BENT
+ * (lengths of the sheet). */
+enum { LEAST_BETWEEN = 4, MOST_BETWEEN = 40 };
+static const double BENT = 2e-5;
+/* Closing a state that is read off. */
+static const double READ_CLOSED = 1e-13, NEAR_DUE = 1e-6;
+static const int READ_NEWTON = 12, SECANTS = 8;
+
+rg_status rg_track_init(rg_track *p, const rg_memory *mem, rg_linkage *P, rg_nearest *q)
+{
+    memset(p, 0, sizeof *p);
+    p->mem = *mem;
+    p->P = P;
+    p->q = q;
+    p->end = rg_mem_array(mem, (size_t)P->n, sizeof *p->end);
+    p->scratch = rg_mem_array(mem, (size_t)P->n, sizeof *p->scratch);
+    p->x = rg_mem_array(mem, 2 * (size_t)P->mesh->nv, sizeof *p->x);
+    rg_status s = p->end && p->scratch && p->x ? rg_plates_init(P->mesh, &p->plates) : RG_ENOMEM;
+    if (s == RG_OK) s = rg_contact_work_init(&p->plates, &p->look);
+    if (s != RG_OK) rg_track_free(p);
+    return s;
+}
+
+void rg_track_free(rg_track *p)
+{
+    if (!p->mem.resize) return;
+    rg_contact_work_free(&p->look);
+    rg_plates_free(&p->plates);
+    void *block[] = {p->end, p->z, p->progress, p->scratch, p->x};
+    for (int i = 0; i < 5; i++) rg_mem_free(&p->mem, block[i]);
+    memset(p, 0, sizeof *p);
+}
+
+double rg_track_progress(const rg_track *p, const double *z)
+{
+    const rg_mesh *m = p->P->mesh;
+    double sum = 0;
+    int32_t n = 0;
+    for (int32_t i = 0; i < m->N - m->added; i++) {
+        const double target = m->target[m->crease_edge[i]];
+        if (isnan(target) || target == 0) continue;
+        sum += z[i] / p->end[i];
+        n++;
+    }
+    return n ? sum / n : 1;
+}
+
+rg_status rg_track_keep(void *ctx, const double *z)
+{
+    rg_track *p = ctx;
+    const size_t n = (size_t)p->P->n, at = (size_t)p->count;
+    rg_status s = rg_mem_grow(&p->mem, (void **)&p->z, &p->z_room, (at + 1) * n, sizeof *z);
+    if (s == RG_OK) s = rg_mem_grow(&p->mem, (void **)&p->progress, &p->progress_room, at + 1, sizeof *z);
+    if (s != RG_OK) return s;
+    memcpy(p->z + at * n, z, n * sizeof *z);
+    p->progress[at] = rg_track_progress(p, z);
+    p->count++;
+    return RG_OK;
+}
+
+void rg_track_reverse(rg_track *p)
+{
+    const size_t n = (size_t)p->P->n;
+    for (int32_t i = 0, j = p->count - 1; i < j; i++, j--) {
+        const double was = p->progress[i];
+        p->progress[i] = p->progress[j];
+        p->progress[j] = was;
+        memcpy(p->scratch, p->z + (size_t)i * n, n * sizeof *p->z);
+        memcpy(p->z + (size_t)i * n, p->z + (size_t)j * n, n * sizeof *p->z);
+        memcpy(p->z + (size_t)j * n, p->scratch, n * sizeof *p->z);
+    }
+}
+
+/* The state a part t from node k to the next, closed: p->scratch. */
+static void between(rg_track *p, int32_t k, double t)
+{
+    const int32_t n = p->P->n;
+    const double *a = p->z + (size_t)k * (size_t)n, *b = a + n;
+    const int last = k + 2 == p->count; /* into the end: angles by e, pattern by e^2 */
+    for (int32_t i = 0; i < n; i++) {
+        const double part = last && i >= p->P->N ? 1 - (1 - t) * (1 - t) : t;
+        p->scratch[i] = a[i] + part * (b[i] - a[i]);
+    }
+    rg_stride_close(p->P, p->q, p->scratch, READ_CLOSED, READ_NEWTON);
+}
+
+void rg_track_read(rg_track *p, double due)
+{
+    const size_t n = (size_t)p->P->n;
+    int32_t k = 0;
+    while (k + 2 < p->count && p->progress[k + 1] < due) k++;
+    rg_stride_scale(p->P, 1, p->q->scale);
+    const double from = p->progress[k], to = p->progress[k + 1];
+    if (due <= from || due >= to) {
+        memcpy(p->scratch, p->z + (size_t)(due >= to ? k + 1 : k) * n, n * sizeof *p->scratch);
+        return;
+    }
+    double low = 0, high = 1, at_low = from, at_high = to;
+    for (int i = 0; i < SECANTS; i++) {
+        const double t = low + (high - low) * (due - at_low) / (at_high - at_low);
+        between(p, k, t);
+        const double at = rg_track_progress(p, p->scratch);
+        if (fabs(at - due) <= NEAR_DUE || !(t > low && t < high)) return;
+        if (at < due) low = t, at_low = at;
+        else high = t, at_high = at;
+    }
+}
+
+int rg_track_crosses(rg_track *p, const rg_vec3 *x)
+{
+    rg_contact_hit hit;
+    return rg_contact_deepest(&p->plates, x, WRONG, &p->look, &hit);
+}
+
+/* Parts of the way from state k to the next, so many that each is all but straight: how far off the chord's middle
+ * its middle is goes with the square. */
+static int parts_between(rg_track *p, int32_t k)
+{
+    const size_t n = (size_t)p->P->n;
+    const int32_t nv = p->P->mesh->nv;
+    double most = 0;
+    rg_linkage_positions(p->P, p->z + (size_t)k * n, p->x);
+    rg_linkage_positions(p->P, p->z + (size_t)(k + 1) * n, p->x + nv);
+    between(p, k, 0.5);
+    rg_linkage_put(p->P, p->scratch);
+    for (int32_t v = 0; v < nv; v++) {
+        const rg_vec3 middle = rg_vec3_scale(0.5, rg_vec3_add(p->x[v], p->x[nv + v]));
+        most = fmax(most, rg_vec3_length(rg_vec3_sub(p->P->p[v], middle)));
+    }
+    return (int)fmin(MOST_BETWEEN, fmax(LEAST_BETWEEN, ceil(sqrt(most / BENT))));
+}
+
+int rg_track_crosses_between(rg_track *p)
+{
+    rg_stride_scale(p->P, 1, p->q->scale);
+    for (int32_t k = 0; k + 1 < p->count; k++) {
+        const int parts = parts_between(p, k);
+        for (int part = 1; part < parts; part++) {
+            between(p, k, (double)part / parts);
+            rg_linkage_put(p->P, p->scratch);
+            if (rg_track_crosses(p, p->P->p)) return 1;
+        }
+    }
+    return 0;
+}
