@@ -20,7 +20,7 @@ int cmd_draw(const options *o)
     int status = places_check(o);
     if (status != ENDS_WELL) return status;
     const rg_status s = rg_motion_read(o->operand[0], &o->reading, &m, &why);
-    if (s != RG_OK) return say_status(s, o->operand[0], &why);
+    if (s != RG_OK) return say_no_motion(s, o->operand[0], &why);
     progress_init(&bar, o->quiet && o->progress < 0 ? 0 : o->progress);
     status = places_write(o, m, &bar);
     if (status == ENDS_WELL && !o->quiet) {

@@ -12,7 +12,7 @@ int cmd_verify(const options *o)
     int status = o->operands > 1 ? input_read(o, 1, &given) : ENDS_WELL;
     if (status == ENDS_WELL) {
         rg_status s = rg_certificate_create(o->operand[0], given, NULL, &c, &why);
-        if (s != RG_OK) status = say_status(s, o->operand[0], &why);
+        if (s != RG_OK) status = say_no_motion(s, o->operand[0], &why);
     }
     if (status == ENDS_WELL) {
         info = *rg_certificate_get_info(c);

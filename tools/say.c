@@ -40,4 +40,13 @@ int say_status(rg_status s, const char *file, const rg_diag *why)
     return exit_of(s);
 }
 
+int say_no_motion(rg_status s, const char *file, const rg_diag *why)
+{
+    char text[sizeof why->text + 100];
+    if (s != RG_EFORMAT) return say_status(s, file, why);
+    snprintf(text, sizeof text, "no motion in FOLD, as rigami fold IN -o motion.fold writes it: %s", why->text);
+    say_at(file, why->line, "", text);
+    return exit_of(s);
+}
+
 void say_warning(const char *file, const rg_diag *what) { say_at(file, what->line, "warning: ", what->text); }

@@ -16,6 +16,8 @@ void say(const char *format, ...);
 /* "rigami: FILE:LINE: what is wrong", without the line where there is none and without the file if that is NULL or
  * the words begin with it. Returns the exit status that `s` stands for. */
 int say_status(rg_status s, const char *file, const rg_diag *why);
+/* The same where a motion is read: for what is none, what one is. */
+int say_no_motion(rg_status s, const char *file, const rg_diag *why);
 /* The same for a warning. */
 void say_warning(const char *file, const rg_diag *what);
 

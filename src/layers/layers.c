@@ -40,6 +40,21 @@ static const char *rule_name(rg_rule rule)
     return "";
 }
 
+/* The same for who knows no such names. */
+static const char *in_words(const char *rule)
+{
+    static const char *const words[][2] = {
+        {"mountain and valley", "mountain and valley contradict each other there"},
+        {"taco-taco", "two folds lie in each other, and would cross"},
+        {"taco-tortilla", "a fold would go through the paper beside it"},
+        {"tortilla-tortilla", "one layer would go through another along a line"},
+        {"transitivity", "each would lie on the next, round in a circle"},
+    };
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+        if (strcmp(rule, words[k][0]) == 0) return words[k][1];
+    return "none of all the orders fits";
+}
+
 /* ------------------------------------------------------------------------------------------- what it is ---- */
 
 static void say_unsolved(rg_layers *l, const char *words)
@@ -55,7 +70,7 @@ static rg_vec2 own(const rg_layers *l, rg_vec2 x)
     return (rg_vec2){fabs(x.x) < least ? 0 : x.x, fabs(y) < least ? 0 : y};
 }
 
-/* "the facets at (x, y), ... cannot be put in order (RULE)": as many as are named, and how many more. */
+/* "the facets at (x, y), ... cannot be put in order: WHY": as many as are named, and how many more. */
 static void name_facets(rg_layers *l, const int32_t *facet, int32_t n)
 {
     rg_layers_info *i = &l->info;
@@ -68,7 +83,7 @@ static void name_facets(rg_layers *l, const int32_t *facet, int32_t n)
         if (k < IN_WORDS) used += (size_t)rg_text(i->reason + used, sizeof i->reason - used, "%s (%.6g, %.6g)", k ? "," : "", x.x, x.y);
     }
     if (n > IN_WORDS) used += (size_t)rg_text(i->reason + used, sizeof i->reason - used, " and %d more", (int)(n - IN_WORDS));
-    rg_text(i->reason + used, sizeof i->reason - used, " cannot be put in order (%s)", i->rule);
+    rg_text(i->reason + used, sizeof i->reason - used, " cannot be put in order: %s", in_words(i->rule));
     i->where_count = named;
     i->where = l->where;
     i->where_at = (const double(*)[2])l->where_at;

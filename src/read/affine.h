@@ -1,5 +1,5 @@
 /* affine.h -- affine maps of the plane, by value: where a drawing puts what is drawn elsewhere.
- * Uses  vec.h        Used by  svg.c dxf.c */
+ * Uses  vec.h        Used by  paint.h space.c */
 #ifndef RG_AFFINE_H
 #define RG_AFFINE_H
 

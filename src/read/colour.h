@@ -1,5 +1,5 @@
 /* colour.h -- the colours that programs draw crease patterns in.
- * Used by  dxf.c kinds.c svg.c
+ * Used by  dxf.c kinds.c paint.h
  *
  * All draw mountains red, valleys blue and the border black. Yellow is a facet's diagonal (Origami Simulator), gray and
  * cyan are auxiliary (ORIPA, Flat-Folder, Oriedita); magenta is a crease that is not driven (Origami Simulator), orange

@@ -1,5 +1,5 @@
 /* css.h -- as much of style sheets as drawings of creases need: properties of an element by its tag, class and name.
- * Uses  xml.h select.h lines.h        Used by  svg.c
+ * Uses  xml.h select.h lines.h        Used by  paint.h svg.c
  *
  * Rules with selectors of select.h, in @media all and screen too. What is not understood is passed over and told. */
 #ifndef RG_CSS_H

@@ -1,5 +1,5 @@
 /* ids.h -- the elements of an XML file by their id.
- * Uses  xml.h        Used by  svg.c */
+ * Uses  xml.h        Used by  paint.h svg.c */
 #ifndef RG_IDS_H
 #define RG_IDS_H
 

@@ -1,5 +1,5 @@
 /* kinds.h -- what the user says of a drawing's colours, layers, names and dashes: `KEY=KIND`.
- * Uses  colour.h lines.h        Used by  svg.c dxf.c read.c
+ * Uses  colour.h lines.h        Used by  paint.c svg.c dxf.c read.c
  *
  * KEY is what the drawing has: a colour (as CSS writes it, or AutoCAD's number or name of it), a layer, group or class, a pattern
  * of dashes (AutoCAD's name of it, or the lengths of a stroke-dasharray; solid). `colour:`, `layer:` or `dash:` before it says

@@ -1,5 +1,5 @@
 /* plane.h -- the one plane that a drawing in space lies in, as far as it does.
- * Uses  vec.h        Used by  fold.c dxf.c */
+ * Uses  vec.h        Used by  fold.c space.c */
 #ifndef RG_PLANE_H
 #define RG_PLANE_H
 

@@ -1,11 +1,8 @@
 #include "read/svg.h"
 #include "base/number.h"
 #include "base/status.h"
-#include "read/affine.h"
-#include "read/colour.h"
-#include "read/css.h"
-#include "read/ids.h"
 #include "read/kinds.h"
+#include "read/paint.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -16,26 +13,12 @@ static const double MERGE = 1e-3;
  * tool. */
 static const double STRAIGHT = 1e-6;
 
-/* What <use> repeats is bounded in sum, counted about as its bytes, and so is how deep the elements stand in each other. */
+/* What <use> repeats is bounded in sum, counted about as its bytes, and so is how deep the elements stand in each
+ * other. */
 enum { MOST_REPEATED = 1 << 24, OF_ELEMENT = 64, OF_SEGMENT = 16, MOST_NESTED = 512 };
 
-/* Strokes of no plain colour that are told by name, and steps from one var() to the next. */
-enum { MOST_UNKNOWN = 16, MOST_VARIABLES = 8 };
-
-/* What an element hands down to those inside it. Texts are as long as a value of a style may be. */
-typedef struct paint {
-    int stroked, hidden, known; /* known: `stroke` is its colour */
-    rg_colour stroke;
-    char paint[RG_CSS_VALUE], color[RG_CSS_VALUE], dash[RG_CSS_VALUE];
-    const char *layer; /* what the inmost group around is called; NULL: nothing */
-    char named;        /* what some name around says that it is; 0: nothing */
-    char letter;       /* what data-assignment says; 0: nothing */
-    int kind;          /* which of the user's kinds some name around is of; -1: none */
-    double angle;      /* what data-foldAngle says, radians; NAN: nothing */
-    double alpha, stroke_opacity, opacity; /* opacity: of all groups around too */
-    double w, h; /* of the viewport, NAN: not known */
-    rg_affine m;
-} paint;
+/* Strokes of no plain colour that are told by name. */
+enum { MOST_UNKNOWN = 16 };
 
 /* The <use> that are being followed, inmost first. */
 typedef struct chain { const rg_xml_node *user, *target; const struct chain *out; } chain;
@@ -46,14 +29,14 @@ typedef struct tally { int32_t count, where; char text[RG_CSS_VALUE]; } tally;
 typedef struct reader {
     rg_lines *out;
     rg_diag *why;
-    const rg_reading *s;
-    rg_css css;
-    rg_ids ids;
+    rg_painting with;
     const chain *uses;
     int64_t repeated;
     int depth;
     tally hidden, unpainted, rings, curves, unwanted, unknown[MOST_UNKNOWN];
 } reader;
+
+static int is(const char *a, const char *b) { return strcmp(a, b) == 0; }
 
 static void tell(tally *t, const rg_xml_node *n)
 {
@@ -82,13 +65,13 @@ static int next_number(const char **s, double *x)
     return used > 0;
 }
 
-/* A number and its unit, in pixels; *metric: whether that unit is a length on paper. A percentage is one of `whole`. 0: not a
- * length, or in units that are not known. */
+/* A number and its unit, in pixels; *metric: whether that unit is a length on paper. A percentage is one of `whole`. 0:
+ * not a length, or in units that are not known. */
 static int pixels(const char *s, double whole, double *x, int *metric)
 {
     static const struct { const char *unit; double pixels; int metric; } units[] = {
-        {"", 1, 0}, {"px", 1, 0}, {"pt", 96.0 / 72, 1}, {"pc", 16, 1}, {"in", 96, 1}, {"cm", 96 / 2.54, 1}, {"mm", 96 / 25.4, 1},
-        {"Q", 96 / 101.6, 1}};
+        {"", 1, 0}, {"px", 1, 0}, {"pt", 96.0 / 72, 1}, {"pc", 16, 1}, {"in", 96, 1}, {"cm", 96 / 2.54, 1},
+        {"mm", 96 / 25.4, 1}, {"Q", 96 / 101.6, 1}};
     double number;
     if (!next_number(&s, &number)) return 0;
     const size_t unit = strcspn(s, " \t\r\n");
@@ -104,15 +87,16 @@ static int pixels(const char *s, double whole, double *x, int *metric)
 }
 
 /* Of an attribute; percentages are of the viewport's width, or height, or what is between them for a radius. */
-static rg_status length(const reader *r, const rg_xml_node *n, const paint *p, const char *name, double *x)
+static rg_status length(const reader *r, const rg_xml_node *n, const rg_paint *p, const char *name, double *x)
 {
     const char *s = rg_xml_attribute(n, name);
     const int is_wide = strchr(name, 'x') != NULL || strcmp(name, "width") == 0;
     int metric;
     *x = 0;
     if (!*s || pixels(s, is_wide ? p->w : p->h, x, &metric)) return RG_OK;
-    return rg_fail(RG_EFORMAT, r->why, rg_xml_line(n), strchr(s, '%') ? "<%.20s>: %s is a part of a size that the drawing does not say: \"%.60s\""
-                                                       : "<%.20s>: %s is not a length in units that are known: \"%.60s\"",
+    return rg_fail(RG_EFORMAT, r->why, rg_xml_line(n),
+                   strchr(s, '%') ? "<%.20s>: %s is a part of a size that the drawing does not say: \"%.60s\""
+                                  : "<%.20s>: %s is not a length in units that are known: \"%.60s\"",
                    rg_xml_name(n), name, s);
 }
 
@@ -157,186 +141,8 @@ static rg_status transform(const reader *r, const rg_xml_node *n, rg_affine *m)
     return RG_OK;
 }
 
-/* --------------------------------------------------------------------------------------------------- paint ---- */
-
-static int is(const char *a, const char *b) { return strcmp(a, b) == 0; }
-
-static void opacity(const reader *r, const rg_xml_node *n, const char *name, double *x)
-{
-    char value[RG_CSS_VALUE];
-    double v;
-    if (!rg_css_get(&r->css, n, name, value) || is(value, "inherit")) return;
-    const size_t used = rg_number_scan(value, strlen(value), &v);
-    if (used == 0) return;
-    if (value[used] == '%') v /= 100;
-    *x = v < 0 ? 0 : fmin(v, 1);
-}
-
-static int begins(const char *s, const char *word) { return strncmp(s, word, strlen(word)) == 0; }
-
-/* The value of var(--name, otherwise) for an element: its own, or of what is around it, or otherwise. 0: none. */
-static int variable(const reader *r, const rg_xml_node *n, char value[RG_CSS_VALUE])
-{
-    char name[RG_CSS_VALUE], otherwise[RG_CSS_VALUE] = "";
-    const char *s = value + strlen("var(");
-    s += strspn(s, " \t\r\n");
-    const size_t length = strcspn(s, ", \t\r\n)");
-    memcpy(name, s, length);
-    name[length] = 0;
-    const char *comma = strchr(s + length, ','), *end = strrchr(s, ')');
-    if (comma) comma += 1 + strspn(comma + 1, " \t\r\n");
-    if (comma && end > comma) snprintf(otherwise, sizeof otherwise, "%.*s", (int)(end - comma), comma);
-    for (; n; n = rg_xml_parent(n))
-        if (rg_css_get(&r->css, n, name, value)) return 1;
-    memcpy(value, otherwise, sizeof otherwise);
-    return value[0] != 0;
-}
-
-/* The colour of a gradient that has only one, as some programs keep their swatches. 0: it has several, or is none. */
-static int swatch(const reader *r, const char *id, rg_colour *c, double *alpha)
-{
-    const rg_xml_node *n = rg_ids_find(&r->ids, id);
-    for (int step = 0; n && step < MOST_VARIABLES; step++) {
-        char value[RG_CSS_VALUE];
-        int stops = 0, same = 1;
-        for (const rg_xml_node *stop = rg_xml_child(n); stop; stop = rg_xml_next(stop)) {
-            rg_colour one;
-            if (!rg_xml_is(stop, "stop")) continue;
-            if (!rg_css_get(&r->css, stop, "stop-color", value) || !rg_colour_parse(value, &one, alpha)) return 0;
-            same &= !stops || (one.r == c->r && one.g == c->g && one.b == c->b);
-            *c = one;
-            stops++;
-        }
-        if (stops > 0) return same;
-        const char *next = rg_xml_attribute(n, "href");
-        n = *next == '#' ? rg_ids_find(&r->ids, next + 1) : NULL;
-    }
-    return 0;
-}
-
-/* Past the first colour of a paint, behind which others may stand for other machines: "#f00 icc-color(...)". */
-static size_t first_colour(const char *s)
-{
-    const size_t name = strcspn(s, "( \t\r\n");
-    return s[name] == '(' ? name + strcspn(s + name, ")") + (strchr(s, ')') != NULL) : name;
-}
-
-/* The colour of a paint. 0: none that is plain; -1: nothing is painted. */
-static int plain_colour(const reader *r, const rg_xml_node *n, const paint *p, rg_colour *c, double *alpha)
-{
-    char value[RG_CSS_VALUE], id[RG_CSS_VALUE];
-    snprintf(value, sizeof value, "%s", p->paint);
-    for (int step = 0; step < MOST_VARIABLES; step++) {
-        if (begins(value, "var(")) {
-            if (!variable(r, n, value)) return 0;
-        } else if (begins(value, "url(")) {
-            const size_t from = 4 + strspn(value + 4, "\"' "), length = strcspn(value + from, "\"' )"), end = strcspn(value, ")");
-            snprintf(id, sizeof id, "%.*s", (int)length, value + from);
-            if (*id == '#' && swatch(r, id + 1, c, alpha)) return 1;
-            if (!value[end] || !value[end + 1 + strspn(value + end + 1, " \t")]) return 0;
-            const char *other = value + end + 1 + strspn(value + end + 1, " \t");
-            memmove(value, other, strlen(other) + 1);
-        } else break;
-    }
-    if (is(value, "currentColor") || is(value, "currentcolor")) snprintf(value, sizeof value, "%s", p->color);
-    if (is(value, "none") || is(value, "transparent")) return -1;
-    value[first_colour(value)] = 0;
-    return rg_colour_parse(value, c, alpha);
-}
-
-/* ----------------------------------------------------------------------------------------------- what it is ---- */
-
-static char letter_of(const char *s)
-{
-    static const char letters[] = "BMVFUCJ";
-    const char c = *s >= 'a' && *s <= 'z' ? (char)(*s - 'a' + 'A') : *s;
-    if (!c || s[1] || !strchr(letters, c)) return rg_kinds_of_name(s, strlen(s)); /* the word */
-    return c == 'C' ? RG_BORDER : c == 'J' ? RG_FLAT : c;
-}
-
-static void of_name(const reader *r, paint *p, const char *name, size_t n)
-{
-    const char says = rg_kinds_of_name(name, n);
-    const int kind = rg_kinds_find(r->s, RG_BY_LAYER, name, n);
-    if (says) p->named = says;
-    if (kind > p->kind) p->kind = kind;
-}
-
-/* Names of an element: its label, its id, its classes; and what it says of itself as data. */
-static void names(const reader *r, const rg_xml_node *n, paint *p)
-{
-    const char *label = rg_xml_attribute(n, "label"), *id = rg_xml_attribute(n, "id"), *words = rg_xml_attribute(n, "class");
-    const char *data = rg_xml_attribute(n, "data-assignment");
-    static const char *const angles[] = {"data-foldAngle", "data-foldangle", "data-fold-angle"};
-    double degrees;
-    if (is(rg_xml_name(n), "g") || is(rg_xml_name(n), "symbol")) {
-        if (*label || *id) p->layer = *label ? label : id;
-        else if (*words) p->layer = words;
-    } else if (*label || *words) p->layer = *label ? label : words;
-    of_name(r, p, id, strlen(id));
-    of_name(r, p, label, strlen(label));
-    for (const char *s = words; *s;) {
-        const size_t n_of = strcspn(s, " \t\r\n");
-        of_name(r, p, s, n_of);
-        s += n_of + strspn(s + n_of, " \t\r\n");
-    }
-    if (letter_of(data)) p->letter = letter_of(data);
-    for (int i = 0; i < 3; i++) {
-        const char *text = rg_xml_attribute(n, angles[i]);
-        if (*text && rg_number_parse(text, strlen(text), &degrees) && fabs(degrees) <= 180) p->angle = degrees * RG_DEG;
-    }
-}
-
-/* What n is painted with, after what is around it. 0: it is not there at all. */
-static int repaint(const reader *r, const rg_xml_node *n, paint *p)
-{
-    char value[RG_CSS_VALUE];
-    double own = 1;
-    if (rg_css_get(&r->css, n, "display", value) && is(value, "none")) return 0;
-    if (rg_css_get(&r->css, n, "visibility", value) && !is(value, "inherit")) p->hidden = !is(value, "visible");
-    names(r, n, p);
-    opacity(r, n, "opacity", &own);
-    p->opacity *= own;
-    opacity(r, n, "stroke-opacity", &p->stroke_opacity);
-    if (rg_css_get(&r->css, n, "stroke-dasharray", value) && !is(value, "inherit"))
-        snprintf(p->dash, sizeof p->dash, "%s", is(value, "none") || is(value, "0") ? "solid" : value);
-    const int recoloured = rg_css_get(&r->css, n, "color", value) && !is(value, "inherit") && !is(value, "currentColor");
-    if (recoloured) memcpy(p->color, value, sizeof value);
-    if (rg_css_get(&r->css, n, "stroke", value) && !is(value, "inherit")) memcpy(p->paint, value, sizeof value);
-    else if (!recoloured) return 1;
-    const int colour = *p->paint ? plain_colour(r, n, p, &p->stroke, &p->alpha) : -1;
-    p->stroked = colour >= 0;
-    p->known = colour > 0;
-    return 1;
-}
-
-/* The colour's name, the same for all ways to write it. */
-static const char *colour_name(const paint *p, char text[RG_CSS_VALUE])
-{
-    if (!p->known) return *p->paint && p->stroked ? p->paint : "none";
-    snprintf(text, RG_CSS_VALUE, "#%02x%02x%02x", (int)lround(255 * p->stroke.r), (int)lround(255 * p->stroke.g), (int)lround(255 * p->stroke.b));
-    return text;
-}
-
-/* What a line that is painted so stands for: as the user says, by its own data, by its colour; by a name where the colour
- * says no more than that it is a line. */
-static char kind_of(const reader *r, const paint *p, int *kind)
-{
-    char text[RG_CSS_VALUE];
-    const char *colour = colour_name(p, text);
-    const int by_colour = rg_kinds_find(r->s, RG_BY_COLOUR, colour, strlen(colour));
-    const int by_dash = rg_kinds_find(r->s, RG_BY_DASH, p->dash, strlen(p->dash));
-    *kind = p->kind > by_colour ? p->kind : by_colour;
-    if (by_dash > *kind) *kind = by_dash;
-    if (*kind >= 0) return rg_kinds_letter(r->s, *kind);
-    if (p->letter) return p->letter;
-    const char says = p->known ? rg_colour_assignment(p->stroke) : 0;
-    if (says && says != RG_BORDER) return says;
-    return p->named ? p->named : says ? says : RG_FLAT;
-}
-
 /* Strokes of no plain colour, each with how many lines it has; those beyond the most are counted with the last. */
-static void tell_unknown(reader *r, const rg_xml_node *n, const paint *p)
+static void tell_unknown(reader *r, const rg_xml_node *n, const rg_paint *p)
 {
     int i = 0;
     while (i < MOST_UNKNOWN - 1 && r->unknown[i].count && strcmp(r->unknown[i].text, p->paint) != 0) i++;
@@ -352,11 +158,12 @@ static rg_status charge(reader *r, const rg_xml_node *n, size_t cost)
     if (!r->uses) return RG_OK;
     r->repeated += (int64_t)cost;
     if (r->repeated <= MOST_REPEATED) return RG_OK;
-    return rg_fail(RG_EFORMAT, r->why, rg_xml_line(r->uses->user), "<use>: the drawing is too large with all that it repeats (here <%.20s>)",
+    return rg_fail(RG_EFORMAT, r->why, rg_xml_line(r->uses->user),
+                   "<use>: the drawing is too large with all that it repeats (here <%.20s>)",
                    rg_xml_name(n));
 }
 
-static rg_status segment(reader *r, const rg_xml_node *n, const paint *p, rg_vec2 a, rg_vec2 b)
+static rg_status segment(reader *r, const rg_xml_node *n, const rg_paint *p, rg_vec2 a, rg_vec2 b)
 {
     const int32_t where = rg_xml_line(n);
     const rg_status cost = charge(r, n, OF_SEGMENT);
@@ -367,7 +174,7 @@ static rg_status segment(reader *r, const rg_xml_node *n, const paint *p, rg_vec
         return rg_lines_warn(r->out, where, "a line is dropped: a coordinate is not a finite number");
     int kind;
     char text[RG_CSS_VALUE];
-    const char assignment = kind_of(r, p, &kind), *colour = colour_name(p, text);
+    const char assignment = rg_paint_kind(&r->with, p, &kind), *colour = rg_paint_name(p, text);
     if (kind >= 0) r->out->kinds_used |= UINT64_C(1) << kind;
     rg_status s = rg_lines_trait(r->out, RG_BY_COLOUR, colour, strlen(colour), assignment);
     if (s == RG_OK && p->layer) s = rg_lines_trait(r->out, RG_BY_LAYER, p->layer, strlen(p->layer), assignment);
@@ -375,7 +182,7 @@ static rg_status segment(reader *r, const rg_xml_node *n, const paint *p, rg_vec
     if (assignment == RG_LEFT_OUT) return tell(&r->unwanted, n), s;
     if (!p->known && kind < 0 && !p->letter && !p->named) tell_unknown(r, n, p);
     if (s == RG_OK) s = rg_lines_add(r->out, (rg_vec2){a.x, -a.y}, (rg_vec2){b.x, -b.y}, assignment, where);
-    if (s != RG_OK || !r->s->targets) return s;
+    if (s != RG_OK || !r->with.s->targets) return s;
     rg_line *l = &r->out->line[r->out->count - 1];
     const double part = p->opacity * p->stroke_opacity * (p->known ? p->alpha : 1);
     const int folds = assignment == RG_MOUNTAIN || assignment == RG_VALLEY;
@@ -386,14 +193,14 @@ static rg_status segment(reader *r, const rg_xml_node *n, const paint *p, rg_vec
 }
 
 /* Of what is no crease, a curve does no harm. */
-static int cannot_fold(const reader *r, const paint *p)
+static int cannot_fold(const reader *r, const rg_paint *p)
 {
     int kind;
-    const char assignment = kind_of(r, p, &kind);
+    const char assignment = rg_paint_kind(&r->with, p, &kind);
     return assignment == RG_FLAT || assignment == RG_LEFT_OUT;
 }
 
-static rg_status line(reader *r, const rg_xml_node *n, const paint *p)
+static rg_status line(reader *r, const rg_xml_node *n, const rg_paint *p)
 {
     rg_vec2 a = {0, 0}, b = {0, 0};
     rg_status s = length(r, n, p, "x1", &a.x);
@@ -403,7 +210,7 @@ static rg_status line(reader *r, const rg_xml_node *n, const paint *p)
     return s == RG_OK ? segment(r, n, p, a, b) : s;
 }
 
-static rg_status rectangle(reader *r, const rg_xml_node *n, const paint *p)
+static rg_status rectangle(reader *r, const rg_xml_node *n, const rg_paint *p)
 {
     double x = 0, y = 0, w = 0, h = 0, rx = 0, ry = 0;
     rg_status s = length(r, n, p, "x", &x);
@@ -421,7 +228,7 @@ static rg_status rectangle(reader *r, const rg_xml_node *n, const paint *p)
     return s;
 }
 
-static rg_status polyline(reader *r, const rg_xml_node *n, const paint *p, int closed)
+static rg_status polyline(reader *r, const rg_xml_node *n, const rg_paint *p, int closed)
 {
     const char *points = rg_xml_attribute(n, "points"), *s = points;
     rg_vec2 start = {0, 0}, last = start, x;
@@ -479,7 +286,7 @@ static int lead(char command, const double *v, rg_vec2 at, rg_vec2 *to)
     return 1;
 }
 
-static rg_status path(reader *r, const rg_xml_node *n, const paint *p)
+static rg_status path(reader *r, const rg_xml_node *n, const rg_paint *p)
 {
     const char *s = skip(rg_xml_attribute(n, "d"));
     rg_vec2 at = {0, 0}, start = at;
@@ -496,7 +303,8 @@ static rg_status path(reader *r, const rg_xml_node *n, const paint *p)
         for (int i = 0; i < count; i++)
             if (!next_number(&s, &v[i])) return fail(r, n, "path: a number is missing at", here);
         const int bends = count > 0 && !lead(command, v, at, &to);
-        if (bends && !cannot_fold(r, p)) return fail(r, n, "a curve, where paper folds along straight lines only:", here);
+        if (bends && !cannot_fold(r, p))
+            return fail(r, n, "a curve, where paper folds along straight lines only:", here);
         if (bends) tell(&r->curves, n);
         else if ((command | 32) == 'm') {
             start = to;
@@ -512,11 +320,12 @@ static rg_status path(reader *r, const rg_xml_node *n, const paint *p)
 /* ------------------------------------------------------------------------------------------------ document ---- */
 
 /* Rings mark vertices in many drawings. A border, though, is the paper's. */
-static rg_status ring(reader *r, const rg_xml_node *n, const paint *p)
+static rg_status ring(reader *r, const rg_xml_node *n, const rg_paint *p)
 {
     int kind;
-    if (kind_of(r, p, &kind) == RG_BORDER)
-        return rg_fail(RG_EFORMAT, r->why, rg_xml_line(n), "<%s>: a curve as border, paper has straight ones here", rg_xml_name(n));
+    if (rg_paint_kind(&r->with, p, &kind) == RG_BORDER)
+        return rg_fail(RG_EFORMAT, r->why, rg_xml_line(n), "<%s>: a curve as border, paper has straight ones here",
+                       rg_xml_name(n));
     tell(&r->rings, n);
     return RG_OK;
 }
@@ -537,7 +346,7 @@ static void tell_hidden(reader *r, const rg_xml_node *n)
     for (const rg_xml_node *c = rg_xml_child(n); c; c = rg_xml_next(c)) tell_hidden(r, c);
 }
 
-static rg_status shape(reader *r, const rg_xml_node *n, const paint *p)
+static rg_status shape(reader *r, const rg_xml_node *n, const rg_paint *p)
 {
     const char *name = rg_xml_name(n);
     if (!is_shape(n)) return RG_OK;
@@ -554,7 +363,8 @@ static rg_status shape(reader *r, const rg_xml_node *n, const paint *p)
 /* ------------------------------------------------------------------------------------- viewports, repeats ---- */
 
 /* Width or height of a viewport: as the <use> that repeats it says, or it itself, or all that is around it. */
-static rg_status extent(const reader *r, const rg_xml_node *n, const rg_xml_node *user, const paint *p, const char *name, double *x)
+static rg_status extent(const reader *r, const rg_xml_node *n, const rg_xml_node *user, const rg_paint *p,
+                        const char *name, double *x)
 {
     const rg_xml_node *says = user && *rg_xml_attribute(user, name) ? user : n;
     const char *text = rg_xml_attribute(says, name);
@@ -583,7 +393,7 @@ static double align(const char *how, char axis, double free)
 }
 
 /* The coordinates of a viewBox, fitted into the viewport, which then is the box. */
-static void fit(const rg_xml_node *n, const double box[4], paint *p)
+static void fit(const rg_xml_node *n, const double box[4], rg_paint *p)
 {
     const char *how = rg_xml_attribute(n, "preserveAspectRatio");
     const double w = isnan(p->w) ? box[2] : p->w, h = isnan(p->h) ? box[3] : p->h;
@@ -594,7 +404,7 @@ static void fit(const rg_xml_node *n, const double box[4], paint *p)
 }
 
 /* Metres in a unit of the drawing, where it says how large it is on paper; 0: it does not. */
-static double size_on_paper(const rg_xml_node *n, const paint *p, const int metric[2])
+static double size_on_paper(const rg_xml_node *n, const rg_paint *p, const int metric[2])
 {
     const double pixel = 0.0254 / 96;
     double box[4], x = INFINITY;
@@ -606,10 +416,10 @@ static double size_on_paper(const rg_xml_node *n, const paint *p, const int metr
 }
 
 /* Into a <svg> or <symbol>. The outmost one is the drawing itself, whose units stay what they are. */
-static rg_status enter_viewport(const reader *r, const rg_xml_node *n, const rg_xml_node *user, paint *p)
+static rg_status enter_viewport(const reader *r, const rg_xml_node *n, const rg_xml_node *user, rg_paint *p)
 {
     const int is_outmost = r->depth == 1;
-    const paint around = *p;
+    const rg_paint around = *p;
     double x = 0, y = 0, box[4];
     int metric[2] = {0, 0};
     rg_status s = RG_OK;
@@ -631,16 +441,17 @@ static rg_status enter_viewport(const reader *r, const rg_xml_node *n, const rg_
     return RG_OK;
 }
 
-static rg_status element(reader *r, const rg_xml_node *n, paint p, const rg_xml_node *user);
+static rg_status element(reader *r, const rg_xml_node *n, rg_paint p, const rg_xml_node *user);
 
 /* <use>: draws what it names as if it stood here. */
-static rg_status repeat(reader *r, const rg_xml_node *n, paint p)
+static rg_status repeat(reader *r, const rg_xml_node *n, rg_paint p)
 {
     const char *name = rg_xml_attribute(n, "href");
-    const rg_xml_node *target = *name == '#' ? rg_ids_find(&r->ids, name + 1) : NULL;
+    const rg_xml_node *target = *name == '#' ? rg_ids_find(&r->with.ids, name + 1) : NULL;
     if (!target)
-        return rg_lines_warn(r->out, rg_xml_line(n), *name && *name != '#' ? "<use>: \"%.60s\" lies in another file and is missing"
-                                                                          : "<use>: there is no \"%.60s\"", name);
+        return rg_lines_warn(r->out, rg_xml_line(n),
+                             *name && *name != '#' ? "<use>: \"%.60s\" lies in another file and is missing"
+                                                   : "<use>: there is no \"%.60s\"", name);
     for (const chain *c = r->uses; c; c = c->out)
         if (c->target == target) return fail(r, n, "it repeats itself:", name);
     double x = 0, y = 0;
@@ -662,7 +473,7 @@ static int is_group(const rg_xml_node *n, const rg_xml_node *user)
     return is(name, "g") || is(name, "a") || is(name, "svg") || is(name, "switch") || (user && is(name, "symbol"));
 }
 
-static rg_status inside(reader *r, const rg_xml_node *n, const paint *p)
+static rg_status inside(reader *r, const rg_xml_node *n, const rg_paint *p)
 {
     rg_status s = RG_OK;
     for (const rg_xml_node *c = rg_xml_child(n); s == RG_OK && c; c = rg_xml_next(c)) s = element(r, c, *p, NULL);
@@ -670,12 +481,12 @@ static rg_status inside(reader *r, const rg_xml_node *n, const paint *p)
 }
 
 /* An element in what is around it; `user`: the <use> that names it. */
-static rg_status element(reader *r, const rg_xml_node *n, paint p, const rg_xml_node *user)
+static rg_status element(reader *r, const rg_xml_node *n, rg_paint p, const rg_xml_node *user)
 {
     const char *name = rg_xml_name(n);
     rg_status s = charge(r, n, OF_ELEMENT + strlen(rg_xml_attribute(n, "d")) + strlen(rg_xml_attribute(n, "points")));
     if (s != RG_OK) return s;
-    if (!repaint(r, n, &p)) return tell_hidden(r, n), RG_OK;
+    if (!rg_paint_inherit(&r->with, n, &p)) return tell_hidden(r, n), RG_OK;
     if (r->depth == MOST_NESTED) return fail(r, n, "nested too deep:", name);
     r->depth++;
     const int is_viewport = is(name, "svg") || (user && is(name, "symbol"));
@@ -699,7 +510,7 @@ static rg_status styles(reader *r, const rg_xml_node *n)
 {
     rg_status s = RG_OK;
     for (const rg_xml_node *c = rg_xml_child(n); s == RG_OK && c; c = rg_xml_next(c))
-        s = rg_xml_is(c, "style") ? rg_css_add(&r->css, c, r->out, r->why) : styles(r, c);
+        s = rg_xml_is(c, "style") ? rg_css_add(&r->with.css, c, r->out, r->why) : styles(r, c);
     return s;
 }
 
@@ -738,7 +549,8 @@ static rg_status tell_all(reader *r)
     for (size_t i = 0; s == RG_OK && i < sizeof kinds / sizeof *kinds; i++)
         if (kinds[i].t->count) s = rg_lines_warn(r->out, kinds[i].t->where, kinds[i].format, (int)kinds[i].t->count);
     for (int i = 0; s == RG_OK && i < MOST_UNKNOWN && r->unknown[i].count; i++)
-        s = rg_lines_warn(r->out, r->unknown[i].where, "stroke \"%.80s\" is no plain colour: taken for auxiliary lines (%d); --line says what"
+        s = rg_lines_warn(r->out, r->unknown[i].where,
+                          "stroke \"%.80s\" is no plain colour: taken for auxiliary lines (%d); --line says what"
                           " they are", r->unknown[i].text, (int)r->unknown[i].count);
     return s;
 }
@@ -747,12 +559,16 @@ static rg_status nothing_drawn(const reader *r, const rg_xml_node *root)
 {
     const int32_t left_out = r->rings.count + r->curves.count + r->unwanted.count;
     if (r->hidden.count && r->hidden.count >= r->unpainted.count)
-        return rg_fail(RG_EFORMAT, r->why, r->hidden.where, "no lines: what is drawn is hidden (display or visibility), %d shapes, the first here",
+        return rg_fail(RG_EFORMAT, r->why, r->hidden.where,
+                       "no lines: what is drawn is hidden (display or visibility), %d shapes, the first here",
                        (int)r->hidden.count);
     if (r->unpainted.count)
-        return rg_fail(RG_EFORMAT, r->why, r->unpainted.where, "no lines: no shape has a stroke, %d of them, the first here",
+        return rg_fail(RG_EFORMAT, r->why, r->unpainted.where,
+                       "no lines: no shape has a stroke, %d of them, the first here",
                        (int)r->unpainted.count);
-    if (left_out) return rg_fail(RG_EFORMAT, r->why, rg_xml_line(root), "no lines: all of the drawing is circles, curves or left out");
+    if (left_out)
+        return rg_fail(RG_EFORMAT, r->why, rg_xml_line(root),
+                       "no lines: all of the drawing is circles, curves or left out");
     return rg_fail(RG_EFORMAT, r->why, rg_xml_line(root), "no lines: there are no shapes in the drawing");
 }
 
@@ -760,29 +576,30 @@ static rg_status document(reader *r, const rg_xml_node *root)
 {
     if (!rg_xml_is(root, "svg"))
         return rg_fail(RG_EFORMAT, r->why, rg_xml_line(root), "the root is <%.40s>, not <svg>", rg_xml_name(root));
-    const paint plain = {.color = "black", .dash = "solid", .kind = -1, .angle = NAN, .alpha = 1, .stroke_opacity = 1, .opacity = 1,
-                         .w = NAN, .h = NAN, .m = rg_affine_shift(0, 0)};
+    const rg_paint plain = {.color = "black", .dash = "solid", .kind = -1, .angle = NAN, .alpha = 1,
+                            .stroke_opacity = 1, .opacity = 1, .w = NAN, .h = NAN, .m = rg_affine_shift(0, 0)};
     rg_status s = metadata(r->out, root);
     if (s == RG_OK) s = styles(r, root);
-    if (s == RG_OK) s = rg_ids_init(&r->ids, &r->out->mem, root);
+    if (s == RG_OK) s = rg_ids_init(&r->with.ids, &r->out->mem, root);
     if (s == RG_OK) s = element(r, root, plain, NULL);
     if (s == RG_OK) s = tell_all(r);
     return s == RG_OK && r->out->count == 0 ? nothing_drawn(r, root) : s;
 }
 
-rg_status rg_svg_read(const void *bytes, size_t size, const rg_memory *mem, const rg_reading *settings, rg_lines *out, rg_diag *why)
+rg_status rg_svg_read(const void *bytes, size_t size, const rg_memory *mem, const rg_reading *settings, rg_lines *out,
+                      rg_diag *why)
 {
     rg_xml *doc = NULL;
-    reader r = {.out = out, .why = why, .s = settings};
+    reader r = {.out = out, .why = why, .with = {.s = settings}};
     rg_lines_init(out, mem);
-    rg_css_init(&r.css, mem);
+    rg_css_init(&r.with.css, mem);
     out->merge = MERGE;
     out->y_down = 1;
     rg_status s = rg_xml_parse(bytes, size, RG_XML_ANY_TYPE, &doc, why);
     if (s == RG_OK) s = document(&r, rg_xml_root(doc));
     rg_xml_free(doc);
-    rg_css_free(&r.css);
-    rg_ids_free(&r.ids);
+    rg_css_free(&r.with.css);
+    rg_ids_free(&r.with.ids);
     if (s != RG_OK) rg_lines_free(out);
     return s;
 }
