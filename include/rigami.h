@@ -944,7 +944,7 @@ typedef struct rg_certificate rg_certificate;
 
 /* One thing that is wrong with a motion. */
 typedef struct rg_fault {
-    int32_t frame;    /* from 0; -1: of the pattern */
+    int32_t frame;    /* from 0, that or the way to it; -1: of the pattern */
     int32_t facet[2]; /* which, by their numbers in the file; -1: none */
     char text[200];   /* what, without full stop; with facets, it begins after them */
 } rg_fault;
@@ -965,6 +965,7 @@ typedef struct rg_certificate_info {
     int ends_flat;                     /* non-zero: the last frame lies in a plane */
     int32_t layer_pairs, layers_shown; /* facets over each other at a flat end; of these, that were seen to
                                         * come in their order */
+    int32_t between;                   /* states that the file has between frames; all above is of them, too */
 } rg_certificate_info;
 
 /* motion: a .fold file, "-" standard input. given: the pattern that it is to be a motion of, NULL: any. memory NULL:

@@ -180,6 +180,17 @@ double rg_apart_gather(const rg_apart *a, double *rho, double *closure)
     return driven > 0 ? sum / driven : 1;
 }
 
+int rg_apart_between(const rg_apart *a, double s, double *rho)
+{
+    for (int32_t p = 0; p < a->parts; p++) {
+        rg_straight *f = a->part[p];
+        const double *at = f->drive.count == 0 || s >= f->s ? f->rho : a->of->between(f, s);
+        if (!at) return 0;
+        for (int32_t i = 0; i < f->mesh.N; i++) rho[a->crease[a->start[p] + i]] = at[i];
+    }
+    return 1;
+}
+
 void rg_apart_tell(const rg_apart *a, char *text, size_t room)
 {
     const rg_straight *first = NULL;

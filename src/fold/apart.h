@@ -8,10 +8,11 @@
 
 #include "fold/system.h"
 
-/* What a component is made, stepped and destroyed by: those who know how have components themselves. */
+/* What a component is made, stepped, read off and destroyed by: those who know how have components themselves. */
 typedef struct rg_apart_of {
     rg_status (*make)(rg_mesh *m, const rg_settings *s, rg_straight **part, rg_diag *why); /* takes *m over, also on failure */
     rg_status (*step)(rg_straight *part, rg_step_info *info);
+    const double *(*between)(rg_straight *part, double s); /* [part N] at a progress that it has passed; NULL: not known */
     void (*destroy)(rg_straight *part);
 } rg_apart_of;
 
@@ -24,6 +25,8 @@ void rg_apart_free(rg_apart *a);
 void rg_apart_step(rg_apart *a, int32_t frame, int *reached, rg_outcome *outcome);
 /* rho[N]: out. closure: out, the largest. Returns the progress of the whole. */
 double rg_apart_gather(const rg_apart *a, double *rho, double *closure);
+/* rho[N]: out, all at progress s, a little before the last frame; what is held stays. Zero: not known. */
+int rg_apart_between(const rg_apart *a, double s, double *rho);
 /* How it ended, in words. */
 void rg_apart_tell(const rg_apart *a, char *text, size_t room);
 

@@ -38,8 +38,18 @@ static rg_status make_system(rg_straight *f, rg_diag *why)
     return RG_OK;
 }
 
-/* What components are made, stepped and destroyed by. */
-static const rg_apart_of OF_SYSTEMS = {rg_straight_from_mesh_together, rg_straight_step, rg_straight_destroy};
+/* The state of one system at a progress it has passed, scratch; NULL: not known. What it stands at stays. */
+static const double *between(rg_straight *f, double s)
+{
+    const double closure = f->closure;
+    if (f->path.count < 2 || s < f->path.node[0].s) return NULL;
+    const int known = rg_integrate_read_off(f, s);
+    f->closure = closure;
+    return known ? f->trial : NULL;
+}
+
+/* What components are made, stepped, read off and destroyed by. */
+static const rg_apart_of OF_SYSTEMS = {rg_straight_from_mesh_together, rg_straight_step, between, rg_straight_destroy};
 
 static rg_status create(rg_mesh *m, const rg_settings *settings, int apart, rg_straight **fold, rg_diag *why)
 {
@@ -204,6 +214,14 @@ static void go_on(rg_straight *f)
         if (f->settings.method == RG_METHOD_EULER) rg_fixed_euler(f);
         else rg_fixed_newton(f);
     }
+}
+
+int rg_straight_between(rg_straight *f, double s, double *rho)
+{
+    if (f->apart.parts > 0) return rg_apart_between(&f->apart, s, rho);
+    const double *at = between(f, s);
+    if (at) memcpy(rho, at, (size_t)f->mesh.N * sizeof *rho);
+    return at != NULL;
 }
 
 static int creeps(rg_straight *f)

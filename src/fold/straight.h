@@ -29,6 +29,9 @@ rg_solver rg_straight_solver(const rg_straight *f);
 void rg_straight_set_due(rg_straight *f, const double *due);
 /* One system stands at rho, closed, at progress s, and goes on from there step by step; the next frame is `frame`. */
 void rg_straight_stand(rg_straight *f, const double *rho, double s, int32_t frame);
+/* rho[N]: out, the state at progress s, a little before the frame that was made last; between frames the way stays as it is. Zero: it
+ * is not known. Allocates nothing. */
+int rg_straight_between(rg_straight *f, double s, double *rho);
 /* It gives up after so many steps; 0: only where it creeps, or after very many. */
 void rg_straight_set_most_steps(rg_straight *f, int32_t most);
 #endif

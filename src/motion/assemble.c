@@ -129,6 +129,39 @@ static rg_status block(rg_motion *m, const rg_attempt *t, const rg_overlay *o)
     return RG_OK;
 }
 
+/* The states on the way to frame k of a stretch, as those on the way to frame f of the motion. rho[N], X[nv]: scratch. */
+static rg_status put_between(rg_motion *m, const rg_stretch *s, const rg_overlay *o, int32_t k, int32_t f, double *rho, rg_vec2 *X)
+{
+    const rg_attempt *t = &s->attempt;
+    const rg_gaps *g = &t->gaps;
+    const int32_t frame = rg_stretch_frame(s, k), after = s->backwards ? frame : frame - 1;
+    rg_status status = RG_OK;
+    if (s->end_only || f == 0) return RG_OK;
+    for (int32_t i = 0; status == RG_OK && i < g->count; i++) {
+        const size_t j = (size_t)(s->backwards ? g->count - 1 - i : i);
+        if (g->after[j] != after) continue;
+        rg_overlay_angles(o, g->rho + j * (size_t)t->mesh.N, rho);
+        rg_overlay_points(o, g->flat ? g->flat + j * (size_t)t->mesh.nv : t->mesh.X, X);
+        status = rg_gaps_add(&m->gaps, &m->mem, m->mesh.N, m->mesh.nv, f - 1, rho, m->flat ? X : NULL);
+    }
+    return status;
+}
+
+static rg_status put_stretch(rg_motion *m, const rg_states *q, const rg_stretch *s, const rg_overlay *o)
+{
+    double *rho = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *rho);
+    rg_vec2 *X = rg_mem_array(&m->mem, (size_t)m->mesh.nv, sizeof *X);
+    rg_status status = rho && X ? RG_OK : RG_ENOMEM;
+    for (int32_t k = 0; status == RG_OK && k < rg_stretch_frames(s); k++) {
+        const int32_t f = m->report.frame_count++;
+        status = put_between(m, s, o, k, f, rho, X);
+        put(m, q, s, o, k, f);
+    }
+    rg_mem_free(&m->mem, rho);
+    rg_mem_free(&m->mem, X);
+    return status;
+}
+
 static rg_status fill(rg_motion *m, const rg_states *q, const rg_overlay *o)
 {
     const size_t N = (size_t)m->mesh.N, nv = (size_t)m->mesh.nv;
@@ -150,7 +183,8 @@ static rg_status fill(rg_motion *m, const rg_states *q, const rg_overlay *o)
     if (!m->rho || !m->frame || !m->state_frame || !m->by_flat || (moves && !m->flat)) return RG_ENOMEM;
     for (int32_t j = 0; j < q->stretches; j++) {
         const rg_stretch *s = &q->stretch[j];
-        for (int32_t k = 0; k < rg_stretch_frames(s); k++) put(m, q, s, &o[j], k, r->frame_count++);
+        const rg_status status = put_stretch(m, q, s, &o[j]);
+        if (status != RG_OK) return status;
         if (s->reaches >= 0) m->state_frame[r->states_reached++] = r->frame_count - 1;
     }
     memcpy(m->from, m->rho, N * sizeof *m->from);

@@ -22,6 +22,7 @@ void rg_attempt_free(rg_attempt *t)
     rg_mesh_free(&t->mesh);
     void *block[] = {t->relax, t->symmetry, t->target, t->from, t->rho, t->flat, t->due, t->vertex, t->crease};
     for (int i = 0; i < 9; i++) rg_mem_free(&t->mem, block[i]);
+    rg_gaps_free(&t->gaps, &t->mem);
     memset(t, 0, sizeof *t);
 }
 
@@ -95,6 +96,7 @@ static void cut_back(rg_attempt *t)
     while (good < *n && beyond(t, state(t, good)) <= MOST_OVER) good++;
     if (good == *n) return;
     *n = good > 0 ? good : 1;
+    while (!t->relax && t->gaps.count > 0 && t->gaps.after[t->gaps.count - 1] >= *n - 1) t->gaps.count--;
     const size_t used = strlen(t->reason);
     if (t->outcome == RG_FOLDED) rg_text(t->reason, sizeof t->reason, "creases go past half a turn on the way");
     else rg_text(t->reason + used, sizeof t->reason - used, "; from there on creases go past half a turn");
@@ -142,25 +144,45 @@ double rg_attempt_largest_angle(const rg_attempt *t, int32_t i)
 
 /* ------------------------------------------------------------------------------------------ straight on ---- */
 
+static int read_straight(void *ctx, double progress, double *rho, rg_vec2 *X)
+{
+    (void)X; /* it is the pattern given */
+    return rg_straight_between(ctx, progress, rho);
+}
+
+/* Keeps where it is, at progress now, as the next frame. *kept: the progress of the one before. */
+static rg_status keep_frame(rg_attempt *t, const rg_straight *f, double now, rg_gap_filler *between, double *kept)
+{
+    const size_t N = (size_t)f->mesh.N;
+    double *rho = t->rho + (size_t)t->count * N;
+    memcpy(rho, f->rho, N * sizeof *rho);
+    const double from = *kept;
+    *kept = now;
+    return t->count++ && between ? rg_gap_fill(between, &t->gaps, t->count - 2, from, rho - N, now, rho) : RG_OK;
+}
+
 /* One run through the frames that are due. due NULL: evenly in progress. */
 static rg_status run_straight(rg_attempt *t, rg_straight *f, const double *due, rg_watch *watch)
 {
+    const int looks = f->settings.contact != RG_CONTACT_IGNORE;
+    rg_gap_filler between = {0};
     rg_step_info info = {0};
-    double kept = -1;
-    rg_status s = RG_OK;
+    double kept = 0, at = -1;
+    rg_status s = looks ? rg_gap_filler_init(&between, &t->mem, f->mesh.N, f->mesh.nv, 0, read_straight, f) : RG_OK;
     rg_straight_set_due(f, due);
+    rg_gaps_free(&t->gaps, &t->mem);
     t->count = 0;
     while (s == RG_OK && info.outcome == RG_RUNNING) {
         s = rg_straight_step(f, &info);
         if (s == RG_OK && info.frame >= 0) {
-            memcpy(t->rho + (size_t)t->count++ * (size_t)f->mesh.N, f->rho, (size_t)f->mesh.N * sizeof *f->rho);
-            kept = f->s;
+            at = f->s;
+            s = keep_frame(t, f, rg_straight_frame_progress(f, info.frame), looks ? &between : NULL, &kept);
         }
         if (is_cancelled(watch, f->s_end > 0 ? info.progress / f->s_end : 1)) break;
     }
-    if (s == RG_OK && f->s != kept)
-        memcpy(t->rho + (size_t)t->count++ * (size_t)f->mesh.N, f->rho, (size_t)f->mesh.N * sizeof *f->rho);
+    if (s == RG_OK && f->s != at) s = keep_frame(t, f, f->s, looks && f->apart.parts == 0 ? &between : NULL, &kept);
     t->outcome = watch->cancelled ? RG_STOPPED : info.outcome;
+    rg_gap_filler_free(&between);
     return s;
 }
 
@@ -362,17 +384,44 @@ static void pace_steadily(const rg_attempt *t, double s0, double s1, int32_t fra
     }
 }
 
+/* What reads states off a relaxed path; z[n]: scratch. */
+typedef struct chord_reader { rg_attempt *t; double *z; } chord_reader;
+
+static int read_chord(void *ctx, double progress, double *rho, rg_vec2 *X)
+{
+    const chord_reader *c = ctx;
+    rg_relax *F = c->t->relax;
+    rg_chord_at(F, progress, c->z);
+    memcpy(rho, c->z, (size_t)F->N * sizeof *rho);
+    if (c->t->flat) rg_freedom_move(&F->freedom, c->z + F->N, X);
+    return 1;
+}
+
 static rg_status read_off(rg_attempt *t, const double *due)
 {
-    rg_relax *F = t->relax;
-    double *z = rg_mem_array(&t->mem, (size_t)F->n, sizeof *z);
-    for (int32_t k = 0; z && k < t->count; k++) {
-        rg_chord_at(F, due[k], z);
-        memcpy(t->rho + (size_t)k * (size_t)t->mesh.N, z, (size_t)t->mesh.N * sizeof *z);
-        if (t->flat) rg_freedom_move(&F->freedom, z + F->N, t->flat + (size_t)k * (size_t)t->mesh.nv);
-    }
-    rg_mem_free(&t->mem, z);
-    return z ? RG_OK : RG_ENOMEM;
+    const size_t N = (size_t)t->mesh.N, nv = (size_t)t->mesh.nv;
+    chord_reader c = {t, rg_mem_array(&t->mem, (size_t)t->relax->n, sizeof *c.z)};
+    for (size_t k = 0; c.z && k < (size_t)t->count; k++) read_chord(&c, due[k], t->rho + k * N, t->flat ? t->flat + k * nv : NULL);
+    rg_mem_free(&t->mem, c.z);
+    return c.z ? RG_OK : RG_ENOMEM;
+}
+
+/* Between frames that were read off. */
+static rg_status fill_gaps(rg_attempt *t, const double *due, rg_path_reader *read, void *ctx)
+{
+    rg_gap_filler q;
+    rg_status s = rg_gap_filler_init(&q, &t->mem, t->mesh.N, t->mesh.nv, t->flat != NULL, read, ctx);
+    if (s == RG_OK) s = rg_gaps_fill(&q, &t->gaps, t->rho, due, t->count);
+    rg_gap_filler_free(&q);
+    return s;
+}
+
+static rg_status fill_chords(rg_attempt *t)
+{
+    chord_reader c = {t, rg_mem_array(&t->mem, (size_t)t->relax->n, sizeof *c.z)};
+    const rg_status s = c.z ? fill_gaps(t, t->due, read_chord, &c) : RG_ENOMEM;
+    rg_mem_free(&t->mem, c.z);
+    return s;
 }
 
 /* Frames read off tell how fast the path really goes between its nodes: due[t->count] is set right by it. Non-zero: it was off by more
@@ -451,7 +500,7 @@ static rg_status read_steadily(rg_attempt *t, const rg_settings *settings)
 }
 
 rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *settings, const double *target,
-                               rg_attempt_reader *read, void *ctx, rg_diag *why)
+                               rg_path_reader *read, void *ctx, rg_diag *why)
 {
     const int32_t frames = settings->frames;
     const double to = fabs(settings->to);
@@ -472,6 +521,7 @@ rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *set
         for (t->count = 0; t->count < frames; t->count++)
             read(ctx, due[t->count], t->rho + (size_t)t->count * N, t->flat + (size_t)t->count * nv);
     }
+    if (s == RG_OK && settings->contact != RG_CONTACT_IGNORE) s = fill_gaps(t, due, read, ctx);
     rg_mem_free(&t->mem, due);
     rg_mem_free(&t->mem, sum);
     if (s != RG_OK) {
@@ -496,6 +546,7 @@ void rg_attempt_forget_frames(rg_attempt *t)
     rg_mem_free(&t->mem, t->flat);
     rg_mem_free(&t->mem, t->due);
     t->rho = t->due = NULL, t->flat = NULL, t->count = 0;
+    rg_gaps_free(&t->gaps, &t->mem);
 }
 
 rg_status rg_attempt_read(rg_attempt *t, const rg_settings *settings)
@@ -527,5 +578,5 @@ rg_status rg_attempt_read(rg_attempt *t, const rg_settings *settings)
             s = read_off(t, due);
         }
     }
-    return s;
+    return s == RG_OK && settings->contact != RG_CONTACT_IGNORE ? fill_chords(t) : s;
 }

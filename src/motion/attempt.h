@@ -8,6 +8,7 @@
 
 #include "fold/straight.h"
 #include "fold/relax.h"
+#include "motion/gaps.h"
 #include "motion/motion.h"
 
 /* Tells how far it is, 0 ... 1, and asks whether to go on; asks the race it is part of, too. */
@@ -32,6 +33,7 @@ typedef struct rg_attempt {
     double *rho;              /* [count][mesh.N] frames; NULL: not read off yet */
     rg_vec2 *flat;            /* [count][mesh.nv] the pattern of each; NULL: that of the mesh */
     int32_t count;
+    rg_gaps gaps;             /* what lies between them; none where contact is not looked for */
     double *due;              /* [count] progress of the path at each of them; NULL: they were not read off it */
     int is_read;              /* its frames were read off as they were found, evenly as is due, and cannot be again */
     rg_outcome outcome;
@@ -63,9 +65,8 @@ rg_status rg_attempt_relaxed(rg_attempt *t, rg_mesh *m, const rg_settings *s, co
 /* One whose relaxation waits runs on, for so much more work. */
 rg_status rg_attempt_go_on(rg_attempt *t, double work, rg_watch *watch, rg_diag *why);
 /* A path that was found some other way, from flat to `target`: read(ctx, progress, rho[N], X[nv]) gives its state at a progress
- * 0 ... 1. Its frames are read off at once. *m is taken over, also on failure. RG_ENOMEM. */
-typedef void rg_attempt_reader(void *ctx, double progress, double *rho, rg_vec2 *X);
-rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *s, const double *target, rg_attempt_reader *read,
+ * 0 ... 1, always. Its frames are read off at once. *m is taken over, also on failure. RG_ENOMEM. */
+rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *s, const double *target, rg_path_reader *read,
                                void *ctx, rg_diag *why);
 /* Frames of it, by settings->frames, to and pace; where it stopped short, those that it reached and the last state. RG_ENOMEM. */
 rg_status rg_attempt_read(rg_attempt *t, const rg_settings *s);

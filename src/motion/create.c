@@ -88,7 +88,7 @@ static rg_status adopt(rg_motion *m, rg_search *c, rg_attempt *path)
     rg_report *r = &m->report;
     rg_attempt *t = &c->best;
     m->mesh = t->mesh;
-    m->target = t->target, m->from = t->from, m->rho = t->rho, m->flat = t->flat;
+    m->target = t->target, m->from = t->from, m->rho = t->rho, m->flat = t->flat, m->gaps = t->gaps;
     m->blocking_vertex = t->vertex, m->blocking_crease = t->crease;
     r->blocking_vertex_count = t->vertices, r->blocking_crease_count = t->creases;
     r->frame_count = t->count;
@@ -101,6 +101,7 @@ static rg_status adopt(rg_motion *m, rg_search *c, rg_attempt *path)
     r->seconds_of_winning_try = t->cost.seconds;
     memset(&t->mesh, 0, sizeof t->mesh);
     t->target = t->from = t->rho = NULL, t->flat = NULL, t->vertex = t->crease = NULL;
+    memset(&t->gaps, 0, sizeof t->gaps);
     if (path && t->due) {
         *path = *t;
         memset(t, 0, sizeof *t);

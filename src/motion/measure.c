@@ -120,16 +120,23 @@ static int make_room(gauge *g, const rg_memory *mem, const rg_mesh *m)
     return g->rho && g->theta && g->sector && g->place && g->x && g->part;
 }
 
-static void measure_frame(rg_motion *m, int32_t k, gauge *g)
+/* Where a state's facets and vertices are. */
+static void place(const rg_motion *m, const rg_motion_state *s, gauge *g)
+{
+    rg_pose_facets(&m->mesh, s->X, &m->tree, s->rho, g->place);
+    rg_pose_vertices(&m->mesh, s->X, &m->tree, g->place, g->x);
+}
+
+static void measure_frame(rg_motion *m, const rg_motion_state *s, gauge *g)
 {
     rg_report *r = &m->report;
-    const double *rho = rg_motion_angles(m, k);
-    const rg_vec2 *X = rg_motion_pattern(m, k);
+    const int32_t k = s->frame;
+    const double *rho = s->rho;
+    const rg_vec2 *X = s->X;
     measure_angles(m, k);
     m->frame[k].closure_residual = closure(g, &m->mesh, X, rho);
     r->max_closure_residual = larger(r->max_closure_residual, m->frame[k].closure_residual);
-    rg_pose_facets(&m->mesh, X, &m->tree, rho, g->place);
-    rg_pose_vertices(&m->mesh, X, &m->tree, g->place, g->x);
+    place(m, s, g);
     const double strain = rg_pose_strain(&m->mesh, X, g->x);
     r->max_edge_strain = larger(r->max_edge_strain, strain);
     r->max_strain_from_original = larger(r->max_strain_from_original, m->flat ? rg_pose_strain(&m->mesh, m->mesh.X, g->x) : strain);
@@ -175,8 +182,47 @@ void rg_measure_place(rg_motion *m, const int32_t facet[2])
     }
 }
 
-/* What is known of contact once all frames are in; a NULL course: nothing is. */
-static void measure_contact(rg_motion *m, rg_course *c)
+/* Percent of a state: the mean of what was done of each driven crease's way. */
+static double percent_of(const rg_motion *m, const double *rho)
+{
+    double sum = 0;
+    int32_t driven = 0;
+    for (int32_t i = 0; i < m->mesh.N; i++) {
+        const double way = m->target[i] - m->from[i];
+        if (isnan(way) || way == 0) continue;
+        sum += fmin(100, 100 * (rho[i] - m->from[i]) / way);
+        driven++;
+    }
+    return driven ? sum / driven : 100;
+}
+
+/* State k of the motion, by itself. */
+static rg_motion_state find_state(const rg_motion *m, int32_t k)
+{
+    int32_t gaps = 0;
+    for (int32_t i = 0; i < k; i++) rg_motion_state_at(m, i, &gaps);
+    return rg_motion_state_at(m, k, &gaps);
+}
+
+/* The frame that a state is, or on the way to which it lies. */
+static int32_t frame_at(const rg_motion *m, int32_t k)
+{
+    const rg_motion_state s = find_state(m, k);
+    return s.frame + s.is_between;
+}
+
+/* A frame has its percent, which is another one in a sequence of states; what lies between two is between theirs. */
+static double percent_at(const rg_motion *m, int32_t k)
+{
+    const rg_motion_state s = find_state(m, k);
+    if (!s.is_between) return m->frame[s.frame].percent;
+    const double p = percent_of(m, s.rho), a = percent_of(m, rg_motion_angles(m, s.frame)), b = percent_of(m, rg_motion_angles(m, s.frame + 1));
+    const double part = a < b ? fmin(1, fmax(0, (p - a) / (b - a))) : 0;
+    return m->frame[s.frame].percent + part * (m->frame[s.frame + 1].percent - m->frame[s.frame].percent);
+}
+
+/* What is known of contact once all states are in, in so many frames; a NULL course: nothing is. */
+static void measure_contact(rg_motion *m, rg_course *c, int32_t frames)
 {
     rg_report *r = &m->report;
     r->first_contact_frame = r->deepest_contact_frame = r->contact_facets[0] = r->contact_facets[1] = -1;
@@ -185,14 +231,14 @@ static void measure_contact(rg_motion *m, rg_course *c)
     const rg_course_found *f = &c->found;
     r->contact = f->first < 0 ? RG_CONTACT_FREE : RG_CONTACT_CROSSES;
     r->contact_unproved = f->unproved;
-    r->contact_frames = f->crossing;
-    r->deepest_contact_frame = f->deepest_state;
+    r->contact_frames = frames;
+    if (f->deepest_state >= 0) r->deepest_contact_frame = frame_at(m, f->deepest_state);
     r->contact_pairs = f->pairs;
     r->contact_depth = f->deepest.depth;
     if (f->first < 0) return;
-    r->first_contact_frame = f->first;
-    r->first_contact_percent = m->frame[f->first].percent;
-    if (f->between) r->first_contact_percent += (1 - f->time) * (m->frame[f->first - 1].percent - m->frame[f->first].percent);
+    r->first_contact_frame = frame_at(m, f->first);
+    r->first_contact_percent = percent_at(m, f->first);
+    if (f->between) r->first_contact_percent += (1 - f->time) * (percent_at(m, f->first - 1) - r->first_contact_percent);
     rg_measure_place(m, f->facet);
 }
 
@@ -214,19 +260,24 @@ static rg_status keep_sides(rg_motion *m, const rg_course *c)
 rg_status rg_measure_frames(rg_motion *m, rg_watch *watch)
 {
     int looks = m->settings.contact != RG_CONTACT_IGNORE && !(watch && rg_watch_asked(watch));
+    int32_t gaps = 0, crossing = 0;
     rg_course course = {0};
     gauge g = {0};
     rg_status s = RG_OK;
     const int ok = make_room(&g, &m->mem, &m->mesh) && (!looks || rg_course_init(&m->mesh, &course) == RG_OK);
     if (ok) m->report.components = rg_components_find(&m->mesh, g.part);
     m->report.isometric = 1;
-    for (int32_t k = 0; ok && k < m->report.frame_count; k++) {
-        measure_frame(m, k, &g);
+    for (int32_t k = 0; ok && k < rg_motion_states(m); k++) {
+        const rg_motion_state state = rg_motion_state_at(m, k, &gaps);
+        const int32_t was = course.found.crossing;
+        if (state.is_between && looks) place(m, &state, &g);
+        else if (!state.is_between) measure_frame(m, &state, &g);
         looks = looks && !(watch && rg_watch_asked(watch));
-        if (looks && s == RG_OK) s = rg_course_add(&course, &(rg_plates_state){rg_motion_pattern(m, k), g.place, g.x});
+        if (looks && s == RG_OK) s = rg_course_add(&course, &(rg_plates_state){state.X, g.place, g.x});
+        if (!state.is_between) crossing += course.found.crossing - was;
     }
     if (ok && looks && s == RG_OK) s = rg_course_end(&course);
-    if (ok && s == RG_OK) measure_contact(m, looks ? &course : NULL);
+    if (ok && s == RG_OK) measure_contact(m, looks ? &course : NULL, crossing);
     if (ok && looks && s == RG_OK) s = keep_sides(m, &course);
     rg_course_free(&course);
     void *block[] = {g.rho, g.theta, g.sector, g.place, g.x, g.part};

@@ -27,6 +27,7 @@ void rg_motion_destroy(rg_motion *m)
     void *block[] = {m->target, m->from, m->rho, m->flat, m->frame, m->blocking_vertex, m->blocking_crease, m->blocking_at,
                      m->state_frame, m->by_flat, m->space, m->tried, m->side};
     for (int i = 0; i < 13; i++) rg_mem_free(&m->mem, block[i]);
+    rg_gaps_free(&m->gaps, &m->mem);
     rg_layers_destroy(m->layers);
     rg_motion_free_stages(&m->stages);
     rg_source_free(&m->source);
@@ -69,6 +70,20 @@ const double *rg_motion_angles(const rg_motion *m, int32_t frame)
 const rg_vec2 *rg_motion_pattern(const rg_motion *m, int32_t frame)
 {
     return m->flat ? m->flat + (size_t)frame * (size_t)m->mesh.nv : m->mesh.X;
+}
+
+int32_t rg_motion_states(const rg_motion *m) { return m->report.frame_count + m->gaps.count; }
+
+rg_motion_state rg_motion_state_at(const rg_motion *m, int32_t k, int32_t *gaps)
+{
+    const rg_gaps *g = &m->gaps;
+    const int32_t j = *gaps, frame = k - j;
+    if (j < g->count && g->after[j] < frame) {
+        *gaps = j + 1;
+        return (rg_motion_state){g->rho + (size_t)j * (size_t)m->mesh.N, g->flat ? g->flat + (size_t)j * (size_t)m->mesh.nv : m->mesh.X,
+                                 g->after[j], 1};
+    }
+    return (rg_motion_state){rg_motion_angles(m, frame), rg_motion_pattern(m, frame), frame, 0};
 }
 
 const double (*rg_motion_flat(const rg_motion *m, int32_t frame))[2]

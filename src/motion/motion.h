@@ -1,10 +1,11 @@
 /* motion.h -- a fold from flat to its end, kept frame by frame, and measured.
- * Uses  straight.h pose.h        Used by  write, render */
+ * Uses  gaps.h pose.h        Used by  write, render */
 #ifndef RG_MOTION_H
 #define RG_MOTION_H
 
 #include "mesh/mesh.h"
 #include "mesh/triangles.h"
+#include "motion/gaps.h"
 #include "pose/pose.h"
 
 /* The stages of a motion, and how its mesh is made of the pattern's. */
@@ -32,6 +33,7 @@ struct rg_motion {
     double *from;          /* [mesh.N] fold angles of the state that the motion starts from */
     double *rho;           /* [report.frame_count][mesh.N] radians */
     rg_vec2 *flat;         /* [report.frame_count][mesh.nv] the pattern of each frame; NULL: mesh.X in all of them */
+    rg_gaps gaps;          /* states between frames */
     rg_vec3 *space;        /* [report.frame_count][mesh.nv] positions that were given and that plates do not reach; NULL: they do */
     rg_frame *frame;       /* [report.frame_count] */
     rg_try *tried;         /* [report.tried_count] */
@@ -51,6 +53,17 @@ struct rg_motion {
 };
 
 void rg_motion_free_stages(rg_stages *q);
+/* One of the states that a motion is known by: its frames, and those between them. */
+typedef struct rg_motion_state {
+    const double *rho;  /* [mesh.N] */
+    const rg_vec2 *X;   /* [mesh.nv] */
+    int32_t frame;      /* the frame that it is, or that it comes after */
+    int is_between;
+} rg_motion_state;
+
+/* How many there are, and the k-th of them; k rises by one from call to call, from 0. *gaps: how many of them lay between frames. */
+int32_t rg_motion_states(const rg_motion *m);
+rg_motion_state rg_motion_state_at(const rg_motion *m, int32_t k, int32_t *gaps);
 /* The pattern of a frame, [mesh.nv]. */
 const rg_vec2 *rg_motion_pattern(const rg_motion *m, int32_t f);
 /* x[mesh.nv]: out, positions in frame f, 0 <= f < report.frame_count. RG_ENOMEM. */

@@ -318,6 +318,7 @@ static rg_status drop_open_frames(rg_attempt *t)
         kept++;
     }
     if (s == RG_OK) t->count = kept;
+    rg_gaps_free(&t->gaps, &t->mem);
     if (tree.mem.resize) rg_tree_free(&tree);
     rg_mem_free(&t->mem, place);
     return s;
@@ -500,23 +501,26 @@ static rg_status share_frames(work *w)
     return RG_OK;
 }
 
-/* As rg_attempt_reader. */
-static void read(void *ctx, double progress, double *rho, rg_vec2 *X)
+/* As rg_path_reader. What is a frame but for rounding is one. */
+static int read(void *ctx, double progress, double *rho, rg_vec2 *X)
 {
     const work *w = ctx;
     const rg_attempt *t = &w->search.best;
-    const int32_t k = (int32_t)lround(progress * (w->frames - 1)), *first = w->first_frame;
+    const int32_t *first = w->first_frame;
+    double k = progress * (w->frames - 1);
+    if (fabs(k - round(k)) <= 1e-9 * w->frames) k = round(k);
     int32_t j = 0;
     while (j < w->simple.stages && k > first[j + 1]) j++;
-    const double done = first[j + 1] > first[j] ? (double)(k - first[j]) / (first[j + 1] - first[j]) : 1;
+    const double done = first[j + 1] > first[j] ? (k - first[j]) / (first[j + 1] - first[j]) : 1;
     const int32_t at = j == 0 && w->simple.base > 0 ? (int32_t)lround(done * (t->count - 1)) : -1;
     memcpy(X, w->X, (size_t)w->fine.nv * sizeof *X);
     if (at >= 0 && at < t->count - 1) {
         rg_overlay_angles(&w->of_base, t->rho + (size_t)at * (size_t)t->mesh.N, rho);
         if (t->flat) rg_overlay_points(&w->of_base, t->flat + (size_t)at * (size_t)t->mesh.nv, X);
-        return;
+        return 1;
     }
     for (int32_t i = 0; i < w->fine.N; i++) rho[i] = w->stage[i] < 0 || w->stage[i] > j ? 0 : w->stage[i] == j && j > 0 ? done * w->end[i] : w->end[i];
+    return 1;
 }
 
 /* ------------------------------------------------------------------------------------------------- what is told ---- */

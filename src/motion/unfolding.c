@@ -22,8 +22,8 @@ static const double AGAIN = 3;
 /* A path is looked at in so many states, evenly in percent, whatever frames are asked for: what is chosen must not depend on them. */
 static const int32_t LOOKED_AT = 121;
 
-/* The first frame in which facets cross, or before which they do on the way; -1: none, or the watch (NULL: nobody's) stopped it
- * before it came to one. *unproved: out, ways between frames of which neither is sure. */
+/* The first state, of frames and what lies between them, in which facets cross, or before which they do on the way; -1: none, or the
+ * watch (NULL: nobody's) stopped it before it came to one. *unproved: out, ways between states of which neither is sure. */
 static rg_status first_crossing(const rg_attempt *t, rg_watch *watch, int32_t *frame, int32_t *unproved)
 {
     const rg_mesh *m = &t->mesh;
@@ -34,13 +34,16 @@ static rg_status first_crossing(const rg_attempt *t, rg_watch *watch, int32_t *f
     rg_status s = place && x ? rg_tree_init(m, -1, &tree) : RG_ENOMEM;
     if (s == RG_OK) s = rg_course_init(m, &course);
     *frame = -1;
-    for (int32_t k = 0; s == RG_OK && k < t->count && course.found.first < 0 && !(watch && rg_watch_asked(watch)); k++) {
-        const rg_vec2 *X = t->flat ? t->flat + (size_t)k * (size_t)m->nv : m->X;
-        rg_pose_facets(m, X, &tree, t->rho + (size_t)k * (size_t)m->N, place);
+    const int32_t all = t->count + t->gaps.count;
+    for (int32_t k = 0, j = 0; s == RG_OK && k + j < all && course.found.first < 0 && !(watch && rg_watch_asked(watch));) {
+        const int gap = j < t->gaps.count && t->gaps.after[j] < k;
+        const size_t at = (size_t)(gap ? j++ : k++);
+        const rg_vec2 *flat = gap ? t->gaps.flat : t->flat, *X = flat ? flat + at * (size_t)m->nv : m->X;
+        rg_pose_facets(m, X, &tree, (gap ? t->gaps.rho : t->rho) + at * (size_t)m->N, place);
         rg_pose_vertices(m, X, &tree, place, x);
         s = rg_course_add(&course, &(rg_plates_state){X, place, x});
     }
-    if (s == RG_OK && course.found.states == t->count) s = rg_course_end(&course);
+    if (s == RG_OK && course.found.states == all) s = rg_course_end(&course);
     if (s == RG_OK) *frame = course.found.first;
     *unproved = course.found.unproved;
     rg_course_free(&course);
@@ -72,14 +75,18 @@ static int stop(void *ctx, double done)
     return w->cancelled;
 }
 
-static void read(void *ctx, double progress, double *rho, rg_vec2 *X) { rg_unfold_read(ctx, progress, rho, X); }
+static int read(void *ctx, double progress, double *rho, rg_vec2 *X)
+{
+    rg_unfold_read(ctx, progress, rho, X);
+    return 1;
+}
 
 /* What unfolding found, as an attempt. */
-static rg_status take_over(rg_attempt *t, rg_unfold *u, const rg_mesh *none, const rg_settings *s, int shorter, rg_diag *why)
+static rg_status take_over(rg_attempt *t, rg_unfold *u, const rg_mesh *none, const rg_settings *s, rg_diag *why)
 {
     rg_mesh m;
     const double sign = s->to < 0 ? -1 : 1;
-    rg_status status = shorter ? rg_triangulate_short(none, &m) : rg_triangulate_all(none, &m);
+    rg_status status = rg_triangulate_all(none, &m);
     if (status != RG_OK) return status;
     double *target = rg_mem_array(&u->mem, (size_t)m.N, sizeof *target);
     if (!target) {
@@ -128,14 +135,18 @@ static rg_status accept(void *ctx, rg_unfold *u, int *yes)
 {
     taker *k = ctx;
     rg_attempt t = {0};
+    rg_settings look = *k->settings;
     int32_t crossing = -1, unproved = 0;
-    rg_status s = take_over(&t, u, k->none, k->settings, 0, k->why);
+    look.frames = LOOKED_AT;
+    look.pace = RG_PACE_PERCENT;
+    rg_status s = take_over(&t, u, k->none, &look, k->why);
     if (s == RG_OK) s = first_crossing(&t, k->watch, &crossing, &unproved);
     const int good = s == RG_OK && crossing < 0 && !k->watch->cancelled && rg_search_is_folded(&t);
     *yes = good && unproved == 0;
     if (good && (*yes || !k->found.mem.resize)) {
         rg_attempt_free(&k->found);
-        k->found = t;
+        rg_attempt_free(&t);
+        s = take_over(&k->found, u, k->none, k->settings, k->why);
         memcpy(k->how, u->how, sizeof k->how);
         u->most = fmin(u->most, AGAIN * u->work);
     } else {

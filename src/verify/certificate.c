@@ -60,9 +60,22 @@ static rg_status look(rg_certificate *c, rg_record *r, const rg_pattern *given)
     return s;
 }
 
+/* From states to the file's frames. */
+static void number_faults(rg_certificate *c, const rg_record *r)
+{
+    for (int32_t i = 0; i < c->faults.count && i < RG_FAULTS_KEPT; i++) {
+        rg_fault *f = &c->faults.list[i];
+        if (f->frame < 0) continue;
+        const int32_t k = f->frame;
+        f->frame = r->number[k];
+        const size_t used = strlen(f->text);
+        if (k + 1 < r->frames && r->number[k + 1] == r->number[k])
+            rg_text(f->text + used, sizeof f->text - used, " (in a state before that frame)");
+    }
+}
+
 rg_status rg_certificate_parse(const void *bytes, size_t size, const rg_pattern *given, const rg_memory *memory,
-                               rg_certificate **certificate,
-                               rg_diag *why)
+                               rg_certificate **certificate, rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(memory);
     rg_record r = {0};
@@ -73,14 +86,17 @@ rg_status rg_certificate_parse(const void *bytes, size_t size, const rg_pattern 
     if (s == RG_OK) {
         s = look(c, &r, given);
         if (s == RG_ENOMEM) rg_fail(s, why, 0, "out of memory");
-        c->info = (rg_certificate_info){.valid = c->faults.count == 0, .facets = r.nf, .frames = r.frames,
-                                        .faults = c->faults.count,
+        const int32_t frames = r.number[r.frames - 1] + 1;
+        number_faults(c, &r);
+        c->info = (rg_certificate_info){.valid = c->faults.count == 0, .facets = r.nf, .frames = frames,
+                                        .between = r.frames - frames, .faults = c->faults.count,
             .max_sheet = c->isometry.sheet, .max_rigid = c->isometry.rigid, .max_closure = c->isometry.closed,
                 .max_angle = c->isometry.angle,
             .max_leap_deg = c->isometry.leap / RG_DEG, .max_wrong_side_deg = c->isometry.wrong / RG_DEG,
                 .contact_depth = c->through.depth,
             .between_depth = c->through.allowed, .ends_flat = c->pile.is_flat, .layer_pairs = c->pile.pairs,
                 .layers_shown = c->pile.seen};
+        for (int32_t k = 0; k < r.frames; k++) r.percent[r.number[k]] = r.percent[k]; /* a frame comes after what lies before it */
         c->percent = r.percent; /* kept, to say where */
         r.percent = NULL;
     }
@@ -131,10 +147,12 @@ static void write_text(const rg_certificate *c, FILE *out)
     }
     if (i->faults > SHOWN) rg_text_to(out, "and %d more\n", (int)(i->faults - SHOWN));
     if (!i->valid) return;
+    char between[60] = "";
+    if (i->between) rg_text(between, sizeof between, " and %d states between them", (int)i->between);
     rg_text_to(out,
-               "valid: one sheet, %d rigid facets, closed in all of %d frames; nothing crosses in them deeper than %g "
+               "valid: one sheet, %d rigid facets, closed in all of %d frames%s; nothing crosses in them deeper than %g "
                "of the sheet, or on rigid ways between them deeper than %.2g\n",
-               (int)i->facets, (int)i->frames, RG_THROUGH_LEAST, i->between_depth);
+               (int)i->facets, (int)i->frames, between, RG_THROUGH_LEAST, i->between_depth);
     if (i->ends_flat)
         rg_text_to(out,
                    "the last frame lies flat and rests on the order of its layers alone: %d pairs of facets, valid; %d "
@@ -151,6 +169,7 @@ static void write_json(const rg_certificate *c, FILE *out)
     rg_json_string(&j, "rigami", RG_VERSION);
     rg_json_bool(&j, "valid", i->valid);
     rg_json_integer(&j, "frames", i->frames);
+    rg_json_integer(&j, "states_between", i->between);
     rg_json_integer(&j, "facets", i->facets);
     rg_json_number(&j, "max_sheet", i->max_sheet);
     rg_json_number(&j, "max_rigid", i->max_rigid);

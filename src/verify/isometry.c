@@ -348,14 +348,15 @@ static void check_path(const rg_record *r, rg_faults *all, rg_isometry *found)
 {
     const int begins_flat = is_flat(r, 0);
     const double as = way_of(r);
+    double before = NAN; /* percent of the frame before */
     for (int32_t k = 0; k < r->frames; k++) {
         const double percent = percent_of(r, k, as);
         if (begins_flat && !isnan(r->percent[k]) && !isnan(percent) && !(fabs(percent - r->percent[k]) <= PERCENT))
             rg_faults_add(all, k, -1, -1, "is %.6g %% folded by its angles, not %.6g %%", percent, r->percent[k]);
+        if (r->percent[k] < before - PERCENT)
+            rg_faults_add(all, k, -1, -1, "the path goes back, from %.6g %% to %.6g %%", before, r->percent[k]);
+        if (!isnan(r->percent[k])) before = r->percent[k];
         if (k == 0) continue;
-        if (r->percent[k] < r->percent[k - 1] - PERCENT)
-            rg_faults_add(all, k, -1, -1, "the path goes back, from %.6g %% to %.6g %%", r->percent[k - 1],
-                          r->percent[k]);
         for (int32_t e = 0; e < r->ne; e++) {
             const double change = fabs(angles_of(r, k)[e] - angles_of(r, k - 1)[e]);
             if (side_of(r->assignment[e]) != 0 && change > found->leap) found->leap = change, found->leap_to = k;

@@ -186,6 +186,9 @@ static rg_status orders(const reader *q, const rg_value *frame)
     return RG_OK;
 }
 
+static int is_placed(const rg_value *frame) { return rg_value_get(frame, "vertices_coords") != NULL; }
+
+/* Frames, and with each the states that its file has between it and the next one. */
 static rg_status frames(const reader *q)
 {
     rg_record *r = q->r;
@@ -193,21 +196,32 @@ static rg_status frames(const reader *q)
     rg_status s = list(q, q->root, "file_frames", -1, &v);
     if (s != RG_OK) return s;
     const int32_t n = (int32_t)rg_value_count(v);
-    for (int32_t k = 0; k < n; k++) r->frames += rg_value_get(rg_value_at(v, (size_t)k), "vertices_coords") != NULL;
-    if (r->frames < 1) return bad(q, "none has vertices_coords", "file_frames");
+    int64_t states = 0;
+    for (int32_t k = 0; k < n; k++)
+        if (is_placed(rg_value_at(v, (size_t)k)))
+            states += 1 + (int64_t)rg_value_count(rg_value_get(rg_value_at(v, (size_t)k), "rigami:between"));
+    if (states < 1) return bad(q, "none has vertices_coords", "file_frames");
+    if (states > MOST) return bad(q, "too many", "file_frames");
+    r->frames = (int32_t)states;
+    r->number = room(q, r->frames, sizeof *r->number);
     r->percent = room(q, r->frames, sizeof *r->percent);
     r->x = room(q, (int64_t)r->frames * r->nv, sizeof *r->x);
     r->rho = room(q, (int64_t)r->frames * r->ne, sizeof *r->rho);
     r->flat = room(q, (int64_t)r->frames * r->nv, sizeof *r->flat);
-    if (!r->percent || !r->x || !r->rho || !r->flat) return RG_ENOMEM;
-    int32_t at = 0;
+    if (!r->number || !r->percent || !r->x || !r->rho || !r->flat) return RG_ENOMEM;
+    int32_t at = 0, number = 0;
     for (int32_t k = 0; s == RG_OK && k < n; k++) {
-        const rg_value *frame = rg_value_at(v, (size_t)k);
-        if (!rg_value_get(frame, "vertices_coords")) continue;
+        const rg_value *frame = rg_value_at(v, (size_t)k), *between = rg_value_get(frame, "rigami:between");
+        if (!is_placed(frame)) continue;
+        r->number[at] = number++;
         s = one_frame(q, frame, at++);
         if (s == RG_OK && at == r->frames) s = orders(q, frame);
+        for (size_t i = 0; s == RG_OK && i < rg_value_count(between); i++) {
+            r->number[at] = number;
+            s = one_frame(q, rg_value_at(between, i), at++);
+        }
     }
-    return s;
+    return s == RG_OK && r->number[r->frames - 1] == number ? bad(q, "the last frame has states after it", "rigami:between") : s;
 }
 
 rg_status rg_record_parse(const char *bytes, size_t size, const rg_memory *mem, rg_record *r, rg_diag *why)
@@ -244,9 +258,9 @@ void rg_record_free(rg_record *r)
 {
     if (!r->mem.resize) return;
     void *block[] = {r->X, r->edge, r->assignment, r->target, r->added, r->start, r->corner, r->turned, r->side,
-                     r->percent, r->x, r->rho,
+                     r->number, r->percent, r->x, r->rho,
                      r->flat, r->order};
-    for (int i = 0; i < 14; i++) rg_mem_free(&r->mem, block[i]);
+    for (int i = 0; i < 15; i++) rg_mem_free(&r->mem, block[i]);
     memset(r, 0, sizeof *r);
 }
 

@@ -12,7 +12,8 @@
 
 typedef struct rg_record {
     rg_memory mem;
-    int32_t nv, ne, nf, frames;
+    int32_t nv, ne, nf;
+    int32_t frames;           /* states: frames, and what the file has between them */
     double size;              /* the diagonal of the pattern over sqrt(2): the side of a square */
     rg_vec2 *X;               /* [nv] the pattern */
     int32_t (*edge)[2];       /* [ne] */
@@ -23,6 +24,7 @@ typedef struct rg_record {
     unsigned char *turned;    /* [nf] non-zero: the file has it clockwise */
     /* [ne] the facets left and right of edge[e][0] -> edge[e][1]; -1: none; found by isometry.c */
     int32_t (*side)[2];
+    int32_t *number;          /* [frames] the frame's number in the file; of what lies between two, that of the second */
     double *percent;          /* [frames] NAN: not said */
     rg_vec3 *x;               /* [frames][nv] */
     double *rho;              /* [frames][ne] radians */

@@ -168,29 +168,58 @@ static rg_status rest(rg_json *j, const rg_motion *m)
     return status;
 }
 
-static void one_frame(rg_json *j, const rg_motion *m, int32_t k, const rg_vec3 *x)
+/* Where vertices are, by which angles, and on which pattern, where that is not the one given. */
+static void state(rg_json *j, const rg_mesh *mesh, const rg_motion_state *s, const rg_vec3 *x)
 {
-    const rg_mesh *mesh = &m->mesh;
-    const rg_vec2 *X = rg_motion_pattern(m, k);
-    const double *rho = rg_motion_angles(m, k);
+    coords3(j, x, mesh->nv);
+    rg_json_open_line(j, "edges_foldAngle", '[');
+    for (int32_t e = 0; e < mesh->ne; e++) {
+        const int32_t i = mesh->edge_crease[e];
+        rg_json_number(j, NULL, i < 0 ? 0 : rg_number_degrees(s->rho[i]));
+    }
+    rg_json_close(j);
+    if (memcmp(s->X, mesh->X, (size_t)mesh->nv * sizeof *s->X) != 0) coords2(j, "rigami:vertices_flatCoords", s->X, mesh->nv);
+}
+
+/* States number *k ... after a frame, up to the next one; as in rg_motion_state_at. Most frames have none. */
+static rg_status between(rg_json *j, const rg_motion *m, int32_t frame, int32_t *k, int32_t *gaps, rg_vec3 *x)
+{
+    rg_place *place = NULL;
+    for (; *gaps < m->gaps.count && m->gaps.after[*gaps] == frame; ++*k) {
+        const rg_motion_state s = rg_motion_state_at(m, *k, gaps);
+        if (!place) {
+            place = rg_mem_array(&m->mem, (size_t)m->mesh.nf, sizeof *place);
+            if (!place) return RG_ENOMEM;
+            rg_json_open(j, "rigami:between", '[');
+        }
+        rg_pose_facets(&m->mesh, s.X, &m->tree, s.rho, place);
+        rg_pose_vertices(&m->mesh, s.X, &m->tree, place, x);
+        rg_json_open(j, NULL, '{');
+        state(j, &m->mesh, &s, x);
+        rg_json_close(j);
+    }
+    if (place) rg_json_close(j);
+    rg_mem_free(&m->mem, place);
+    return RG_OK;
+}
+
+/* The frame that is state *k, and the states up to the next frame. */
+static rg_status one_frame(rg_json *j, const rg_motion *m, int32_t *k, int32_t *gaps, rg_vec3 *x)
+{
+    const rg_motion_state s = rg_motion_state_at(m, (*k)++, gaps);
     rg_json_open(j, NULL, '{');
     rg_json_integer(j, "frame_parent", 0);
     rg_json_bool(j, "frame_inherit", 1);
     strings(j, "frame_classes", "foldedForm", NULL);
     strings(j, "frame_attributes", "3D", "orientable");
-    rg_json_number(j, "rigami:percent", rg_number_tidy(m->frame[k].percent));
-    rg_json_number(j, "rigami:closure_residual", m->frame[k].closure_residual);
-    coords3(j, x, mesh->nv);
-    rg_json_open_line(j, "edges_foldAngle", '[');
-    for (int32_t e = 0; e < mesh->ne; e++) {
-        const int32_t i = mesh->edge_crease[e];
-        rg_json_number(j, NULL, i < 0 ? 0 : rg_number_degrees(rho[i]));
-    }
-    rg_json_close(j);
-    const rg_layers *layers = rg_ending_layers(m, k);
+    rg_json_number(j, "rigami:percent", rg_number_tidy(m->frame[s.frame].percent));
+    rg_json_number(j, "rigami:closure_residual", m->frame[s.frame].closure_residual);
+    state(j, &m->mesh, &s, x);
+    const rg_layers *layers = rg_ending_layers(m, s.frame);
     if (layers) face_orders(j, layers);
-    if (memcmp(X, mesh->X, (size_t)mesh->nv * sizeof *X) != 0) coords2(j, "rigami:vertices_flatCoords", X, mesh->nv);
+    const rg_status status = between(j, m, s.frame, k, gaps, x);
     rg_json_close(j);
+    return status;
 }
 
 rg_status rg_foldfile_write(const rg_motion *m, int32_t frame, const rg_picture *p, FILE *out)
@@ -206,9 +235,10 @@ rg_status rg_foldfile_write(const rg_motion *m, int32_t frame, const rg_picture 
     key_frame(&j, &m->mesh);
     s = rest(&j, m);
     rg_json_open(&j, "file_frames", '[');
-    for (int32_t k = 0; s == RG_OK && k < m->report.frame_count; k++) {
-        s = rg_picture_ended(p, (double)k / m->report.frame_count) ? RG_ECANCELLED : rg_motion_place(m, k, x);
-        if (s == RG_OK) one_frame(&j, m, k, x);
+    int32_t gaps = 0;
+    for (int32_t k = 0; s == RG_OK && k < rg_motion_states(m);) {
+        s = rg_picture_ended(p, (double)k / rg_motion_states(m)) ? RG_ECANCELLED : rg_motion_place(m, k - gaps, x);
+        if (s == RG_OK) s = one_frame(&j, m, &k, &gaps, x);
     }
     rg_json_close(&j);
     rg_json_close(&j);
