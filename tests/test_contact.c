@@ -689,7 +689,7 @@ static void the_first_crossing_of_a_motion(void **state)
             for (int32_t i = 1; i < m.N; i++) rho[i] = (i % 2 ? -0.02 : 0.02) * a; /* the others hardly move */
             pose(&m, &t, rho, &s);
             const rg_plates_state now = {m.X, s.place, s.x};
-            assert_int_equal(rg_course_add(&c, &now), RG_OK);
+            assert_int_equal(rg_course_add(&c, &now, 1), RG_OK);
             if (past < 0 && a > RG_PI) past = states;
         }
         assert_int_equal(rg_course_end(&c), RG_OK);
@@ -733,7 +733,7 @@ static void what_a_way_may_bend_is_not_held_against_it(void **state)
         for (double rho = 2.28; rho < 3.25; rho += 0.1) {
             pose(&m, &t, &rho, &s);
             const rg_plates_state now = {m.X, s.place, s.x};
-            assert_int_equal(rg_course_add(&c, &now), RG_OK);
+            assert_int_equal(rg_course_add(&c, &now, 1), RG_OK);
         }
         assert_int_equal(rg_course_end(&c), RG_OK);
         assert_int_equal(c.found.states, 10);
@@ -772,7 +772,7 @@ static void layers_change_places(void **state)
                 rho[!first] = turn * (k < 12 ? 0 : k < 24 ? k - 12 : 12);
                 if (k > 27) rho[lifted] = turn * (12 - (k - 27));
                 pose(&m, &t, rho, &s);
-                assert_int_equal(rg_course_add(&c, &(rg_plates_state){m.X, s.place, s.x}), RG_OK);
+                assert_int_equal(rg_course_add(&c, &(rg_plates_state){m.X, s.place, s.x}, 1), RG_OK);
             }
             assert_int_equal(rg_course_end(&c), RG_OK);
             assert_int_equal(c.found.crossing, 0);

@@ -399,6 +399,42 @@ static void steadily(void **state)
     }
 }
 
+/* How many frames are asked for is how it is shown: not what is found, nor whether it passes through itself. From state to state, frame or
+ * not, nothing turns far. */
+static void whatever_frames_are_asked_for(void **state)
+{
+    (void)state;
+    static const char *const kinds[] = {"boxpleat", "closed-adjust", "open-sink"};
+    static const int32_t frames[] = {2, 5, 24, 60, 121};
+    for (int k = 0; k < 3; k++) {
+        rg_report first = {0};
+        char how[200] = "";
+        int32_t added = 0;
+        for (int n = 0; n < 5; n++) {
+            rg_settings s = rg_settings_default();
+            s.frames = frames[n];
+            rg_motion *m = motion_of(generated(kinds[k], 0), &s);
+            const rg_report *r = &m->report;
+            if (n == 0) first = *r, added = m->mesh.added, snprintf(how, sizeof how, "%s", r->strategy);
+            assert_int_equal(r->outcome, first.outcome);
+            assert_int_equal(r->contact, first.contact);
+            assert_int_equal(m->mesh.added, added);
+            assert_string_equal(r->strategy, how);
+            near(r->folded_percent, first.folded_percent, 1e-6);
+            if (r->contact == RG_CONTACT_CROSSES) near(r->first_contact_percent, first.first_contact_percent, 2);
+            int32_t gaps = 0;
+            const double *before = NULL;
+            for (int32_t i = 0; i < rg_motion_states(m); i++) {
+                const rg_motion_state at = rg_motion_state_at(m, i, &gaps);
+                for (int32_t c = 0; before && c < m->mesh.N; c++) below(fabs(at.rho[c] - before[c]), 5 * RG_DEG + 1e-12);
+                before = at.rho;
+            }
+            assert_int_equal(gaps, m->gaps.count);
+            rg_motion_destroy(m);
+        }
+    }
+}
+
 static void the_same_bits_twice(void **state)
 {
     (void)state;
@@ -561,7 +597,7 @@ int main(void)
         cmocka_unit_test(closed_vertices_that_adjusting_frees), cmocka_unit_test(more_that_fold_adjusted),
         cmocka_unit_test(switched_off_nothing_moves), cmocka_unit_test(what_cannot_fold_is_told), cmocka_unit_test(the_other_way),
         cmocka_unit_test(interrupted), cmocka_unit_test(no_more_cuts_than_have_to_be), cmocka_unit_test(straight_on_with_fewer_cuts), cmocka_unit_test(a_part_of_the_way), cmocka_unit_test(a_part_too_far),
-        cmocka_unit_test(steadily), cmocka_unit_test(the_same_bits_twice), cmocka_unit_test(fold_files_carry_the_pattern_of_each_frame),
+        cmocka_unit_test(steadily), cmocka_unit_test(whatever_frames_are_asked_for), cmocka_unit_test(the_same_bits_twice), cmocka_unit_test(fold_files_carry_the_pattern_of_each_frame),
         cmocka_unit_test(the_report_file_says_the_same),
         cmocka_unit_test(patterns_are_as_their_readme_says),
     };

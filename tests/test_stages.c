@@ -306,7 +306,7 @@ static void real_patterns(void **state)
             rg_pose_facets(m, X, &tree, c.best.rho + (size_t)k * (size_t)m->N, place);
             rg_pose_vertices(m, X, &tree, place, x);
             below(rg_pose_gap(X, &tree, place) / m->size, 1e-10);
-            (void)rg_course_add(&course, &(rg_plates_state){X, place, x});
+            (void)rg_course_add(&course, &(rg_plates_state){X, place, x}, 1);
         }
         (void)rg_course_end(&course);
         if (course.found.first >= 0) fail_msg("facets %d and %d cross at frame %d", (int)course.found.facet[0], (int)course.found.facet[1], (int)course.found.first);

@@ -297,6 +297,49 @@ static void a_moved_vertex_is_found(void **state)
     }
 }
 
+/* A file of two frames has what lies between them, and is known as well by it; what is done to that is found out, too. */
+static void what_lies_between_frames_is_looked_at(void **state)
+{
+    (void)state;
+    unsigned seed = 53;
+    char text[200];
+    int frame;
+    rg_certificate_info info;
+    for (int n = 0; n < NAMES; n++) {
+        rg_settings s = rg_settings_default();
+        s.frames = 2;
+        fold(n, s);
+        rg_certificate *c = judge(NULL);
+        info = *rg_certificate_get_info(c);
+        rg_certificate_destroy(c);
+        assert_true(info.valid);
+        assert_int_equal(info.frames, 2);
+        assert_true(info.between >= 40);
+        assert_true(info.max_leap_deg <= 5 + 1e-9);
+        json_t *j = json_load_file(written, 0, NULL), *between = json_object_get(json_array_get(frames_of(j), 0), "rigami:between");
+        assert_int_equal(json_array_size(between), info.between);
+        for (int k = 0; k < 10; k++) {
+            json_t *bad = json_deep_copy(j), *of = json_object_get(json_array_get(frames_of(bad), 0), "rigami:between");
+            json_t *all = json_object_get(json_array_get(of, (size_t)whole(&seed, info.between)), "vertices_coords");
+            json_t *x = json_array_get(all, (size_t)whole(&seed, (int)json_array_size(all)));
+            json_array_set_new(x, 2, json_real(json_number_value(json_array_get(x, 2)) + 1e-3 * size_of(j)));
+            assert_false(is_valid(bad, text, &frame));
+            assert_int_equal(frame, 1);
+            assert_non_null(strstr(text, "(in a state before that frame)"));
+            json_decref(bad);
+        }
+        json_t *last = json_array_get(frames_of(j), 1);
+        json_object_set(last, "rigami:between", between);
+        assert_false(is_valid(j, text, &frame));
+        json_object_del(last, "rigami:between");
+        assert_true(is_valid(j, text, &frame));
+        json_object_del(json_array_get(frames_of(j), 0), "rigami:between");
+        assert_false(is_valid(j, text, &frame));
+        assert_non_null(strstr(text, "leap"));
+        json_decref(j);
+    }
+}
+
 static void exchanged_frames_are_found(void **state)
 {
     (void)state;
@@ -436,6 +479,7 @@ int main(void)
         cmocka_unit_test(passing_between_frames_is_found),
         cmocka_unit_test(layers_that_change_places_are_found),
         cmocka_unit_test(a_moved_vertex_is_found),
+        cmocka_unit_test(what_lies_between_frames_is_looked_at),
         cmocka_unit_test(exchanged_frames_are_found),
         cmocka_unit_test(a_reversed_order_is_found),
         cmocka_unit_test(other_changes_are_found),

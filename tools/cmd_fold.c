@@ -104,7 +104,7 @@ static void summarize(const options *o, const char *name, const rg_motion *m)
 static void summarize_contact(const rg_report *r)
 {
     if (r->contact == RG_CONTACT_FREE && r->contact_unproved > 0)
-        printf("  contact   no facets cross in any frame; %d of the ways between frames could not be proved free\n",
+        printf("  contact   no facets cross in any frame; %d of the ways between states could not be proved free\n",
                (int)r->contact_unproved);
     else if (r->contact == RG_CONTACT_FREE)
         printf("  contact   no facets cross, in frames or between them\n");

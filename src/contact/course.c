@@ -69,10 +69,11 @@ static rg_status look_between(rg_course *c, int32_t k, double bend)
     return RG_OK;
 }
 
-/* State k by itself. */
-static void look_at(rg_course *c, int32_t k)
+/* State k by itself; of one between frames only whether it is the first that crosses. */
+static void look_at(rg_course *c, int32_t k, int is_frame)
 {
     rg_course_found *f = &c->found;
+    if (!is_frame && f->first >= 0) return;
     const rg_vec3 *x = c->state[k % 3].x;
     rg_contact_hit hit = c->last;
     /* What crossed before crosses still, as a rule; then only what is deeper than all so far is looked for. */
@@ -82,11 +83,12 @@ static void look_at(rg_course *c, int32_t k)
     const int found = rg_contact_deepest(&c->plates, x, least, &c->look, &hit);
     if (!found && !still) return;
     c->last = hit;
-    f->crossing++;
     if (f->first < 0) {
         f->first = k;
         memcpy(f->facet, hit.facet, sizeof f->facet);
     }
+    if (!is_frame) return;
+    f->crossing++;
     if (!found || !(hit.depth > f->deepest.depth)) return;
     f->deepest = hit;
     f->deepest_state = k;
@@ -106,7 +108,7 @@ static double bend_of(const rg_course *c, int32_t k)
 }
 
 /* What comes after a way is needed to know how it bends, so that ways are looked at one state late. */
-rg_status rg_course_add(rg_course *c, const rg_plates_state *s)
+rg_status rg_course_add(rg_course *c, const rg_plates_state *s, int is_frame)
 {
     const rg_mesh *m = c->plates.mesh;
     const int32_t k = c->found.states++;
@@ -119,7 +121,7 @@ rg_status rg_course_add(rg_course *c, const rg_plates_state *s)
         status = look_between(c, k - 1, fmax(bend, c->bend));
         c->bend = bend;
     }
-    look_at(c, k);
+    look_at(c, k, is_frame);
     return status;
 }
 

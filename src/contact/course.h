@@ -17,8 +17,8 @@ typedef struct rg_course_found {
     int between;           /* non-zero: on the way from the state before */
     double time;           /* how far on that way, 0 ... 1; 1: in the state */
     int32_t facet[2];      /* which; -1: none */
-    int32_t crossing;      /* states in which facets cross */
-    int32_t deepest_state; /* -1: none */
+    int32_t crossing;      /* frames in which facets cross */
+    int32_t deepest_state; /* of the frames; -1: none */
     rg_contact_hit deepest;
     int32_t pairs;         /* how many cross in the state that is deepest */
     /* of the ways before the first crossing: */
@@ -44,8 +44,8 @@ typedef struct rg_course {
 /* The mesh is borrowed. RG_ENOMEM: *c is zeroed. */
 rg_status rg_course_init(const rg_mesh *m, rg_course *c);
 void rg_course_free(rg_course *c);
-/* The next state; it is copied. RG_ENOMEM. */
-rg_status rg_course_add(rg_course *c, const rg_plates_state *s);
+/* The next state; it is copied. is_frame zero: it lies between frames, and counts for what crosses first alone. RG_ENOMEM. */
+rg_status rg_course_add(rg_course *c, const rg_plates_state *s, int is_frame);
 /* After the last one; c->found is complete then. RG_ENOMEM. */
 rg_status rg_course_end(rg_course *c);
 /* Of a course that ended without a crossing: the i-th of the c->sweep.n_before pairs of parts that came near each

@@ -5,6 +5,7 @@
 #include "fold/chord.h"
 #include "fold/tuning.h"
 #include "motion/diagnose.h"
+#include "motion/forth.h"
 #include "motion/rest.h"
 
 #include <stdio.h>
@@ -36,14 +37,14 @@ static rg_status make_room(rg_attempt *t, const rg_mesh *m)
     return t->target && t->from && t->vertex && t->crease ? RG_OK : RG_ENOMEM;
 }
 
-static int is_cancelled(rg_watch *w, double done)
+int rg_watch_tell(rg_watch *w, double done)
 {
     if (w->given_up && w->given_up(w->given_up_ctx)) w->cancelled = 1;
     if (w->progress && !w->cancelled) w->cancelled = w->progress(w->ctx, fmin(1, fmax(0, done))) != 0;
     return w->cancelled;
 }
 
-int rg_watch_asked(void *watch) { return is_cancelled(watch, 1); }
+int rg_watch_asked(void *watch) { return rg_watch_tell(watch, 1); }
 
 /* ------------------------------------------------------------------------------------- what it came to ---- */
 
@@ -94,6 +95,8 @@ static void cut_back(rg_attempt *t)
 {
     int32_t *n = t->relax ? &t->relax->nodes : &t->count, good = 0;
     while (good < *n && beyond(t, state(t, good)) <= MOST_OVER) good++;
+    for (int32_t j = 0; !t->relax && j < t->gaps.count && t->gaps.after[j] < good; j++)
+        if (!(beyond(t, t->gaps.rho + (size_t)j * (size_t)t->mesh.N) <= MOST_OVER)) good = t->gaps.after[j] + 1;
     if (good == *n) return;
     *n = good > 0 ? good : 1;
     while (!t->relax && t->gaps.count > 0 && t->gaps.after[t->gaps.count - 1] >= *n - 1) t->gaps.count--;
@@ -144,48 +147,6 @@ double rg_attempt_largest_angle(const rg_attempt *t, int32_t i)
 
 /* ------------------------------------------------------------------------------------------ straight on ---- */
 
-static int read_straight(void *ctx, double progress, double *rho, rg_vec2 *X)
-{
-    (void)X; /* it is the pattern given */
-    return rg_straight_between(ctx, progress, rho);
-}
-
-/* Keeps where it is, at progress now, as the next frame. *kept: the progress of the one before. */
-static rg_status keep_frame(rg_attempt *t, const rg_straight *f, double now, rg_gap_filler *between, double *kept)
-{
-    const size_t N = (size_t)f->mesh.N;
-    double *rho = t->rho + (size_t)t->count * N;
-    memcpy(rho, f->rho, N * sizeof *rho);
-    const double from = *kept;
-    *kept = now;
-    return t->count++ && between ? rg_gap_fill(between, &t->gaps, t->count - 2, from, rho - N, now, rho) : RG_OK;
-}
-
-/* One run through the frames that are due. due NULL: evenly in progress. */
-static rg_status run_straight(rg_attempt *t, rg_straight *f, const double *due, rg_watch *watch)
-{
-    const int looks = f->settings.contact != RG_CONTACT_IGNORE;
-    rg_gap_filler between = {0};
-    rg_step_info info = {0};
-    double kept = 0, at = -1;
-    rg_status s = looks ? rg_gap_filler_init(&between, &t->mem, f->mesh.N, f->mesh.nv, 0, read_straight, f) : RG_OK;
-    rg_straight_set_due(f, due);
-    rg_gaps_free(&t->gaps, &t->mem);
-    t->count = 0;
-    while (s == RG_OK && info.outcome == RG_RUNNING) {
-        s = rg_straight_step(f, &info);
-        if (s == RG_OK && info.frame >= 0) {
-            at = f->s;
-            s = keep_frame(t, f, rg_straight_frame_progress(f, info.frame), looks ? &between : NULL, &kept);
-        }
-        if (is_cancelled(watch, f->s_end > 0 ? info.progress / f->s_end : 1)) break;
-    }
-    if (s == RG_OK && f->s != at) s = keep_frame(t, f, f->s, looks && f->apart.parts == 0 ? &between : NULL, &kept);
-    t->outcome = watch->cancelled ? RG_STOPPED : info.outcome;
-    rg_gap_filler_free(&between);
-    return s;
-}
-
 /* How far such a run goes before it comes to rest; s_rest stays as it is where it does not. */
 static rg_status find_rest(const rg_mesh *drawn, const rg_settings *settings, rg_watch *watch, double *s_rest)
 {
@@ -198,7 +159,7 @@ static rg_status find_rest(const rg_mesh *drawn, const rg_settings *settings, rg
     if (s == RG_OK) s = rg_straight_from_mesh(&m, settings, &f, NULL);
     for (int found = 0; s == RG_OK && !found && info.outcome == RG_RUNNING; found = rg_rest_find(f, rho, t, s_rest)) {
         s = rg_straight_step(f, &info);
-        if (is_cancelled(watch, info.progress)) break;
+        if (rg_watch_tell(watch, info.progress)) break;
     }
     rg_straight_destroy(f);
     rg_mem_free(&mem, rho);
@@ -219,6 +180,8 @@ rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *sett
     const int rests = s_rest < fabs(settings->to);
     if (rests) mine.to = copysign(s_rest, settings->to);
     t->to = mine.to;
+    const int32_t parts = rg_forth_parts(&mine);
+    mine.frames = (mine.frames - 1) * parts + 1;
     if (s == RG_OK) s = rg_straight_from_mesh(m, &mine, &f, why);
     else rg_mesh_free(m);
     if (s != RG_OK) return s;
@@ -226,7 +189,7 @@ rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *sett
     t->rho = rg_mem_array(&t->mem, ((size_t)settings->frames + 1) * (size_t)f->mesh.N, sizeof *t->rho);
     if (!t->rho) s = RG_ENOMEM;
     if (s == RG_OK) rg_straight_set_most_steps(f, most_steps);
-    if (s == RG_OK) s = run_straight(t, f, NULL, watch);
+    if (s == RG_OK) s = rg_forth_run(t, f, parts, watch);
     if (s == RG_OK) {
         memcpy(t->target, f->drive.target, (size_t)f->mesh.N * sizeof *t->target);
         for (int32_t i = f->limit.first_added; i < f->mesh.N; i++) t->target[i] = NAN;
@@ -285,7 +248,7 @@ static rg_status run_relaxed(rg_attempt *t, rg_watch *watch)
     const double begun = rg_seconds();
     while (F->outcome == RG_RUNNING) {
         rg_relax_step(F);
-        if (is_cancelled(watch, F->s_end > 0 ? F->s / F->s_end : 1)) break;
+        if (rg_watch_tell(watch, F->s_end > 0 ? F->s / F->s_end : 1)) break;
     }
     t->outcome = watch->cancelled || (t->backwards && !F->landed) ? RG_STOPPED : F->outcome;
     rg_text(t->reason, sizeof t->reason, "%.190s", watch->cancelled ? "interrupted" : F->reason);
@@ -481,17 +444,24 @@ static void pace_by_states(const double *rho, size_t N, int32_t count, double to
 static rg_status read_steadily(rg_attempt *t, const rg_settings *settings)
 {
     rg_settings mine = *settings;
+    const int32_t frames = settings->frames, parts = rg_forth_parts(settings);
     double *sum = rg_mem_array(&t->mem, (size_t)t->count, sizeof *sum);
-    double *due = rg_mem_array(&t->mem, (size_t)settings->frames, sizeof *due);
+    double *due = rg_mem_array(&t->mem, (size_t)(frames - 1) * (size_t)parts + 1, sizeof *due);
     rg_mesh copy = {0};
     rg_straight *f = NULL;
     rg_watch nobody = {0};
     const rg_outcome outcome = t->outcome;
     mine.to = t->to;
+    mine.frames = (frames - 1) * parts + 1;
     rg_status s = sum && due ? rg_mesh_copy(&t->mesh, &copy) : RG_ENOMEM;
-    if (s == RG_OK) pace_by_states(t->rho, (size_t)t->mesh.N, t->count, fabs(t->to), settings->frames, sum, due);
-    if (s == RG_OK) s = rg_straight_from_mesh(&copy, &mine, &f, NULL);
-    if (s == RG_OK) s = run_straight(t, f, due, &nobody);
+    if (s == RG_OK) {
+        pace_by_states(t->rho, (size_t)t->mesh.N, t->count, fabs(t->to), frames, sum, due);
+        for (int32_t k = frames - 1; k > 0; k--) /* from the last on, none is in another one's place */
+            for (int32_t i = parts; i > 0; i--) due[(k - 1) * parts + i] = due[k - 1] + (due[k] - due[k - 1]) * ((double)i / parts);
+        s = rg_straight_from_mesh(&copy, &mine, &f, NULL);
+    }
+    if (s == RG_OK) rg_straight_set_due(f, due);
+    if (s == RG_OK) s = rg_forth_run(t, f, parts, &nobody);
     t->outcome = outcome;
     rg_straight_destroy(f);
     rg_mem_free(&t->mem, sum);
@@ -521,7 +491,7 @@ rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *set
         for (t->count = 0; t->count < frames; t->count++)
             read(ctx, due[t->count], t->rho + (size_t)t->count * N, t->flat + (size_t)t->count * nv);
     }
-    if (s == RG_OK && settings->contact != RG_CONTACT_IGNORE) s = fill_gaps(t, due, read, ctx);
+    if (s == RG_OK) s = fill_gaps(t, due, read, ctx);
     rg_mem_free(&t->mem, due);
     rg_mem_free(&t->mem, sum);
     if (s != RG_OK) {
@@ -578,5 +548,5 @@ rg_status rg_attempt_read(rg_attempt *t, const rg_settings *settings)
             s = read_off(t, due);
         }
     }
-    return s == RG_OK && settings->contact != RG_CONTACT_IGNORE ? fill_chords(t) : s;
+    return s == RG_OK ? fill_chords(t) : s;
 }

@@ -1,5 +1,5 @@
 /* attempt.h -- one try at a motion: the path as far as it came, and frames read off it.
- * Uses  straight.h relax.h        Used by  cuts.c ending.c measure.c search.c
+ * Uses  straight.h relax.h        Used by  cuts.c ending.c forth.c measure.c search.c
  *
  * A path knows nothing of frames. It is found once, as states of rising progress; frames are read off it, as many and where
  * they are asked for. */
@@ -33,7 +33,7 @@ typedef struct rg_attempt {
     double *rho;              /* [count][mesh.N] frames; NULL: not read off yet */
     rg_vec2 *flat;            /* [count][mesh.nv] the pattern of each; NULL: that of the mesh */
     int32_t count;
-    rg_gaps gaps;             /* what lies between them; none where contact is not looked for */
+    rg_gaps gaps;             /* what lies between them */
     double *due;              /* [count] progress of the path at each of them; NULL: they were not read off it */
     int is_read;              /* its frames were read off as they were found, evenly as is due, and cannot be again */
     rg_outcome outcome;
@@ -52,6 +52,8 @@ typedef struct rg_attempt {
     int32_t *crease, creases;  /* short of their targets, and not let any nearer */
 } rg_attempt;
 
+/* Tells that so much is done. Non-zero: it is to end. */
+int rg_watch_tell(rg_watch *w, double done);
 /* Is it to end? Tells nothing new. The watch as a stop: rg_stop = {rg_watch_asked, watch}. */
 int rg_watch_asked(void *watch);
 

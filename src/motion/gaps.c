@@ -7,7 +7,7 @@
  * RG_CONTACT_BETWEEN of the sheet, twice: 2 (5 deg)^2 / 8 / 2 = 9.5e-4; so that all that is not proved there is that thin. */
 static const double MOST_TURN = 5 * RG_DEG;
 /* The most of the way from one to the next: what turns out and back between two frames would not be seen by its ends. */
-static const double MOST_WAY = (1 + 1e-9) / 60;
+static const double MOST_WAY = 0.02;
 /* Ways are halved so often at most: where a crease turns faster still, halving finds no end. */
 enum { DEEPEST = 13 };
 
@@ -33,6 +33,15 @@ rg_status rg_gaps_add(rg_gaps *g, const rg_memory *mem, int32_t N, int32_t nv, i
     return RG_OK;
 }
 
+rg_status rg_gaps_copy(rg_gaps *g, const rg_memory *mem, int32_t N, int32_t nv, const rg_gaps *from)
+{
+    rg_status s = RG_OK;
+    for (int32_t k = 0; s == RG_OK && k < from->count; k++)
+        s = rg_gaps_add(g, mem, N, nv, from->after[k], from->rho + (size_t)k * (size_t)N,
+                        from->flat ? from->flat + (size_t)k * (size_t)nv : NULL);
+    return s;
+}
+
 static double turn(int32_t N, const double *a, const double *b)
 {
     double most = 0;
@@ -44,6 +53,8 @@ static int are_near(int32_t N, const double *a, const double *b, double s0, doub
 {
     return turn(N, a, b) <= MOST_TURN && fabs(s1 - s0) <= MOST_WAY;
 }
+
+int32_t rg_gaps_parts(int32_t ways, double whole) { return (int32_t)fmax(1, ceil(whole / ways / MOST_WAY)); }
 
 rg_status rg_gap_filler_init(rg_gap_filler *q, const rg_memory *mem, int32_t N, int32_t nv, int moves, rg_path_reader *read, void *ctx)
 {

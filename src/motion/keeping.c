@@ -198,7 +198,7 @@ static rg_status fill(rg_motion *m, const rg_fold *f)
     }
     set_aims(m, f);
     set_report(m, f);
-    return RG_OK;
+    return f->steered ? RG_OK : rg_gaps_copy(&m->gaps, &m->mem, m->mesh.N, m->mesh.nv, &old->gaps);
 }
 
 rg_status rg_fold_record(const rg_fold *f, rg_motion **motion, rg_diag *why)

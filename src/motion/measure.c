@@ -221,8 +221,8 @@ static double percent_at(const rg_motion *m, int32_t k)
     return m->frame[s.frame].percent + part * (m->frame[s.frame + 1].percent - m->frame[s.frame].percent);
 }
 
-/* What is known of contact once all states are in, in so many frames; a NULL course: nothing is. */
-static void measure_contact(rg_motion *m, rg_course *c, int32_t frames)
+/* What is known of contact once all states are in; a NULL course: nothing is. */
+static void measure_contact(rg_motion *m, rg_course *c)
 {
     rg_report *r = &m->report;
     r->first_contact_frame = r->deepest_contact_frame = r->contact_facets[0] = r->contact_facets[1] = -1;
@@ -231,7 +231,7 @@ static void measure_contact(rg_motion *m, rg_course *c, int32_t frames)
     const rg_course_found *f = &c->found;
     r->contact = f->first < 0 ? RG_CONTACT_FREE : RG_CONTACT_CROSSES;
     r->contact_unproved = f->unproved;
-    r->contact_frames = frames;
+    r->contact_frames = f->crossing;
     if (f->deepest_state >= 0) r->deepest_contact_frame = frame_at(m, f->deepest_state);
     r->contact_pairs = f->pairs;
     r->contact_depth = f->deepest.depth;
@@ -260,7 +260,7 @@ static rg_status keep_sides(rg_motion *m, const rg_course *c)
 rg_status rg_measure_frames(rg_motion *m, rg_watch *watch)
 {
     int looks = m->settings.contact != RG_CONTACT_IGNORE && !(watch && rg_watch_asked(watch));
-    int32_t gaps = 0, crossing = 0;
+    int32_t gaps = 0;
     rg_course course = {0};
     gauge g = {0};
     rg_status s = RG_OK;
@@ -269,15 +269,13 @@ rg_status rg_measure_frames(rg_motion *m, rg_watch *watch)
     m->report.isometric = 1;
     for (int32_t k = 0; ok && k < rg_motion_states(m); k++) {
         const rg_motion_state state = rg_motion_state_at(m, k, &gaps);
-        const int32_t was = course.found.crossing;
         if (state.is_between && looks) place(m, &state, &g);
         else if (!state.is_between) measure_frame(m, &state, &g);
         looks = looks && !(watch && rg_watch_asked(watch));
-        if (looks && s == RG_OK) s = rg_course_add(&course, &(rg_plates_state){state.X, g.place, g.x});
-        if (!state.is_between) crossing += course.found.crossing - was;
+        if (looks && s == RG_OK) s = rg_course_add(&course, &(rg_plates_state){state.X, g.place, g.x}, !state.is_between);
     }
     if (ok && looks && s == RG_OK) s = rg_course_end(&course);
-    if (ok && s == RG_OK) measure_contact(m, looks ? &course : NULL, crossing);
+    if (ok && s == RG_OK) measure_contact(m, looks ? &course : NULL);
     if (ok && looks && s == RG_OK) s = keep_sides(m, &course);
     rg_course_free(&course);
     void *block[] = {g.rho, g.theta, g.sector, g.place, g.x, g.part};

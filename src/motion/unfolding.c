@@ -41,7 +41,7 @@ static rg_status first_crossing(const rg_attempt *t, rg_watch *watch, int32_t *f
         const rg_vec2 *flat = gap ? t->gaps.flat : t->flat, *X = flat ? flat + at * (size_t)m->nv : m->X;
         rg_pose_facets(m, X, &tree, (gap ? t->gaps.rho : t->rho) + at * (size_t)m->N, place);
         rg_pose_vertices(m, X, &tree, place, x);
-        s = rg_course_add(&course, &(rg_plates_state){X, place, x});
+        s = rg_course_add(&course, &(rg_plates_state){X, place, x}, !gap);
     }
     if (s == RG_OK && course.found.states == all) s = rg_course_end(&course);
     if (s == RG_OK) *frame = course.found.first;

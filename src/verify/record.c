@@ -221,7 +221,8 @@ static rg_status frames(const reader *q)
             s = one_frame(q, rg_value_at(between, i), at++);
         }
     }
-    return s == RG_OK && r->number[r->frames - 1] == number ? bad(q, "the last frame has states after it", "rigami:between") : s;
+    for (int32_t k = r->frames - 1; s == RG_OK && r->number[k] == number; k--) r->number[k]--, r->after_all++;
+    return s;
 }
 
 rg_status rg_record_parse(const char *bytes, size_t size, const rg_memory *mem, rg_record *r, rg_diag *why)
