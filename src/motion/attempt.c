@@ -37,15 +37,6 @@ static rg_status make_room(rg_attempt *t, const rg_mesh *m)
     return t->target && t->from && t->vertex && t->crease ? RG_OK : RG_ENOMEM;
 }
 
-int rg_watch_tell(rg_watch *w, double done)
-{
-    if (w->given_up && w->given_up(w->given_up_ctx)) w->cancelled = 1;
-    if (w->progress && !w->cancelled) w->cancelled = w->progress(w->ctx, fmin(1, fmax(0, done))) != 0;
-    return w->cancelled;
-}
-
-int rg_watch_asked(void *watch) { return rg_watch_tell(watch, 1); }
-
 /* ------------------------------------------------------------------------------------- what it came to ---- */
 
 /* The states that the path is made of: nodes of a relaxation, frames of what went straight on. */
@@ -147,6 +138,14 @@ double rg_attempt_largest_angle(const rg_attempt *t, int32_t i)
 
 /* ------------------------------------------------------------------------------------------ straight on ---- */
 
+static rg_status run_forth(rg_attempt *t, rg_straight *f, int32_t parts, rg_watch *watch)
+{
+    rg_gaps_free(&t->gaps, &t->mem);
+    const rg_status s = rg_forth_run(f, &t->mem, parts, watch, t->rho, &t->count, &t->gaps, &t->outcome);
+    if (watch->cancelled) t->outcome = RG_STOPPED;
+    return s;
+}
+
 /* How far such a run goes before it comes to rest; s_rest stays as it is where it does not. */
 static rg_status find_rest(const rg_mesh *drawn, const rg_settings *settings, rg_watch *watch, double *s_rest)
 {
@@ -189,7 +188,7 @@ rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *sett
     t->rho = rg_mem_array(&t->mem, ((size_t)settings->frames + 1) * (size_t)f->mesh.N, sizeof *t->rho);
     if (!t->rho) s = RG_ENOMEM;
     if (s == RG_OK) rg_straight_set_most_steps(f, most_steps);
-    if (s == RG_OK) s = rg_forth_run(t, f, parts, watch);
+    if (s == RG_OK) s = run_forth(t, f, parts, watch);
     if (s == RG_OK) {
         memcpy(t->target, f->drive.target, (size_t)f->mesh.N * sizeof *t->target);
         for (int32_t i = f->limit.first_added; i < f->mesh.N; i++) t->target[i] = NAN;
@@ -461,7 +460,7 @@ static rg_status read_steadily(rg_attempt *t, const rg_settings *settings)
         s = rg_straight_from_mesh(&copy, &mine, &f, NULL);
     }
     if (s == RG_OK) rg_straight_set_due(f, due);
-    if (s == RG_OK) s = rg_forth_run(t, f, parts, &nobody);
+    if (s == RG_OK) s = run_forth(t, f, parts, &nobody);
     t->outcome = outcome;
     rg_straight_destroy(f);
     rg_mem_free(&t->mem, sum);

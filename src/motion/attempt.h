@@ -1,5 +1,5 @@
 /* attempt.h -- one try at a motion: the path as far as it came, and frames read off it.
- * Uses  straight.h relax.h        Used by  cuts.c ending.c forth.c measure.c search.c
+ * Uses  straight.h relax.h        Used by  cuts.c ending.c measure.c search.c
  *
  * A path knows nothing of frames. It is found once, as states of rising progress; frames are read off it, as many and where
  * they are asked for. */
@@ -10,15 +10,7 @@
 #include "fold/relax.h"
 #include "motion/gaps.h"
 #include "motion/motion.h"
-
-/* Tells how far it is, 0 ... 1, and asks whether to go on; asks the race it is part of, too. */
-typedef struct rg_watch {
-    rg_progress progress; /* NULL: nobody watches */
-    void *ctx;
-    int (*given_up)(void *ctx); /* NULL: never */
-    void *given_up_ctx;
-    int cancelled;
-} rg_watch;
+#include "motion/watch.h"
 
 typedef struct rg_attempt {
     rg_memory mem;
@@ -51,11 +43,6 @@ typedef struct rg_attempt {
     int32_t *vertex, vertices; /* what resists most at the end: vertex numbers, strongest first */
     int32_t *crease, creases;  /* short of their targets, and not let any nearer */
 } rg_attempt;
-
-/* Tells that so much is done. Non-zero: it is to end. */
-int rg_watch_tell(rg_watch *w, double done);
-/* Is it to end? Tells nothing new. The watch as a stop: rg_stop = {rg_watch_asked, watch}. */
-int rg_watch_asked(void *watch);
 
 void rg_attempt_free(rg_attempt *t);
 /* Straight on along the motion that closes exactly, on the pattern given. most_steps 0: as many as it takes. *m is taken over, also on failure. */

@@ -9,8 +9,11 @@ int32_t rg_forth_parts(const rg_settings *s)
 }
 
 typedef struct keeper {
-    rg_attempt *t;
+    rg_memory mem;
     rg_straight *f;
+    double *rho;        /* frames */
+    int32_t count;
+    rg_gaps *gaps;
     int looks;
     rg_gap_filler between;
     double *last;       /* [N] what was kept last, at: */
@@ -27,40 +30,42 @@ static int read(void *ctx, double progress, double *rho, rg_vec2 *X)
 /* Keeps where f is, at progress s, as the next frame or as a state before it, and what is needed between it and what was kept last. */
 static rg_status keep(keeper *k, double s, int is_frame)
 {
-    rg_attempt *t = k->t;
     const rg_mesh *m = &k->f->mesh;
     const size_t N = (size_t)m->N;
     const double *rho = k->f->rho;
     rg_status status = RG_OK;
-    if (k->looks && t->count > 0) status = rg_gap_fill(&k->between, &t->gaps, t->count - 1, k->s, k->last, s, rho);
-    if (status == RG_OK && is_frame) memcpy(t->rho + (size_t)t->count++ * N, rho, N * sizeof *rho);
-    else if (status == RG_OK) status = rg_gaps_add(&t->gaps, &t->mem, m->N, m->nv, t->count - 1, rho, NULL);
+    if (k->looks && k->count > 0) status = rg_gap_fill(&k->between, k->gaps, k->count - 1, k->s, k->last, s, rho);
+    if (status == RG_OK && is_frame) memcpy(k->rho + (size_t)k->count++ * N, rho, N * sizeof *rho);
+    else if (status == RG_OK) status = rg_gaps_add(k->gaps, &k->mem, m->N, m->nv, k->count - 1, rho, NULL);
     memcpy(k->last, rho, N * sizeof *rho);
     k->s = s;
     k->is_at = k->f->s;
     return status;
 }
 
-rg_status rg_forth_run(rg_attempt *t, rg_straight *f, int32_t parts, rg_watch *watch)
+/* What was kept last is no frame. */
+static int ends_between(const keeper *k) { return k->gaps->count > 0 && k->gaps->after[k->gaps->count - 1] == k->count - 1; }
+
+rg_status rg_forth_run(rg_straight *f, const rg_memory *mem, int32_t parts, rg_watch *watch, double *rho, int32_t *count, rg_gaps *g,
+                       rg_outcome *outcome)
 {
-    keeper k = {.t = t, .f = f, .looks = 1, .is_at = -1};
+    keeper k = {.mem = *mem, .f = f, .rho = rho, .gaps = g, .looks = 1, .is_at = -1};
     rg_step_info info = {0};
-    k.last = rg_mem_array(&t->mem, (size_t)f->mesh.N, sizeof *k.last);
-    rg_status s = rg_gap_filler_init(&k.between, &t->mem, f->mesh.N, f->mesh.nv, 0, read, f);
+    k.last = rg_mem_array(mem, (size_t)f->mesh.N, sizeof *k.last);
+    rg_status s = rg_gap_filler_init(&k.between, mem, f->mesh.N, f->mesh.nv, 0, read, f);
     if (!k.last) s = RG_ENOMEM;
-    rg_gaps_free(&t->gaps, &t->mem);
-    t->count = 0;
     while (s == RG_OK && info.outcome == RG_RUNNING) {
         s = rg_straight_step(f, &info);
         if (s == RG_OK && info.frame >= 0) s = keep(&k, rg_straight_frame_progress(f, info.frame), info.frame % parts == 0);
         if (rg_watch_tell(watch, f->s_end > 0 ? info.progress / f->s_end : 1)) break;
     }
-    k.looks = k.looks && f->apart.parts == 0; /* the progress of several is none that one could be read off at */
-    const int ends_between = t->gaps.count > 0 && t->gaps.after[t->gaps.count - 1] == t->count - 1;
-    if (ends_between && f->s == k.is_at) t->gaps.count--; /* it becomes the last frame */
-    if (s == RG_OK && (f->s != k.is_at || ends_between)) s = keep(&k, f->s, 1);
-    t->outcome = watch->cancelled ? RG_STOPPED : info.outcome;
+    k.looks = f->apart.parts == 0; /* the progress of several is none that one could be read off at */
+    const int more = s == RG_OK && (f->s != k.is_at || ends_between(&k));
+    if (more && f->s == k.is_at) g->count--; /* it becomes the last frame */
+    if (more) s = keep(&k, f->s, 1);
+    *count = k.count;
+    *outcome = info.outcome;
     rg_gap_filler_free(&k.between);
-    rg_mem_free(&t->mem, k.last);
+    rg_mem_free(mem, k.last);
     return s;
 }
