@@ -5,7 +5,7 @@
 int32_t rg_forth_parts(const rg_settings *s)
 {
     const int lands = s->method != RG_METHOD_AUTO && s->method != RG_METHOD_ADAPTIVE;
-    return lands ? 1 : rg_gaps_parts(s->frames - 1, fabs(s->to));
+    return lands ? 1 : rg_gaps_parts(s->frames - 1, fabs(s->to), 0);
 }
 
 typedef struct keeper {

@@ -54,7 +54,11 @@ static int are_near(int32_t N, const double *a, const double *b, double s0, doub
     return turn(N, a, b) <= MOST_TURN && fabs(s1 - s0) <= MOST_WAY;
 }
 
-int32_t rg_gaps_parts(int32_t ways, double whole) { return (int32_t)fmax(1, ceil(whole / ways / MOST_WAY)); }
+int32_t rg_gaps_parts(int32_t ways, double whole, double angle)
+{
+    const double parts = fmax(whole / MOST_WAY, angle / MOST_TURN) / ways;
+    return parts > 1 ? (int32_t)fmin(1 << DEEPEST, ceil(parts)) : 1; /* 1 of NaN, too: who is asked next refuses it */
+}
 
 rg_status rg_gap_filler_init(rg_gap_filler *q, const rg_memory *mem, int32_t N, int32_t nv, int moves, rg_path_reader *read, void *ctx)
 {

@@ -26,8 +26,8 @@ void rg_gaps_free(rg_gaps *g, const rg_memory *mem);
 rg_status rg_gaps_add(rg_gaps *g, const rg_memory *mem, int32_t N, int32_t nv, int32_t after, const double *rho, const rg_vec2 *X);
 /* The same ones again. RG_ENOMEM. */
 rg_status rg_gaps_copy(rg_gaps *g, const rg_memory *mem, int32_t N, int32_t nv, const rg_gaps *from);
-/* Into how many even parts each of `ways` even ways, which make up `whole` of a path, is to be cut at the least. */
-int32_t rg_gaps_parts(int32_t ways, double whole);
+/* Into how many even parts each of `ways` even ways, which make up `whole` of a path on which something turns by `angle`, is to be cut. */
+int32_t rg_gaps_parts(int32_t ways, double whole, double angle);
 /* Who reads them off. */
 typedef struct rg_gap_filler {
     rg_memory mem;

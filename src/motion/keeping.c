@@ -169,12 +169,15 @@ static void set_report(rg_motion *m, const rg_fold *f)
     r->blocking_at = (const double(*)[2])m->blocking_at;
 }
 
-static rg_status fill(rg_motion *m, const rg_fold *f)
+/* Every so many states of the track is a frame, and so is the last; others lie between. */
+static rg_status fill(rg_motion *m, const rg_fold *f, int32_t every)
 {
     const rg_motion *old = f->shared->motion;
-    const size_t N = (size_t)m->mesh.N, nv = (size_t)m->mesh.nv, n = (size_t)rg_fold_states(f);
+    const size_t N = (size_t)m->mesh.N, nv = (size_t)m->mesh.nv;
+    const int32_t states = rg_fold_states(f);
+    const size_t n = (size_t)((states - 1 + every - 1) / every + 1);
     int moved = 0;
-    for (size_t k = 0; k < n; k++) moved |= memcmp(rg_fold_pattern(f, (int32_t)k), m->mesh.X, nv * sizeof(rg_vec2)) != 0;
+    for (int32_t k = 0; k < states; k++) moved |= memcmp(rg_fold_pattern(f, k), m->mesh.X, nv * sizeof(rg_vec2)) != 0;
     m->info = old->info;
     m->info.title = m->title = rg_mem_string(&m->mem, old->info.title);
     m->info.author = m->author = rg_mem_string(&m->mem, old->info.author);
@@ -192,16 +195,23 @@ static rg_status fill(rg_motion *m, const rg_fold *f)
         !m->blocking_crease || !m->blocking_at)
         return RG_ENOMEM;
     m->report.frames = m->frame;
-    for (size_t k = 0; k < n; k++) {
-        memcpy(m->rho + k * N, rg_fold_state(f, (int32_t)k), N * sizeof *m->rho);
-        if (moved) memcpy(m->flat + k * nv, rg_fold_pattern(f, (int32_t)k), nv * sizeof *m->flat);
+    rg_status s = RG_OK;
+    for (int32_t k = 0, frame = 0; s == RG_OK && k < states; k++) {
+        const rg_vec2 *X = moved ? rg_fold_pattern(f, k) : NULL;
+        if (k % every != 0 && k < states - 1) {
+            s = rg_gaps_add(&m->gaps, &m->mem, m->mesh.N, m->mesh.nv, frame - 1, rg_fold_state(f, k), X);
+            continue;
+        }
+        memcpy(m->rho + (size_t)frame * N, rg_fold_state(f, k), N * sizeof *m->rho);
+        if (moved) memcpy(m->flat + (size_t)frame * nv, X, nv * sizeof *m->flat);
+        frame++;
     }
     set_aims(m, f);
     set_report(m, f);
-    return f->steered ? RG_OK : rg_gaps_copy(&m->gaps, &m->mem, m->mesh.N, m->mesh.nv, &old->gaps);
+    return s != RG_OK || f->steered ? s : rg_gaps_copy(&m->gaps, &m->mem, m->mesh.N, m->mesh.nv, &old->gaps);
 }
 
-rg_status rg_fold_record(const rg_fold *f, rg_motion **motion, rg_diag *why)
+static rg_status record(const rg_fold *f, int32_t every, rg_motion **motion, rg_diag *why)
 {
     const double begun = rg_seconds();
     rg_motion *m = rg_mem_array(&f->mem, 1, sizeof *m);
@@ -210,7 +220,7 @@ rg_status rg_fold_record(const rg_fold *f, rg_motion **motion, rg_diag *why)
     m->settings = f->settings;
     rg_status s = rg_mesh_copy(rg_fold_mesh(f), &m->mesh);
     if (s == RG_OK) s = rg_source_copy(&f->shared->motion->source, &m->mem, &m->source);
-    if (s == RG_OK) s = fill(m, f);
+    if (s == RG_OK) s = fill(m, f, every);
     if (s == RG_OK) s = rg_tree_init(&m->mesh, f->settings.fixed_facet, &m->tree);
     if (s == RG_OK) s = rg_motion_lend(m);
     if (s == RG_OK) s = rg_measure_frames(m, NULL);
@@ -224,7 +234,17 @@ rg_status rg_fold_record(const rg_fold *f, rg_motion **motion, rg_diag *why)
     return RG_OK;
 }
 
+rg_status rg_fold_record(const rg_fold *f, rg_motion **motion, rg_diag *why) { return record(f, 1, motion, why); }
+
 /* ---------------------------------------------------------------------------------------------- driven at once ---- */
+
+/* Into how many ways each of those from frame to frame is cut: driven creases turn evenly. */
+static int32_t parts_of(int32_t count, const rg_driven *driven, const rg_settings *s)
+{
+    double most = 0;
+    for (int32_t i = 0; i < count; i++) most = fmax(most, fabs(driven[i].radians));
+    return rg_gaps_parts(s->frames - 1, 1, most);
+}
 
 /* One try, on facets as drawn or cut. */
 static rg_status drive(const rg_pattern *p, int32_t count, const rg_driven *driven, const rg_settings *s, rg_progress progress, void *ctx,
@@ -232,7 +252,10 @@ static rg_status drive(const rg_pattern *p, int32_t count, const rg_driven *driv
 {
     rg_fold *f = NULL;
     int32_t n = 0;
-    rg_status status = rg_fold_create_flat(p, s, &f, why);
+    const int32_t every = parts_of(count, driven, s);
+    rg_settings finer = *s;
+    finer.frames = (s->frames - 1) * every + 1;
+    rg_status status = rg_fold_create_flat(p, &finer, &f, why);
     if (status != RG_OK) return status;
     int32_t *crease = rg_mem_array(&f->mem, (size_t)count, sizeof *crease);
     double *angle = rg_mem_array(&f->mem, (size_t)count, sizeof *angle);
@@ -247,7 +270,8 @@ static rg_status drive(const rg_pattern *p, int32_t count, const rg_driven *driv
     if (status == RG_OK && (status = rg_fold_drive(f, n, crease, angle)) != RG_OK) rg_fail(status, why, 0, "%s", rg_status_text(status));
     while (status == RG_OK && rg_fold_step(f)->outcome == RG_RUNNING)
         if (progress && progress(ctx, f->progress)) break;
-    if (status == RG_OK) status = rg_fold_record(f, motion, why);
+    if (status == RG_OK) status = record(f, every, motion, why);
+    if (status == RG_OK) (*motion)->settings.frames = s->frames;
     if (crease) rg_mem_free(&f->mem, crease);
     if (angle) rg_mem_free(&f->mem, angle);
     rg_fold_destroy(f);
