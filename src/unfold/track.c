@@ -9,9 +9,10 @@ static const double WRONG = 8e-5;
  * (lengths of the sheet). */
 enum { LEAST_BETWEEN = 4, MOST_BETWEEN = 40 };
 static const double BENT = 2e-5;
-/* Closing a state that is read off. */
-static const double READ_CLOSED = 1e-13, NEAR_DUE = 1e-6;
-static const int READ_NEWTON = 12, SECANTS = 8;
+/* Closing a state that is read off, radians: as well as rounding lets it, and at least so well that it is closed. Where equations depend on
+ * each other, as near flat, corrections overshoot along what they hardly hold; damped by a part of what is open they do not. */
+static const double READ_CLOSED = 1e-13, CLOSED = 1e-10, DAMPING = 0.1, NO_BETTER = 0.5, NEAR_DUE = 1e-6;
+static const int READ_NEWTON = 45, SECANTS = 8;
 
 rg_status rg_track_init(rg_track *p, const rg_memory *mem, rg_linkage *P, rg_nearest *q)
 {
@@ -21,8 +22,9 @@ rg_status rg_track_init(rg_track *p, const rg_memory *mem, rg_linkage *P, rg_nea
     p->q = q;
     p->end = rg_mem_array(mem, (size_t)P->n, sizeof *p->end);
     p->scratch = rg_mem_array(mem, (size_t)P->n, sizeof *p->scratch);
+    p->best = rg_mem_array(mem, (size_t)P->n, sizeof *p->best);
     p->x = rg_mem_array(mem, 2 * (size_t)P->mesh->nv, sizeof *p->x);
-    rg_status s = p->end && p->scratch && p->x ? rg_plates_init(P->mesh, &p->plates) : RG_ENOMEM;
+    rg_status s = p->end && p->scratch && p->best && p->x ? rg_plates_init(P->mesh, &p->plates) : RG_ENOMEM;
     if (s == RG_OK) s = rg_contact_work_init(&p->plates, &p->look);
     if (s != RG_OK) rg_track_free(p);
     return s;
@@ -33,8 +35,8 @@ void rg_track_free(rg_track *p)
     if (!p->mem.resize) return;
     rg_contact_work_free(&p->look);
     rg_plates_free(&p->plates);
-    void *block[] = {p->end, p->z, p->progress, p->scratch, p->x};
-    for (int i = 0; i < 5; i++) rg_mem_free(&p->mem, block[i]);
+    void *block[] = {p->end, p->z, p->progress, p->scratch, p->best, p->x};
+    for (int i = 0; i < 6; i++) rg_mem_free(&p->mem, block[i]);
     memset(p, 0, sizeof *p);
 }
 
@@ -78,6 +80,27 @@ void rg_track_reverse(rg_track *p)
     }
 }
 
+/* p->scratch closed, as well as it goes. */
+static void close(rg_track *p)
+{
+    rg_linkage *P = p->P;
+    double best = INFINITY, before = INFINITY;
+    for (int i = 0; i <= READ_NEWTON; i++) {
+        const double angle = rg_coupled_assemble(&P->J, p->scratch, p->scratch + P->N, NULL);
+        const int is_closed = angle <= READ_CLOSED || (angle <= CLOSED && angle > NO_BETTER * before);
+        if (angle < best) memcpy(p->best, p->scratch, (size_t)P->n * sizeof *p->best), best = angle;
+        if (is_closed || !(angle < 1)) break;
+        before = angle;
+        P->J.A.damping = DAMPING * angle;
+        rg_coupled_renew(&P->J, p->q->scale);
+        p->q->work += 20 * P->J.A.L.S.entries + P->J.A.L.S.flops;
+        rg_nearest_project(p->q, NULL, P->J.r);
+        for (int32_t k = 0; k < P->n; k++) p->scratch[k] += p->q->dz[k];
+    }
+    P->J.A.damping = 0;
+    if (best < INFINITY) memcpy(p->scratch, p->best, (size_t)P->n * sizeof *p->best);
+}
+
 /* The state a part t from node k to the next, closed: p->scratch. */
 static void between(rg_track *p, int32_t k, double t)
 {
@@ -88,7 +111,7 @@ static void between(rg_track *p, int32_t k, double t)
         const double part = last && i >= p->P->N ? 1 - (1 - t) * (1 - t) : t;
         p->scratch[i] = a[i] + part * (b[i] - a[i]);
     }
-    rg_stride_close(p->P, p->q, p->scratch, READ_CLOSED, READ_NEWTON);
+    close(p);
 }
 
 void rg_track_read(rg_track *p, double due)

@@ -18,7 +18,7 @@ typedef struct rg_track {
     double *progress;      /* [count] 0 flat ... 1 the end */
     size_t z_room, progress_room;
     int32_t count;
-    double *scratch;       /* [n] */
+    double *scratch, *best; /* [n] */
     rg_vec3 *x;            /* [2][nv] */
 } rg_track;
 
