@@ -18,8 +18,9 @@
 /* A crease below the first has not left flat; within the second of half a turn it is at its limit. */
 static const double LOCKED = 1e-6, AT_LIMIT = 0.5 * RG_DEG;
 
-/* Of the work that a motion without contact, all at once, may cost: where there is one in stages. */
-static const double PART_WITH_STAGES = 0.4;
+/* Of the work that a motion without contact, all at once, may cost: where there is one in stages. Of what is found at all beside stages, nothing
+ * cost more than an eighth of it. */
+static const double PART_WITH_STAGES = 0.15;
 
 /* A place is the same though it was computed in another way: a part of the sheet's size. */
 static const double SAME_VERTEX = 1e-9;
