@@ -45,7 +45,7 @@ typedef struct reader {
     rg_pairs in;
     rg_tables tables;
     const chain *inserts;
-    rg_place place; /* of the block that is read */
+    rg_map3 place; /* of the block that is read */
     int64_t repeated;
     rg_space space;
     int told_sheet;
@@ -164,7 +164,7 @@ static int is_hidden(reader *r, const entity *e)
 
 static rg_vec3 place_point(const reader *r, const entity *e, rg_vec3 x)
 {
-    return rg_place_point(r->place, e->in_space ? x : rg_place_point(rg_place_of_normal(e->normal), x));
+    return rg_map3_point(r->place, e->in_space ? x : rg_map3_point(rg_map3_of_normal(e->normal), x));
 }
 
 /* letter 0: the entity's own. */
@@ -421,26 +421,26 @@ typedef struct insert {
 
 static rg_status entities(reader *r);
 
-static rg_place placed(const entity *e, const insert *i, const rg_block *b, long column, long row)
+static rg_map3 placed(const entity *e, const insert *i, const rg_block *b, long column, long row)
 {
-    rg_place m = rg_place_after(rg_place_of_normal(e->normal), rg_place_shifted(point(e, 0)));
-    m = rg_place_after(m, rg_place_turned(i->turn));
-    m = rg_place_after(m, rg_place_shifted((rg_vec3){(double)column * i->scale[3], (double)row * i->scale[4], 0}));
-    return rg_place_after(rg_place_after(m, rg_place_scaled(i->scale[0], i->scale[1], i->scale[2])),
-                          rg_place_shifted(rg_vec3_scale(-1, b->base)));
+    rg_map3 m = rg_map3_after(rg_map3_of_normal(e->normal), rg_map3_shifted(point(e, 0)));
+    m = rg_map3_after(m, rg_map3_turned(i->turn));
+    m = rg_map3_after(m, rg_map3_shifted((rg_vec3){(double)column * i->scale[3], (double)row * i->scale[4], 0}));
+    return rg_map3_after(rg_map3_after(m, rg_map3_scaled(i->scale[0], i->scale[1], i->scale[2])),
+                          rg_map3_shifted(rg_vec3_scale(-1, b->base)));
 }
 
 /* Reads the block again for every place that it has. */
 static rg_status follow(reader *r, const entity *e, const insert *i, const rg_block *b)
 {
     const rg_pairs was = r->in;
-    const rg_place place = r->place;
+    const rg_map3 place = r->place;
     const chain here = {e, b, r->inserts};
     rg_status s = RG_OK;
     r->inserts = &here;
     for (long row = 0; s == RG_OK && row < i->count[1]; row++)
         for (long column = 0; s == RG_OK && column < i->count[0]; column++) {
-            r->place = rg_place_after(place, placed(e, i, b, column, row));
+            r->place = rg_map3_after(place, placed(e, i, b, column, row));
             r->in.s = b->s;
             r->in.line = b->line;
             r->in.pending = 0;

@@ -10,37 +10,37 @@
 static const double FLATNESS = 1e-9;
 
 
-/* ------------------------------------------------------------------------------------------------- places ---- */
+/* --------------------------------------------------------------------------------------------------- maps ---- */
 
-rg_vec3 rg_place_point(rg_place p, rg_vec3 x) { return rg_vec3_add(rg_mat3_mul_vec(p.A, x), p.t); }
+rg_vec3 rg_map3_point(rg_map3 p, rg_vec3 x) { return rg_vec3_add(rg_mat3_mul_vec(p.A, x), p.t); }
 
-rg_place rg_place_after(rg_place p, rg_place q)
+rg_map3 rg_map3_after(rg_map3 p, rg_map3 q)
 {
-    return (rg_place){rg_mat3_mul(p.A, q.A), rg_place_point(p, q.t)};
+    return (rg_map3){rg_mat3_mul(p.A, q.A), rg_map3_point(p, q.t)};
 }
 
-rg_place rg_place_shifted(rg_vec3 t) { return (rg_place){rg_mat3_identity(), t}; }
+rg_map3 rg_map3_shifted(rg_vec3 t) { return (rg_map3){rg_mat3_identity(), t}; }
 
-rg_place rg_place_scaled(double x, double y, double z)
+rg_map3 rg_map3_scaled(double x, double y, double z)
 {
-    return (rg_place){{{{x, 0, 0}, {0, y, 0}, {0, 0, z}}}, {0, 0, 0}};
+    return (rg_map3){{{{x, 0, 0}, {0, y, 0}, {0, 0, z}}}, {0, 0, 0}};
 }
 
-rg_place rg_place_turned(double degrees)
+rg_map3 rg_map3_turned(double degrees)
 {
     const rg_affine turn = rg_affine_turn(degrees);
-    return (rg_place){{{{turn.a, turn.b, 0}, {turn.c, turn.d, 0}, {0, 0, 1}}}, {0, 0, 0}};
+    return (rg_map3){{{{turn.a, turn.b, 0}, {turn.c, turn.d, 0}, {0, 0, 1}}}, {0, 0, 0}};
 }
 
-rg_place rg_place_of_normal(rg_vec3 n)
+rg_map3 rg_map3_of_normal(rg_vec3 n)
 {
     static const rg_vec3 y = {0, 1, 0}, z = {0, 0, 1};
     const double nearly = 1.0 / 64; /* part of that algorithm */
-    if (n.x == 0 && n.y == 0 && n.z > 0) return rg_place_shifted((rg_vec3){0, 0, 0});
+    if (n.x == 0 && n.y == 0 && n.z > 0) return rg_map3_shifted((rg_vec3){0, 0, 0});
     n = rg_vec3_scale(1 / rg_vec3_length(n), n);
     rg_vec3 x = rg_vec3_cross(fabs(n.x) < nearly && fabs(n.y) < nearly ? y : z, n);
     x = rg_vec3_scale(1 / rg_vec3_length(x), x);
-    return (rg_place){{{x, rg_vec3_cross(n, x), n}}, {0, 0, 0}};
+    return (rg_map3){{{x, rg_vec3_cross(n, x), n}}, {0, 0, 0}};
 }
 
 /* -------------------------------------------------------------------------------------------------- lines ---- */

@@ -8,16 +8,16 @@
 #include "lines/lines.h"
 
 /* x' = A x + t. */
-typedef struct rg_place { rg_mat3 A; rg_vec3 t; } rg_place;
+typedef struct rg_map3 { rg_mat3 A; rg_vec3 t; } rg_map3;
 
-rg_vec3 rg_place_point(rg_place p, rg_vec3 x);
+rg_vec3 rg_map3_point(rg_map3 p, rg_vec3 x);
 /* p after q. */
-rg_place rg_place_after(rg_place p, rg_place q);
-rg_place rg_place_shifted(rg_vec3 t);
-rg_place rg_place_scaled(double x, double y, double z);
-rg_place rg_place_turned(double degrees); /* about z */
+rg_map3 rg_map3_after(rg_map3 p, rg_map3 q);
+rg_map3 rg_map3_shifted(rg_vec3 t);
+rg_map3 rg_map3_scaled(double x, double y, double z);
+rg_map3 rg_map3_turned(double degrees); /* about z */
 /* The plane that an entity is drawn in, by its normal: AutoCAD's arbitrary axis algorithm. */
-rg_place rg_place_of_normal(rg_vec3 n);
+rg_map3 rg_map3_of_normal(rg_vec3 n);
 
 typedef struct rg_space {
     rg_vec3 *ends; /* both of every line */

@@ -1,5 +1,5 @@
 /* gltf.h -- the motion as one animated glTF 2.0 model, in one file: binary .glb, or .gltf with its bytes in itself.
- * Uses  motion.h pose/turn.h mesh/triangles.h        Used by  output.c
+ * Uses  motion.h scene.h        Used by  output.c
  *
  * A facet is a node that turns and moves, with a key for every frame; its mesh lies about the facet's centre, so that
  * single precision costs little: positions are those of x.obj of the same frame to 1e-6 of the sheet. Where creases
