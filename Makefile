@@ -125,10 +125,11 @@ $B/%.o: %.c
 	$Q$(compile) -MMD -MP -c -o $@ $<
 
 # The page of write/html.c, as the elements of an array.
-$B/made/write/page.h: src/write/page.html
+page := $(addprefix src/write/page/,head.html pose.js camera.js draw.js hands.js tail.html)
+$B/made/write/page.h: $(page)
 	@mkdir -p $(@D)
-	$(call say,page,$<)
-	$Qod -An -v -tu1 $< | sed 's/[0-9][0-9]*/&,/g' >$@
+	$(call say,page,src/write/page)
+	$Qcat $(page) | od -An -v -tu1 | sed 's/[0-9][0-9]*/&,/g' >$@
 
 $B/src/write/html.o: $B/made/write/page.h
 $B/src/write/html.o: cppflags += -I$B/made

@@ -13,7 +13,7 @@
 
 #include <string.h>
 
-/* write/page.html, made an array by make; the data go where MARK is. */
+/* The pieces of write/page/, joined and made an array by make; the data go where MARK is. */
 static const unsigned char PAGE[] = {
 #include "write/page.h"
 };

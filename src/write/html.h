@@ -1,5 +1,5 @@
 /* html.h -- the motion as one page: turn it, fold and unfold it, without a network.
- * Uses  motion.h render/lift.h write/page.html        Used by  output.c
+ * Uses  motion.h render/lift.h write/page/        Used by  output.c
  *
  * Frames are the positions of vertices in single precision. The page finds from them how each facet turns and shifts,
  * and between frames turns it on, so that it stays rigid; where creases were adjusted facets change shape, and vertices
