@@ -505,6 +505,7 @@ static void unfolds_mesh(const rg_mesh *none, double sign, double over, double d
     assert_int_equal(rg_unfold_run(&u, &mem, none, &wish), RG_OK);
     assert_int_equal(u.outcome, RG_UNFOLD_FREE);
     below(0.99, u.pass.landed);
+    for (int32_t k = 1; k < u.pass.track.count; k++) below(u.pass.track.progress[k - 1], u.pass.track.progress[k]);
     double *rho = calloc((size_t)u.pass.P.N, sizeof *rho);
     rg_vec2 *X = calloc((size_t)u.pass.mesh.nv, sizeof *X);
     rg_place *place = calloc((size_t)u.pass.mesh.nf, sizeof *place);
@@ -525,7 +526,7 @@ static void unfolds_mesh(const rg_mesh *none, double sign, double over, double d
         near(sum / n, k / 150.0, 1e-3);
         rg_pose_facets(&u.pass.mesh, X, &tree, rho, place);
         rg_pose_vertices(&u.pass.mesh, X, &tree, place, x);
-        below(rg_pose_gap(X, &tree, place), 1e-8 * none->size);
+        below(rg_pose_gap(X, &tree, place), 1e-9 * none->size);
         for (int32_t v = 0; v < u.pass.mesh.nv; v++) x[v] = rg_vec3_scale(1 / none->size, x[v]);
         assert_false(pierces(&u.pass.mesh, x, deep));
     }

@@ -13,7 +13,7 @@
 
 /* The largest turn between two frames at a steady pace, against the mean, that is even enough; and how often it is set right. */
 static const double UNEVEN = 1.1;
-static const int TIMES_SET_RIGHT = 3;
+static const int TIMES_SET_RIGHT = 5;
 
 void rg_attempt_free(rg_attempt *t)
 {
@@ -480,19 +480,20 @@ rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *set
     memset(m, 0, sizeof *m);
     const size_t N = (size_t)t->mesh.N, nv = (size_t)t->mesh.nv;
     rg_status s = make_room(t, &t->mesh);
-    double *due = rg_mem_array(&t->mem, (size_t)frames, sizeof *due), *sum = rg_mem_array(&t->mem, (size_t)frames, sizeof *sum);
+    double *due = rg_mem_array(&t->mem, (size_t)frames, sizeof *due), *was = rg_mem_array(&t->mem, (size_t)frames, sizeof *was);
+    double *sum = rg_mem_array(&t->mem, (size_t)frames, sizeof *sum);
     t->rho = rg_mem_array(&t->mem, ((size_t)frames + 1) * N, sizeof *t->rho);
     t->flat = rg_mem_array(&t->mem, ((size_t)frames + 1) * nv, sizeof *t->flat);
-    if (!due || !sum || !t->rho || !t->flat) s = RG_ENOMEM;
+    if (!due || !was || !sum || !t->rho || !t->flat) s = RG_ENOMEM;
     for (int32_t k = 0; due && k < frames; k++) due[k] = to * ((double)k / (frames - 1));
-    for (int pass = 0; s == RG_OK && pass <= (settings->pace == RG_PACE_STEADY); pass++) {
-        if (pass) pace_by_states(t->rho, N, frames, to, frames, sum, due);
+    for (int more = settings->pace == RG_PACE_STEADY ? TIMES_SET_RIGHT : 0; s == RG_OK; more--) {
         for (t->count = 0; t->count < frames; t->count++)
             read(ctx, due[t->count], t->rho + (size_t)t->count * N, t->flat + (size_t)t->count * nv);
+        if (more == 0 || !set_right(t, due, was, sum)) break;
     }
     if (s == RG_OK) s = fill_gaps(t, due, read, ctx);
-    rg_mem_free(&t->mem, due);
-    rg_mem_free(&t->mem, sum);
+    void *block[] = {due, was, sum};
+    for (int i = 0; i < 3; i++) rg_mem_free(&t->mem, block[i]);
     if (s != RG_OK) {
         rg_attempt_free(t);
         return rg_fail(s, why, 0, "%s", rg_status_text(s));

@@ -13,6 +13,8 @@ static const double BENT = 2e-5;
  * each other, as near flat, corrections overshoot along what they hardly hold; damped by a part of what is open they do not. */
 static const double READ_CLOSED = 1e-13, CLOSED = 1e-10, DAMPING = 0.1, NO_BETTER = 0.5, NEAR_DUE = 1e-6;
 static const int READ_NEWTON = 45, SECANTS = 8;
+/* The farthest, radians, that creases turn on a way that is cut short. */
+static const double SHORT_CUT = 10 * RG_DEG;
 
 rg_status rg_track_init(rg_track *p, const rg_memory *mem, rg_linkage *P, rg_nearest *q)
 {
@@ -101,12 +103,14 @@ static void close(rg_track *p)
     if (best < INFINITY) memcpy(p->scratch, p->best, (size_t)P->n * sizeof *p->best);
 }
 
-/* The state a part t from node k to the next, closed: p->scratch. */
-static void between(rg_track *p, int32_t k, double t)
+static const double *state(const rg_track *p, int32_t k) { return p->z + (size_t)k * (size_t)p->P->n; }
+
+/* The state a part t from node k to node j, closed: p->scratch. */
+static void between(rg_track *p, int32_t k, int32_t j, double t)
 {
     const int32_t n = p->P->n;
-    const double *a = p->z + (size_t)k * (size_t)n, *b = a + n;
-    const int last = k + 2 == p->count; /* into the end: angles by e, pattern by e^2 */
+    const double *a = state(p, k), *b = state(p, j);
+    const int last = j + 1 == p->count; /* into the end: angles by e, pattern by e^2 */
     for (int32_t i = 0; i < n; i++) {
         const double part = last && i >= p->P->N ? 1 - (1 - t) * (1 - t) : t;
         p->scratch[i] = a[i] + part * (b[i] - a[i]);
@@ -128,7 +132,7 @@ void rg_track_read(rg_track *p, double due)
     double low = 0, high = 1, at_low = from, at_high = to;
     for (int i = 0; i < SECANTS; i++) {
         const double t = low + (high - low) * (due - at_low) / (at_high - at_low);
-        between(p, k, t);
+        between(p, k, k + 1, t);
         const double at = rg_track_progress(p, p->scratch);
         if (fabs(at - due) <= NEAR_DUE || !(t > low && t < high)) return;
         if (at < due) low = t, at_low = at;
@@ -142,16 +146,15 @@ int rg_track_crosses(rg_track *p, const rg_vec3 *x)
     return rg_contact_deepest(&p->plates, x, WRONG, &p->look, &hit);
 }
 
-/* Parts of the way from state k to the next, so many that each is all but straight: how far off the chord's middle
+/* Parts of the way from state k to state j, so many that each is all but straight: how far off the chord's middle
  * its middle is goes with the square. */
-static int parts_between(rg_track *p, int32_t k)
+static int parts_between(rg_track *p, int32_t k, int32_t j)
 {
-    const size_t n = (size_t)p->P->n;
     const int32_t nv = p->P->mesh->nv;
     double most = 0;
-    rg_linkage_positions(p->P, p->z + (size_t)k * n, p->x);
-    rg_linkage_positions(p->P, p->z + (size_t)(k + 1) * n, p->x + nv);
-    between(p, k, 0.5);
+    rg_linkage_positions(p->P, state(p, k), p->x);
+    rg_linkage_positions(p->P, state(p, j), p->x + nv);
+    between(p, k, j, 0.5);
     rg_linkage_put(p->P, p->scratch);
     for (int32_t v = 0; v < nv; v++) {
         const rg_vec3 middle = rg_vec3_scale(0.5, rg_vec3_add(p->x[v], p->x[nv + v]));
@@ -160,16 +163,56 @@ static int parts_between(rg_track *p, int32_t k)
     return (int)fmin(MOST_BETWEEN, fmax(LEAST_BETWEEN, ceil(sqrt(most / BENT))));
 }
 
+/* Facets cross somewhere on the way from state k to state j. */
+static int crosses_on(rg_track *p, int32_t k, int32_t j)
+{
+    const int parts = parts_between(p, k, j);
+    for (int part = 1; part < parts; part++) {
+        between(p, k, j, (double)part / parts);
+        rg_linkage_put(p->P, p->scratch);
+        if (rg_track_crosses(p, p->P->p)) return 1;
+    }
+    return 0;
+}
+
 int rg_track_crosses_between(rg_track *p)
 {
     rg_stride_scale(p->P, 1, p->q->scale);
-    for (int32_t k = 0; k + 1 < p->count; k++) {
-        const int parts = parts_between(p, k);
-        for (int part = 1; part < parts; part++) {
-            between(p, k, (double)part / parts);
-            rg_linkage_put(p->P, p->scratch);
-            if (rg_track_crosses(p, p->P->p)) return 1;
-        }
-    }
+    for (int32_t k = 0; k + 1 < p->count; k++)
+        if (crosses_on(p, k, k + 1)) return 1;
     return 0;
+}
+
+/* Is it a short way from state k straight to state j, and free? */
+static int goes_straight(rg_track *p, int32_t k, int32_t j)
+{
+    const double *a = state(p, k), *b = state(p, j);
+    for (int32_t i = 0; i < p->P->N; i++)
+        if (!(fabs(b[i] - a[i]) <= SHORT_CUT)) return 0;
+    return !crosses_on(p, k, j);
+}
+
+/* States between k and j go. */
+static void cut_out(rg_track *p, int32_t k, int32_t j)
+{
+    const size_t n = (size_t)p->P->n, rest = (size_t)(p->count - j);
+    memmove(p->z + (size_t)(k + 1) * n, p->z + (size_t)j * n, rest * n * sizeof *p->z);
+    memmove(p->progress + k + 1, p->progress + j, rest * sizeof *p->progress);
+    p->count -= j - k - 1;
+}
+
+void rg_track_rise(rg_track *p)
+{
+    rg_stride_scale(p->P, 1, p->q->scale);
+    for (int32_t k = 0; k + 1 < p->count; k++) {
+        int32_t from = k, to = k + 1;
+        if (p->progress[to] > p->progress[k]) continue;
+        while (from > 0 && p->progress[from] >= p->progress[k + 1]) from--;
+        while (to + 1 < p->count && p->progress[to] <= p->progress[k]) to++;
+        if (goes_straight(p, k, to)) cut_out(p, k, to);              /* without the fall */
+        else if (goes_straight(p, from, k + 1)) cut_out(p, from, k + 1); /* or without what it falls from */
+        else if (goes_straight(p, from, to)) cut_out(p, from, to);
+        else continue;
+        k = from > 0 ? from - 1 : -1; /* what comes together now is looked at again */
+    }
 }

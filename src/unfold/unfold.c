@@ -66,6 +66,7 @@ static rg_status go_by(rg_unfold *u, const step_of_plan *p, const rg_unfold_wish
     u->work += u->pass.spent;
     u->steps = u->pass.steps;
     if (s != RG_OK || !*is_free) return s;
+    rg_track_rise(&u->pass.track);
     if (from_flat) snprintf(u->how, sizeof u->how, "folded from flat with contacts");
     else if (u->pass.as_seen)
         snprintf(u->how, sizeof u->how, "unfolded from the flat end, way of opening %d, and landed in the order of layers that "
