@@ -3,7 +3,7 @@
 # make bench      times, as CSV                           make install   prefix=/usr/local DESTDIR=
 # make debian     a source package and what it builds     make abi       keep what the libraries show now
 # make fuzz [seconds=600] [target=fold]    make mutants    make check-long   what takes longer than a change can wait for
-# make asan, coverage, tsan, valgrind, lint, werror, layers, equations, abi-check, outputs, format, pictures, figures, corpus [fresh=1],
+# make asan (with coverage), tsan, valgrind, lint, werror, layers, equations, abi-check, outputs, format, pictures, figures, corpus [fresh=1],
 #      chart, stability, uninstall, clean
 # config=release|debug|asan|coverage|tsan|fuzz   GL=osmesa|egl|none (the first that is there)   GPL=1|0   CC=gcc|clang   WERROR=0|1
 # V=1 shows whole commands
@@ -33,7 +33,9 @@ ifeq ($(filter $(config),release debug asan coverage tsan fuzz),)
 $(error config is one of release, debug, asan, coverage, tsan, fuzz)
 endif
 
-B := build/$(config)$(if $(filter-out osmesa,$(GL)),-gl-$(GL))$(if $(filter 0,$(GPL)),-nogpl)$(if $(filter clang%,$(CC)),-clang)$(if $(filter 1,$(WERROR)),-werror)
+# What is the same whatever parts are left out is in A, the rest in B.
+A := build/$(config)$(if $(filter clang%,$(CC)),-clang)
+B := $A$(if $(filter-out osmesa,$(GL)),-gl-$(GL))$(if $(filter 0,$(GPL)),-nogpl)
 
 pkgs := libxml-2.0 jansson libpng zlib
 gl_osmesa := osmesa
@@ -56,14 +58,15 @@ cflags   += -Werror
 endif
 optimise_release  := -O2 -g
 optimise_debug    := -O0 -g
-optimise_asan     := -O1 -g
-optimise_coverage := -O1 -g
-optimise_tsan     := -O1 -g
-optimise_fuzz     := -O1 -g
+optimise_asan     := -O1 -g1
+optimise_coverage := -O1 -g1
+optimise_tsan     := -O1 -g1
+optimise_fuzz     := -O1 -g1
 CFLAGS   ?= $(optimise_$(config))
 ldflags  :=
 ifeq ($(config),asan)
-ldflags  += -fsanitize=address,undefined
+# Lines are counted at the same time, see tools/checks.mk.
+ldflags  += -fsanitize=address,undefined --coverage
 cflags   += $(ldflags) -fno-sanitize-recover=all -fno-omit-frame-pointer
 else ifeq ($(config),coverage)
 ldflags  += --coverage
@@ -82,16 +85,19 @@ compile = $(CC) $(cppflags) $(CPPFLAGS) $(cflags) $(CFLAGS)
 link    = $(CC) $(ldflags) $(LDFLAGS)
 
 src   := $(sort $(wildcard src/*/*.c))
+# Files that a part left out changes; `without` sees to it that no header does.
+varying := $(shell grep -l '^ *\# *[a-z]*if.*RG_G\(PL\|L_[a-z]\)' src/*/*.c)
 cmd   := $(filter-out tools/make_%,$(sort $(wildcard tools/*.c)))
 tests := $(sort $(wildcard tests/test_*.c))
 bench := tests/bench/speed.c $(filter-out tests/bench/speed.c,$(sort $(wildcard tests/bench/*.c)))
-lib_o := $(src:%.c=$B/%.o)
+at_home = $(foreach f,$1,$(if $(filter $(varying),$f),$B,$A)/$(f:.c=.o))
+lib_o := $(call at_home,$(src))
 # The core: the rooms that know neither files nor pictures, and of them no part that a GPL library does. The same objects but for those.
 above  := read save generate verify files render write chart
 gpl    := src/linalg/rank.c
 core   := $(filter-out $(above:%=src/%/%),$(src))
-core_o := $(patsubst %.c,$B/%.o,$(filter-out $(gpl),$(core))) $(gpl:%.c=$B/core/%.o)
-cmd_o := $(cmd:%.c=$B/%.o)
+core_o := $(call at_home,$(filter-out $(gpl),$(core))) $(gpl:%.c=$A/core/%.o)
+cmd_o := $(cmd:%.c=$A/%.o)
 test_bin  := $(tests:%.c=$B/%)
 example_bin := $(patsubst %.c,$B/%,$(sort $(wildcard docs/examples/*/*.c)))
 bench_bin := $(bench:%.c=$B/%)
@@ -119,25 +125,33 @@ endif
 
 build: $B/librigami.a $B/librigami.$(so) $B/librigami-core.a $B/librigami-core.$(so) $B/rigami
 
+# What the compiler had to say stays beside the object, until it is made anew: `make werror` asks for it.
+remark = 2>$@.said; status=$$?; cat $@.said >&2; [ -s $@.said ] || rm -f $@.said; exit $$status
+$A/%.o: %.c
+	@mkdir -p $(@D)
+	$(call say,cc,$<)
+	$Q$(compile) -MMD -MP -c -o $@ $< $(remark)
+ifneq ($A,$B)
 $B/%.o: %.c
 	@mkdir -p $(@D)
 	$(call say,cc,$<)
-	$Q$(compile) -MMD -MP -c -o $@ $<
+	$Q$(compile) -MMD -MP -c -o $@ $< $(remark)
+endif
 
 # The page of write/html.c, as the elements of an array.
 page := $(addprefix src/write/page/,head.html pose.js camera.js draw.js hands.js tail.html)
-$B/made/write/page.h: $(page)
+$A/made/write/page.h: $(page)
 	@mkdir -p $(@D)
 	$(call say,page,src/write/page)
 	$Qcat $(page) | od -An -v -tu1 | sed 's/[0-9][0-9]*/&,/g' >$@
 
-$B/src/write/html.o: $B/made/write/page.h
-$B/src/write/html.o: cppflags += -I$B/made
+$A/src/write/html.o: $A/made/write/page.h
+$A/src/write/html.o: cppflags += -I$A/made
 
-$B/core/%.o: %.c
+$A/core/%.o: %.c
 	@mkdir -p $(@D)
 	$(call say,cc,$< (core))
-	$Q$(compile) -URG_GPL -MMD -MP -c -o $@ $<
+	$Q$(compile) -URG_GPL -MMD -MP -c -o $@ $< $(remark)
 
 $B/librigami.a: $(lib_o)
 $B/librigami-core.a: $(core_o)
@@ -196,15 +210,12 @@ demo:
 	@$(MAKE) --no-print-directory $(jobs) run-demo
 
 # Mesa and the libraries under it keep memory until the program ends.
-run-tests: all $(test_bin)
+run-tests: $(if $(filter release,$(config)),all,build) $(test_bin)
 	@ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS=suppressions=tests/lsan.supp:print_suppressions=0 \
 	 UBSAN_OPTIONS=print_stacktrace=1 RIGAMI=$B/rigami sh tools/run_tests $(test_bin)
 
 run-demo: all
 	@sh tools/run_demo $B/rigami
-
-asan:
-	@$(MAKE) --no-print-directory $(jobs) config=asan run-tests
 
 bench:
 	@$(setup)
@@ -215,36 +226,41 @@ run-bench: $(bench_bin)
 
 # ----------------------------------------------------------------------------------------------------- check
 
+# The parts of a check, the longest first: they go side by side, each has what it says kept in build/check.
+parts := asan fuzz-smoke lint valgrind tsan install-check outputs tutorial without docs abi-check werror header equations layers
+
 # tested=yes: make test was run already.
 check:
 	@$(setup) check
-	@mkdir -p build
 	@$(if $(tested),,$(MAKE) --no-print-directory $(jobs) run-tests)
-	@for part in layers equations tutorial header docs werror install-check abi-check outputs without-gpl without-gl lint valgrind tsan fuzz-smoke coverage asan; do \
-	    echo "== $$part"; $(MAKE) --no-print-directory $(jobs) $$part >build/check.log 2>&1 || \
-	        { cat build/check.log; echo "check: $$part FAILED"; exit 1; }; \
-	    grep '^SKIPPED' build/check.log; tail -n 1 build/check.log; \
-	done
-	@echo "check: all parts passed"
+	@$(MAKE) --no-print-directory $(jobs) everything >/dev/null
+	@$(MAKE) --no-print-directory $(jobs) $(parts:%=part-%)
+	@echo "check: all $(words $(parts)) parts passed"
 
-werror:
-	@$(MAKE) --no-print-directory CC=gcc WERROR=1 everything
-	@$(MAKE) --no-print-directory CC=clang WERROR=1 everything
+# The parts find the release build made, so that none of them touches it while another one reads it.
+part-%:
+	@sh tools/check_part '$(MAKE) --no-print-directory $*' $*
+
+# What gcc said of all files when they were compiled, and what clang says of them.
+werror: everything
+	@! cat $(wildcard $(addsuffix .said,$(lib_o) $(cmd_o) $(test_bin:=.o) $(bench_bin:=.o) $(example_bin:=.o))) /dev/null | grep .
+	@printf '%s\n' $(src) $(cmd) $(tests) $(bench) $(wildcard docs/examples/*/*.c tests/fuzz/*.c) | \
+	    xargs -n 20 clang $(cppflags) -I$A/made -Itests/fuzz $(filter-out -f%,$(cflags)) -Werror -fsyntax-only
 	@echo "no warnings from gcc and clang"
 
 everything: build $(test_bin) $(bench_bin) $(example_bin)
 
 # Builds with a part left out, each asked to do what it still can.
-without-gpl: build
+without: build
+	@! grep -n '^ *# *[a-z]*if.*RG_G\(PL\|L_[a-z]\)' src/*/*.h tools/*.[ch]
 	@$(MAKE) --no-print-directory GPL=0 build
-	@sh tools/smoke build/release$(if $(filter-out osmesa,$(GL)),-gl-$(GL))-nogpl/rigami $(GL)
-	@sh tools/check_same build/release$(if $(filter-out osmesa,$(GL)),-gl-$(GL))/rigami build/release$(if $(filter-out osmesa,$(GL)),-gl-$(GL))-nogpl/rigami
-without-gl:
 	@$(MAKE) --no-print-directory GL=none build
-	@sh tools/smoke build/release-gl-none/rigami none
+	@sh tools/smoke $A$(if $(filter-out osmesa,$(GL)),-gl-$(GL))-nogpl/rigami $(GL)
+	@sh tools/smoke $A-gl-none/rigami none
+	@sh tools/check_same $B/rigami $A$(if $(filter-out osmesa,$(GL)),-gl-$(GL))-nogpl/rigami
 
 # What other programs make of our files; they are asked where they are there.
-outputs: all
+outputs: build
 	@sh tools/check_outputs $B/rigami
 
 layers:
@@ -254,7 +270,7 @@ equations:
 	@sh tools/check_equations
 
 # What docs/tutorial.md and docs/troubleshooting.md say that the program says.
-tutorial: all
+tutorial: build
 	@sh tools/check_messages
 	@sh tools/check_tutorial $B/rigami
 
@@ -358,8 +374,7 @@ install-check: build
 clean:
 	rm -rf build rigami
 
-.PHONY: all build test demo run-tests run-demo asan bench run-bench check werror everything without-gpl \
-        without-gl layers equations outputs header format pictures figures corpus install uninstall install-check clean
+.PHONY: all build test demo run-tests run-demo bench run-bench check werror everything without layers equations outputs header format pictures figures corpus install uninstall install-check clean
 include tools/checks.mk
 .SECONDARY:
--include $(shell find $B -name '*.d' 2>/dev/null)
+-include $(shell find $A $B -name '*.d' 2>/dev/null)

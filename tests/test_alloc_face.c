@@ -16,8 +16,8 @@
 
 #include <unistd.h>
 
-/* Where a call asks more often than this, only so many places are tried, spread over all; fewer where it takes a second. */
-enum { MOST_PLACES = 150, MOST_OF_SLOW = 15 };
+/* Where a call asks more often than this, only so many places are tried, spread over all; fewer where it takes a second, and under AddressSanitizer. */
+enum { MOST_PLACES = WITH_ASAN ? 40 : 150, MOST_OF_SLOW = WITH_ASAN ? 6 : 15 };
 
 typedef rg_status call(const rg_memory *mem, counted *c);
 

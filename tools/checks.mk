@@ -1,23 +1,19 @@
 # Further checks: coverage, threads, memory, what linters say, fuzzing, mutants. Included by the Makefile; docs/reliability.md says what
 # each of them promises.
 
-# -------------------------------------------------------------------------------------------------- coverage
+# ------------------------------------------------------------------------------------- addresses, and coverage
 
 # Lines that the tests must run through, percent: of src/, and of the readers, which see what others write.
 floor         := 90
 floor_readers := 95
 
-# Left out: tests that take minutes when every line is counted, and run through little that the others do not.
-coverage_slow := alloc corpus film render
-coverage_bin   = $(filter-out $(coverage_slow:%=$B/tests/test_%),$(test_bin))
-
-# What was counted before is taken away.
-coverage:
-	@find build -path 'build/coverage*' -name '*.gcda' -exec rm -f {} +
-	@$(MAKE) --no-print-directory $(jobs) config=coverage run-coverage
-	@$(MAKE) --no-print-directory config=coverage coverage-table
-run-coverage: all $(coverage_bin)
-	@RIGAMI=$B/rigami GCOV_ERROR_FILE=/dev/null sh tools/run_tests $(coverage_bin)
+# One build and one run for both: the tests under the sanitizers are also those whose lines are counted. What was counted before is taken away.
+asan:
+	@$(MAKE) --no-print-directory $(jobs) config=asan all-tests
+	@find build/asan -name '*.gcda' -exec rm -f {} +
+	@GCOV_ERROR_FILE=/dev/null $(MAKE) --no-print-directory config=asan run-tests
+	@$(MAKE) --no-print-directory config=asan coverage-table
+all-tests: build $(test_bin)
 
 coverage-table:
 	@for o in $(lib_o); do gcov -n -o $$o $$o 2>/dev/null; done | sh tools/check_coverage $(floor) $(floor_readers)
@@ -46,10 +42,10 @@ valgrind-long: build $(valgrind_tests:%=$B/tests/test_%)
 
 # ------------------------------------------------------------------------------------------------------ lint
 
-lint: $B/made/write/page.h
-	@sh tools/check_lint quick $(cppflags) -I$B/made -std=c11
-lint-deep: $B/made/write/page.h
-	@sh tools/check_lint deep $(cppflags) -I$B/made -std=c11
+lint: $A/made/write/page.h
+	@sh tools/check_lint quick $(cppflags) -I$A/made -std=c11
+lint-deep: $A/made/write/page.h
+	@sh tools/check_lint deep $(cppflags) -I$A/made -std=c11
 
 # ------------------------------------------------------------------------------------------------------ fuzz
 
@@ -63,12 +59,13 @@ $B/tests/fuzz/%: $B/tests/fuzz/%.o $(fuzz_help) $B/librigami.a
 	$Q$(link) -fsanitize=fuzzer -o $@ $^ $(libs) $(LDLIBS)
 $B/tests/fuzz/%.o: cppflags += -Itests/fuzz
 
-fuzz-targets: $(fuzz_bin) $B/rigami
+fuzz-targets: $(fuzz_bin)
 
 fuzz:
 	@$(setup) check
 	@sh tools/fuzz can || exit 0; \
-	 $(MAKE) --no-print-directory $(jobs) config=fuzz CC=clang fuzz-targets && sh tools/fuzz build/fuzz-clang $(or $(seconds),600) $(target)
+	 $(MAKE) --no-print-directory $(jobs) build && $(MAKE) --no-print-directory $(jobs) config=fuzz CC=clang fuzz-targets && \
+	 sh tools/fuzz build/fuzz-clang $B/rigami $(or $(seconds),600) $(target)
 # As much as a change can wait for, and the same each time.
 fuzz-smoke:
 	@$(MAKE) --no-print-directory fuzz seconds=smoke
@@ -96,4 +93,4 @@ check-long: check
 	done
 	@echo "check-long: all parts passed"
 
-.PHONY: coverage run-coverage coverage-table tsan run-tsan helgrind valgrind valgrind-long faults-long lint lint-deep fuzz fuzz-targets fuzz-smoke mutants check-long
+.PHONY: asan all-tests coverage-table tsan run-tsan helgrind valgrind valgrind-long faults-long lint lint-deep fuzz fuzz-targets fuzz-smoke mutants check-long
