@@ -261,7 +261,7 @@ static void check_faces(const char *path, int32_t faces, double area)
     char *text = load(path);
     rg_value *root = NULL;
     rg_diag why;
-    assert_int_equal(rg_value_parse(text, strlen(text), &root, &why), RG_OK);
+    assert_int_equal(rg_value_parse(text, strlen(text), NULL, &root, &why), RG_OK);
     const rg_value *fv = rg_value_get(root, "faces_vertices"), *fe = rg_value_get(root, "faces_edges"), *ef = rg_value_get(root, "edges_faces");
     const rg_value *ev = rg_value_get(root, "edges_vertices"), *x = rg_value_get(root, "vertices_coords");
     double sum = 0;

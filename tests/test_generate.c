@@ -64,7 +64,7 @@ static rg_lines read_lines(const char *path)
     rg_diag why = {0, ""};
     size_t n;
     char *bytes = slurp(path, &n);
-    if (rg_opx_read(bytes, n, &mem, &l, &why) != RG_OK) fail_msg("%s:%d: %s", path, why.line, why.text);
+    if (rg_opx_read(bytes, n, &mem, NULL, &l, &why) != RG_OK) fail_msg("%s:%d: %s", path, why.line, why.text);
     free(bytes);
     return l;
 }

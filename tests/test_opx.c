@@ -78,7 +78,7 @@ static rg_status read_bytes(const void *bytes, size_t n, rg_lines *l, rg_diag *w
 {
     rg_memory mem = rg_mem_default(NULL);
     if (why) *why = (rg_diag){-1, ""};
-    return rg_opx_read(bytes, n, &mem, l, why);
+    return rg_opx_read(bytes, n, &mem, NULL, l, why);
 }
 
 static rg_lines read_ok(const text *t)
@@ -497,7 +497,7 @@ static void memory_runs_short(void **state)
         rg_memory mem = {counted_resize, &c};
         rg_lines l;
         rg_diag why;
-        s = rg_opx_read(t.s, t.n, &mem, &l, &why);
+        s = rg_opx_read(t.s, t.n, &mem, NULL, &l, &why);
         assert_true(s == RG_OK || s == RG_ENOMEM);
         assert_true(k < 100);
         if (s == RG_OK) rg_lines_free(&l);

@@ -191,10 +191,87 @@ static void damaged_at_random(void **state)
     assert_in_range(read, 300, 5700); /* both ways are taken */
 }
 
+typedef struct asked { int times, end_at; double last; } asked;
+
+static int answer(void *ctx, double progress)
+{
+    asked *a = ctx;
+    assert_true(progress >= a->last && progress < 1);
+    a->last = progress;
+    return a->times++ == a->end_at;
+}
+
+/* Many short lines, in each format; `size`: out. Owner: the caller. */
+static char *many(rg_format format, int lines, size_t *size)
+{
+    static const char *const begin[] = {[RG_FORMAT_CP] = "", [RG_FORMAT_OPX] = "<java><object class=\"oripa.DataSet\"><void property=\"lines\"><array>",
+        [RG_FORMAT_SVG] = "<svg>", [RG_FORMAT_DXF] = "0\nSECTION\n2\nENTITIES\n", [RG_FORMAT_ORI] = "{\"lineSegments\":[", [RG_FORMAT_FOLD] = "{\"edges_vertices\":["};
+    static const char *const end[] = {[RG_FORMAT_CP] = "", [RG_FORMAT_OPX] = "</array></void></object></java>", [RG_FORMAT_SVG] = "</svg>",
+        [RG_FORMAT_DXF] = "0\nENDSEC\n0\nEOF\n", [RG_FORMAT_ORI] = "]}", [RG_FORMAT_FOLD] = "]}"};
+    const size_t room = 400 * (size_t)lines + 1000;
+    char *s = malloc(room);
+    size_t at = (size_t)snprintf(s, room, "%s", begin[format]);
+    for (int i = 0; i < lines; i++) {
+        const char *comma = i < lines - 1 ? "," : "";
+        switch (format) {
+        case RG_FORMAT_CP: at += (size_t)snprintf(s + at, room - at, "2 %d 0 %d 1\n", i, i); break;
+        case RG_FORMAT_OPX:
+            at += (size_t)snprintf(s + at, room - at, "<void index=\"%d\"><object><void property=\"type\"><int>2</int></void><void property=\"x0\"><double>%d</double></void>"
+                                   "<void property=\"x1\"><double>%d</double></void><void property=\"y1\"><double>1</double></void></object></void>", i, i, i);
+            break;
+        case RG_FORMAT_SVG: at += (size_t)snprintf(s + at, room - at, "<path stroke=\"red\" d=\"M%d 0V1\"/>", i); break;
+        case RG_FORMAT_DXF: at += (size_t)snprintf(s + at, room - at, "0\nLINE\n62\n1\n10\n%d\n20\n0\n11\n%d\n21\n1\n", i, i); break;
+        case RG_FORMAT_ORI: at += (size_t)snprintf(s + at, room - at, "{\"a\":\"%d,0\",\"b\":\"%d,1\",\"color\":\"RED_1\"}%s", i, i, comma); break;
+        default: at += (size_t)snprintf(s + at, room - at, "[%d,%d]%s", 2 * i, 2 * i + 1, comma); break;
+        }
+    }
+    if (format == RG_FORMAT_FOLD) {
+        at += (size_t)snprintf(s + at, room - at, "],\"vertices_coords\":[");
+        for (int i = 0; i < lines; i++) at += (size_t)snprintf(s + at, room - at, "[%d,0],[%d,1]%s", i, i, i < lines - 1 ? "," : "");
+    }
+    at += (size_t)snprintf(s + at, room - at, "%s", end[format]);
+    assert_true(at < room);
+    *size = at;
+    return s;
+}
+
+/* A file is asked for all along whether to go on, in every format, and can be ended each time; nothing is kept of it then. */
+static void reading_can_be_ended_in_the_middle(void **state)
+{
+    (void)state;
+    static const rg_format formats[] = {RG_FORMAT_CP, RG_FORMAT_OPX, RG_FORMAT_SVG, RG_FORMAT_DXF, RG_FORMAT_FOLD, RG_FORMAT_ORI};
+    enum { LINES = 20000, EVER = 1 << 30 };
+    for (int f = 0; f < 6; f++) {
+        size_t size;
+        char *text = many(formats[f], LINES, &size);
+        int all = EVER;
+        for (int end_at = EVER; end_at >= 0; end_at = end_at == EVER ? all - 1 : end_at - 1 - all / 8) {
+            counted c = {1000000000, 0, 0};
+            const rg_memory mem = {counted_resize, &c};
+            asked a = {0, end_at, 0};
+            rg_reading s = rg_reading_default();
+            rg_lines l = {.count = 0};
+            rg_diag why = {0, ""};
+            s.memory = &mem;
+            s.format = formats[f];
+            s.progress = answer, s.progress_ctx = &a;
+            assert_int_equal(rg_read_bytes(text, size, NULL, &s, 0, &l, &why), end_at == EVER ? RG_OK : RG_ECANCELLED);
+            if (end_at == EVER) assert_int_equal(l.count, LINES);
+            if (end_at == EVER) all = a.times;
+            else assert_true(a.times == end_at + 1 && why.text[0] && !strchr(why.text, '\n'));
+            rg_lines_free(&l);
+            assert_int_equal(c.out, 0);
+        }
+        assert_true(all >= LINES / 2500 && all < 5000);
+        free(text);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(content_goes_before_the_name), cmocka_unit_test(ori), cmocka_unit_test(the_format_asked_for), cmocka_unit_test(what_is_no_crease_pattern),
-        cmocka_unit_test(byte_order_marks), cmocka_unit_test(memory_runs_short), cmocka_unit_test(damaged_at_random)};
+        cmocka_unit_test(byte_order_marks), cmocka_unit_test(memory_runs_short), cmocka_unit_test(reading_can_be_ended_in_the_middle),
+        cmocka_unit_test(damaged_at_random)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

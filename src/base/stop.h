@@ -1,5 +1,5 @@
 /* stop.h -- whether what goes on is to be ended, asked now and then by what takes long.
- * Used by  layers, motion */
+ * Used by  lines, read, layers, motion */
 #ifndef RG_STOP_H
 #define RG_STOP_H
 

@@ -7,6 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Lines that are read before it is asked again whether to go on: a few milliseconds. */
+enum { LINES_UNASKED = 2000 };
+
 void rg_lines_init(rg_lines *l, const rg_memory *mem)
 {
     memset(l, 0, sizeof *l);
@@ -25,6 +28,10 @@ void rg_lines_free(rg_lines *l)
 
 rg_status rg_lines_add(rg_lines *l, rg_vec2 a, rg_vec2 b, char assignment, int32_t where)
 {
+    if (++l->unasked >= LINES_UNASKED) {
+        l->unasked = 0;
+        if (rg_stop_asked(l->stop)) return RG_ECANCELLED;
+    }
     if (l->count >= INT32_MAX / 8) return RG_ENOMEM; /* indices of what is made of the lines stay in 32 bits */
     rg_status s = rg_mem_grow(&l->mem, (void **)&l->line, &l->room, (size_t)l->count + 1, sizeof *l->line);
     if (s != RG_OK) return s;

@@ -3,6 +3,7 @@
 #ifndef RG_LINES_H
 #define RG_LINES_H
 
+#include "base/stop.h"
 #include "base/vec.h"
 #include "rigami.h"
 
@@ -63,6 +64,8 @@ typedef struct rg_lines {
     double merge;    /* tolerance that the format is usually drawn to, a part of the size; 0: the general one */
     rg_value *frame; /* FOLD, where asked for: the frame read, with what it inherits; NULL otherwise */
     const rg_keeper *keeper; /* of that */
+    const rg_stop *stop; /* asked now and then while lines are read; NULL: nobody */
+    int32_t unasked; /* lines since */
     int32_t *vertex; /* ... and the numbers of each line's two ends there, [2 count] */
     int32_t *face_start, *face_vertex, faces; /* ... and the faces listed there: vertices face_vertex[face_start[f]] and on */
 } rg_lines;
@@ -74,7 +77,7 @@ enum { RG_MOST_WARNINGS = 1000 }; /* one more says that there are more */
 /* A coordinate as the file has it, for messages: its own y, and no rounding where 0 is meant (`size`: of the sheet). */
 rg_vec2 rg_lines_own(const rg_lines *l, rg_vec2 x, double size);
 
-/* All: RG_ENOMEM leaves *l as it was. */
+/* All: RG_ENOMEM leaves *l as it was. rg_lines_add: RG_ECANCELLED where its stop says so. */
 rg_status rg_lines_add(rg_lines *l, rg_vec2 a, rg_vec2 b, char assignment, int32_t where);
 rg_status rg_lines_warn(rg_lines *l, int32_t where, const char *format, ...);
 /* Counts a line of that trait; of more than RG_MOST_TRAITS the rest is forgotten. Longer names are cut. */

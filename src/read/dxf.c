@@ -625,13 +625,14 @@ static rg_status nothing_drawn(const reader *r)
     return rg_fail(RG_EFORMAT, r->why, r->in.line, "no LINE, LWPOLYLINE, POLYLINE or 3DFACE in the drawing");
 }
 
-rg_status rg_dxf_read(const void *bytes, size_t size, const rg_memory *mem, const rg_reading *settings, rg_lines *out,
-                      rg_diag *why)
+rg_status rg_dxf_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop,
+                      const rg_reading *settings, rg_lines *out, rg_diag *why)
 {
     reader r = {.out = out, .why = why, .settings = settings,
                 .in = {.s = bytes, .end = (const char *)bytes + size, .why = why},
                 .place = {rg_mat3_identity(), {0, 0, 0}}};
     rg_lines_init(out, mem);
+    out->stop = stop;
     rg_status s = size ? sections(&r) : rg_fail(RG_EFORMAT, why, 0, "the file is empty");
     if (s == RG_OK && out->count == 0) s = nothing_drawn(&r);
     if (s == RG_OK) s = tell_all(&r);

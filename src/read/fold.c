@@ -642,7 +642,7 @@ static rg_status choose(reader *r)
             r->is_state = 1;
             if (s == RG_OK) s = read_frame(r);
         }
-        if (s == RG_OK || s == RG_ENOMEM || (!r->is_folded && r->frame && has_drawing(r))) return s;
+        if (s == RG_OK || s == RG_ENOMEM || s == RG_ECANCELLED || (!r->is_folded && r->frame && has_drawing(r))) return s;
         if (failed == RG_OK && r->why) first = *r->why;
         failed = s;
     }
@@ -650,12 +650,13 @@ static rg_status choose(reader *r)
     return failed;
 }
 
-rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, const rg_reading *settings, int keep, rg_lines *out,
+rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, const rg_reading *settings, int keep, rg_lines *out,
                        rg_diag *why)
 {
     rg_value *root = NULL;
     rg_lines_init(out, mem);
-    rg_status s = size ? rg_value_parse(bytes, size, &root, why) : rg_fail(RG_EFORMAT, why, 0, "the file is empty");
+    out->stop = stop;
+    rg_status s = size ? rg_value_parse(bytes, size, stop, &root, why) : rg_fail(RG_EFORMAT, why, 0, "the file is empty");
     if (s == RG_OK && rg_value_kind(root) != RG_KIND_OBJECT)
         s = rg_fail(RG_EFORMAT, why, 1, "JSON, but no FOLD: it is no object");
     reader r = {.out = out, .why = why, .s = settings, .text = bytes, .size = size, .root = root};

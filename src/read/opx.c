@@ -156,12 +156,13 @@ static rg_status document(reader *r, const rg_xml *doc)
     return rg_fail(RG_EFORMAT, r->why, line_of(root), "no object of class oripa.DataSet");
 }
 
-rg_status rg_opx_read(const void *bytes, size_t size, const rg_memory *mem, rg_lines *out, rg_diag *why)
+rg_status rg_opx_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out, rg_diag *why)
 {
     rg_xml *doc = NULL;
     rg_lines_init(out, mem);
+    out->stop = stop;
     out->y_down = 1;
-    rg_status s = rg_xml_parse(bytes, size, RG_XML_NO_TYPE, &doc, why);
+    rg_status s = rg_xml_parse(bytes, size, RG_XML_NO_TYPE, stop, &doc, why);
     if (s == RG_OK) {
         reader r = {out, why, NULL};
         s = document(&r, doc);

@@ -67,12 +67,13 @@ static rg_status check_version(const rg_value *root, rg_diag *why)
     return rg_fail(RG_EFORMAT, why, 1, "@version: \"%.40s\" is not known, v1 is: save it again as .fold or .cp", version);
 }
 
-rg_status rg_ori_read(const void *bytes, size_t size, const rg_memory *mem, rg_lines *out, rg_diag *why)
+rg_status rg_ori_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out, rg_diag *why)
 {
     rg_value *root = NULL;
     rg_lines_init(out, mem);
+    out->stop = stop;
     out->y_down = 1;
-    rg_status s = size ? rg_value_parse(bytes, size, &root, why) : rg_fail(RG_EFORMAT, why, 0, "the file is empty");
+    rg_status s = size ? rg_value_parse(bytes, size, stop, &root, why) : rg_fail(RG_EFORMAT, why, 0, "the file is empty");
     if (s == RG_OK) s = check_version(root, why);
     if (s == RG_OK) s = lines(rg_value_get(root, "lineSegments"), bytes, size, out, why);
     const char *title = rg_value_text(rg_value_get(root, "title"));

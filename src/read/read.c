@@ -196,10 +196,18 @@ static rg_status cut_texts(rg_lines *l)
     return RG_OK;
 }
 
+/* How far the whole is while the file is read cannot be told: nothing of it, until its lines are there. */
+static int is_to_end(void *ctx)
+{
+    const rg_reading *s = ctx;
+    return s->progress && s->progress(s->progress_ctx, 0);
+}
+
 rg_status rg_read_bytes(const void *bytes, size_t size, const char *path, const rg_reading *s, int keep, rg_lines *out,
                         rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(s->memory);
+    const rg_stop stop = {is_to_end, (void *)s};
     rg_format format;
     if (size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0) { /* a byte order mark says no more than UTF-8 */
         bytes = (const char *)bytes + 3;
@@ -209,15 +217,17 @@ rg_status rg_read_bytes(const void *bytes, size_t size, const char *path, const 
     if (status == RG_OK) status = rg_read_format(bytes, size, path, s, &format, why);
     if (status != RG_OK) return status;
     switch (format) {
-    case RG_FORMAT_OPX: status = rg_opx_read(bytes, size, &mem, out, why); break;
-    case RG_FORMAT_CP: status = rg_cp_read(bytes, size, &mem, out, why); break;
-    case RG_FORMAT_SVG: status = rg_svg_read(bytes, size, &mem, s, out, why); break;
-    case RG_FORMAT_DXF: status = rg_dxf_read(bytes, size, &mem, s, out, why); break;
-    case RG_FORMAT_FOLD: status = rg_fold_read(bytes, size, &mem, s, keep, out, why); break;
-    case RG_FORMAT_ORI: status = rg_ori_read(bytes, size, &mem, out, why); break;
+    case RG_FORMAT_OPX: status = rg_opx_read(bytes, size, &mem, &stop, out, why); break;
+    case RG_FORMAT_CP: status = rg_cp_read(bytes, size, &mem, &stop, out, why); break;
+    case RG_FORMAT_SVG: status = rg_svg_read(bytes, size, &mem, &stop, s, out, why); break;
+    case RG_FORMAT_DXF: status = rg_dxf_read(bytes, size, &mem, &stop, s, out, why); break;
+    case RG_FORMAT_FOLD: status = rg_fold_read(bytes, size, &mem, &stop, s, keep, out, why); break;
+    case RG_FORMAT_ORI: status = rg_ori_read(bytes, size, &mem, &stop, out, why); break;
     default: return rg_fail(RG_EARG, why, 0, "there is no such format");
     }
+    if (status == RG_ECANCELLED) return rg_fail(status, why, 0, "%s", rg_status_text(status));
     if (status != RG_OK) return status == RG_ENOMEM ? rg_fail(status, why, 0, "out of memory") : status;
+    out->stop = NULL;
     status = check_coordinates(out, why);
     if (status == RG_OK) status = cut_texts(out);
     if (status == RG_OK) status = rg_kinds_warn_unused(s, out);

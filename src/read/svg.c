@@ -586,8 +586,8 @@ static rg_status document(reader *r, const rg_xml_node *root)
     return s == RG_OK && r->out->count == 0 ? nothing_drawn(r, root) : s;
 }
 
-rg_status rg_svg_read(const void *bytes, size_t size, const rg_memory *mem, const rg_reading *settings, rg_lines *out,
-                      rg_diag *why)
+rg_status rg_svg_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop,
+                      const rg_reading *settings, rg_lines *out, rg_diag *why)
 {
     rg_xml *doc = NULL;
     reader r = {.out = out, .why = why, .with = {.s = settings}};
@@ -595,7 +595,7 @@ rg_status rg_svg_read(const void *bytes, size_t size, const rg_memory *mem, cons
     rg_css_init(&r.with.css, mem);
     out->merge = MERGE;
     out->y_down = 1;
-    rg_status s = rg_xml_parse(bytes, size, RG_XML_ANY_TYPE, &doc, why);
+    rg_status s = rg_xml_parse(bytes, size, RG_XML_ANY_TYPE, stop, &doc, why);
     if (s == RG_OK) s = document(&r, rg_xml_root(doc));
     rg_xml_free(doc);
     rg_css_free(&r.with.css);

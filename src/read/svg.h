@@ -14,7 +14,7 @@
 /* settings: targets (opacities are fold angles), kind. *out is initialised here; on failure it is left freed.
  * RG_EFORMAT:
  * why->line, why->text. Loads nothing from anywhere. */
-rg_status rg_svg_read(const void *bytes, size_t size, const rg_memory *mem, const rg_reading *s, rg_lines *out,
-                      rg_diag *why);
+rg_status rg_svg_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop,
+                      const rg_reading *s, rg_lines *out, rg_diag *why);
 
 #endif

@@ -149,10 +149,38 @@ static int is_of_the_text(const json_error_t *e)
     }
 }
 
-rg_status rg_value_parse(const void *bytes, size_t size, rg_value **root, rg_diag *why)
+/* Bytes that are read before it is asked again whether to go on: a few milliseconds. */
+enum { BYTES_UNASKED = 1 << 18 };
+
+typedef struct feed {
+    const char *s, *end;
+    const rg_stop *stop;
+    size_t unasked;
+    int is_stopped;
+} feed;
+
+static size_t next_bytes(void *to, size_t room, void *ctx)
+{
+    feed *f = ctx;
+    const size_t left = (size_t)(f->end - f->s), n = left < room ? left : room;
+    if ((f->unasked += n) >= BYTES_UNASKED) {
+        f->unasked = 0;
+        if ((f->is_stopped = rg_stop_asked(f->stop))) return (size_t)-1;
+    }
+    memcpy(to, f->s, n);
+    f->s += n;
+    return n;
+}
+
+rg_status rg_value_parse(const void *bytes, size_t size, const rg_stop *stop, rg_value **root, rg_diag *why)
 {
     json_error_t e;
-    json_t *v = json_loadb(bytes, size, JSON_REJECT_DUPLICATES, &e);
+    feed f = {bytes, (const char *)bytes + size, stop, 0, 0};
+    json_t *v = json_load_callback(next_bytes, &f, JSON_REJECT_DUPLICATES, &e);
+    if (f.is_stopped) {
+        json_decref(v);
+        return RG_ECANCELLED;
+    }
     if (!v && (json_error_code(&e) == json_error_out_of_memory ||
                (!is_of_the_text(&e) && is_well_formed(bytes, (const char *)bytes + size)))) return RG_ENOMEM;
     if (!v) {

@@ -17,8 +17,8 @@ typedef enum rg_kind {
 } rg_kind;
 
 /* RG_EFORMAT: why->line and why->text; also for a key that comes twice in one object. The depth is bounded, and numbers
- * are finite. RG_ENOMEM. Owner: the caller, rg_value_free. */
-rg_status rg_value_parse(const void *bytes, size_t size, rg_value **root, rg_diag *why);
+ * are finite. RG_ENOMEM. RG_ECANCELLED: by `stop`, which may be NULL. Owner: the caller, rg_value_free. */
+rg_status rg_value_parse(const void *bytes, size_t size, const rg_stop *stop, rg_value **root, rg_diag *why);
 void rg_value_free(rg_value *v);
 /* The same value for another owner, who frees it too. */
 rg_value *rg_value_share(rg_value *v);

@@ -9,6 +9,16 @@
 #include <libxml/parser.h>
 #include <libxml/tree.h>
 
+/* Elements that are read before it is asked again whether to go on: a few milliseconds. */
+enum { ELEMENTS_UNASKED = 2000 };
+
+/* What the parser hands on to the functions below. */
+typedef struct asked {
+    int document_type; /* the line it is declared at */
+    const rg_stop *stop;
+    int unasked, is_stopped;
+} asked;
+
 /* libxml2's own number of a line ends at 65535. */
 static void start_element(void *ctx, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri, int namespaces,
                           const xmlChar **namespace, int attributes, int defaulted, const xmlChar **values)
@@ -16,15 +26,19 @@ static void start_element(void *ctx, const xmlChar *name, const xmlChar *prefix,
     xmlParserCtxt *parser = ctx;
     xmlSAX2StartElementNs(ctx, name, prefix, uri, namespaces, namespace, attributes, defaulted, values);
     if (parser->node && parser->input) parser->node->_private = (void *)(intptr_t)parser->input->line;
+    asked *q = parser->_private;
+    if (++q->unasked < ELEMENTS_UNASKED) return;
+    q->unasked = 0;
+    if ((q->is_stopped = rg_stop_asked(q->stop))) xmlStopParser(parser);
 }
 
 /* Entities that open into gigabytes, files from elsewhere: where no document type is usual, its line is enough. */
 static void refuse_document_type(void *ctx, const xmlChar *name, const xmlChar *public_id, const xmlChar *system_id)
 {
     xmlParserCtxt *parser = ctx;
-    int *line = parser->_private;
+    asked *q = parser->_private;
     (void)name, (void)public_id, (void)system_id;
-    *line = parser->input ? parser->input->line : 1;
+    q->document_type = parser->input ? parser->input->line : 1;
     xmlStopParser(parser);
 }
 
@@ -39,12 +53,12 @@ static void note_memory(void *ctx, xmlError *e)
     if (e->code == XML_ERR_NO_MEMORY) *none_left = 1;
 }
 
-static rg_status parse(const void *bytes, size_t size, rg_xml_type type, const int *none_left, rg_xml **doc, rg_diag *why)
+static rg_status parse(const void *bytes, size_t size, rg_xml_type type, const rg_stop *stop, const int *none_left, rg_xml **doc, rg_diag *why)
 {
     xmlParserCtxt *parser = xmlNewParserCtxt();
     if (!parser) return RG_ENOMEM;
-    int document_type = 0; /* the line it is declared at */
-    parser->_private = &document_type;
+    asked q = {.stop = stop};
+    parser->_private = &q;
     if (type == RG_XML_NO_TYPE) parser->sax->internalSubset = refuse_document_type;
     parser->sax->startElementNs = start_element;
     parser->sax->comment = NULL; /* so that a text is one node, whatever stands in it */
@@ -54,8 +68,10 @@ static rg_status parse(const void *bytes, size_t size, rg_xml_type type, const i
     rg_status s = RG_OK;
     if (*none_left) {
         s = RG_ENOMEM;
-    } else if (document_type) {
-        s = rg_fail(RG_EFORMAT, why, document_type, "a document type is declared: no ORIPA file has one");
+    } else if (q.is_stopped) {
+        s = RG_ECANCELLED;
+    } else if (q.document_type) {
+        s = rg_fail(RG_EFORMAT, why, q.document_type, "a document type is declared: no ORIPA file has one");
     } else if (!read) {
         const xmlError *e = xmlCtxtGetLastError(parser);
         const int n = e && e->message ? (int)strcspn(e->message, "\n") : 0;
@@ -69,7 +85,7 @@ static rg_status parse(const void *bytes, size_t size, rg_xml_type type, const i
     return s;
 }
 
-rg_status rg_xml_parse(const void *bytes, size_t size, rg_xml_type type, rg_xml **doc, rg_diag *why)
+rg_status rg_xml_parse(const void *bytes, size_t size, rg_xml_type type, const rg_stop *stop, rg_xml **doc, rg_diag *why)
 {
     if (size == 0) return rg_fail(RG_EFORMAT, why, 0, "the file is empty");
     if (size > INT_MAX) return rg_fail(RG_EFORMAT, why, 0, "the file is larger than 2 GB");
@@ -77,7 +93,7 @@ rg_status rg_xml_parse(const void *bytes, size_t size, rg_xml_type type, rg_xml 
     const xmlStructuredErrorFunc listener = xmlStructuredError;
     void *his = xmlStructuredErrorContext;
     xmlSetStructuredErrorFunc(&none_left, note_memory);
-    const rg_status s = parse(bytes, size, type, &none_left, doc, why);
+    const rg_status s = parse(bytes, size, type, stop, &none_left, doc, why);
     xmlSetStructuredErrorFunc(his, listener);
     return s;
 }

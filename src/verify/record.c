@@ -230,7 +230,7 @@ rg_status rg_record_parse(const char *bytes, size_t size, const rg_memory *mem, 
     rg_value *root = NULL;
     memset(r, 0, sizeof *r);
     r->mem = *mem;
-    rg_status s = rg_value_parse(bytes, size, &root, why);
+    rg_status s = rg_value_parse(bytes, size, NULL, &root, why);
     const reader q = {r, root, why};
     const rg_value *v;
     if (s == RG_OK && rg_value_kind(root) != RG_KIND_OBJECT) s = rg_fail(RG_EFORMAT, why, 0, "no FOLD file");
