@@ -28,7 +28,8 @@ int interrupt_came(void);
 /* Non-zero: it was the time. */
 int interrupt_time_is_up(void);
 
-/* Seconds that an interrupted fold has for what there is to write: the whole takes less than one. */
-#define INTERRUPT_GRACE 0.6
+/* Seconds that an interrupted fold has for what there is to write. The whole takes less than one: to give back the two
+ * gigabytes of a large pattern takes up to half of one on a busy machine. */
+#define INTERRUPT_GRACE 0.4
 
 #endif

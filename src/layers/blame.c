@@ -47,7 +47,7 @@ static int has_none(search *s)
     if (s->looks > MOST_LOOKS) s->gave_up = 1;
     if (s->gave_up || s->status != RG_OK) return 0;
     const rg_cells some = cells_of_set(s);
-    rg_status status = rg_pairs_init(&p, &s->mem, &some, s->f->nf);
+    rg_status status = rg_pairs_init(&p, &s->mem, &some, s->f->nf, NULL);
     if (status == RG_OK) status = rg_constraints_init(&k, &s->mem, s->m, s->f, &some, &p);
     if (status == RG_OK) status = rg_orders_init(&o, &s->mem, &p, &k);
     if (status == RG_OK) none = !rg_orders_set_hinges(&o) || !rg_orders_propagate(&o);

@@ -209,7 +209,7 @@ rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, c
     else if (s == RG_OK && l->flat.state == RG_FLAT_UNTOLD) say_unsolved(l, "which of the undriven creases fold could not be told");
     else if (s == RG_OK) {
         s = rg_cells_init(&l->cells, mem, &l->mesh, &l->flat, stop, &close);
-        if (s == RG_OK) s = rg_pairs_init(&l->pairs, mem, &l->cells, l->flat.nf);
+        if (s == RG_OK) s = rg_pairs_init(&l->pairs, mem, &l->cells, l->flat.nf, stop);
         if (s == RG_OK && rg_stop_asked(stop)) s = RG_EFORMAT;
         if (s == RG_OK) s = rg_constraints_init(&l->constraints, mem, &l->mesh, &l->flat, &l->cells, &l->pairs);
         l->info.pairs = l->pairs.count;

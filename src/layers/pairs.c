@@ -84,7 +84,7 @@ static rg_status number_pairs(rg_pairs *p)
 }
 
 /* For each facet f and each g over it: the union of the stacks that have both. */
-static rg_status find_common(rg_pairs *p, const stack *s, int32_t stacks)
+static rg_status find_common(rg_pairs *p, const stack *s, int32_t stacks, const rg_stop *stop)
 {
     const size_t words = (size_t)p->words;
     int32_t *start = rg_mem_array(&p->mem, (size_t)p->nf + 2, sizeof *start), *of = NULL;
@@ -105,6 +105,7 @@ static rg_status find_common(rg_pairs *p, const stack *s, int32_t stacks)
     for (int32_t i = 0; status == RG_OK && i < stacks; i++)
         for (int32_t j = 0; j < s[i].n; j++) of[start[s[i].facet[j] + 1]++] = i;
     for (int32_t f = 0; status == RG_OK && f < p->nf; f++) {
+        if (rg_stop_asked(stop)) status = RG_EFORMAT;
         for (int32_t k = start[f]; k < start[f + 1]; k++) {
             const stack *t = &s[of[k]];
             const uint64_t *add = bits + (size_t)of[k] * words;
@@ -137,7 +138,7 @@ static rg_status find_common(rg_pairs *p, const stack *s, int32_t stacks)
     return status;
 }
 
-rg_status rg_pairs_init(rg_pairs *p, const rg_memory *mem, const rg_cells *c, int32_t nf)
+rg_status rg_pairs_init(rg_pairs *p, const rg_memory *mem, const rg_cells *c, int32_t nf, const rg_stop *stop)
 {
     memset(p, 0, sizeof *p);
     p->mem = *mem;
@@ -153,15 +154,17 @@ rg_status rg_pairs_init(rg_pairs *p, const rg_memory *mem, const rg_cells *c, in
     rg_status status = s && p->bit && p->of_bit && p->row && p->before && p->start ? RG_OK : RG_ENOMEM;
     if (status == RG_OK) stand_together(p, c);
     const int32_t stacks = status == RG_OK ? different_stacks(c, s) : 0;
-    for (int32_t i = 0; i < stacks; i++)
+    for (int32_t i = 0; status == RG_OK && i < stacks; i++) {
+        if (rg_stop_asked(stop)) status = RG_EFORMAT;
         for (int32_t j = 0; j < s[i].n; j++)
             for (int32_t k = j + 1; k < s[i].n; k++) {
                 set(row_of(p, p->row, s[i].facet[j]), p->bit[s[i].facet[k]]);
                 set(row_of(p, p->row, s[i].facet[k]), p->bit[s[i].facet[j]]);
             }
+    }
     if (status == RG_OK) status = number_pairs(p);
     if (status == RG_OK && !(p->common_start = rg_mem_array(mem, (size_t)p->count + 1, sizeof *p->common_start))) status = RG_ENOMEM;
-    if (status == RG_OK) status = find_common(p, s, stacks);
+    if (status == RG_OK) status = find_common(p, s, stacks, stop);
     rg_mem_free(mem, s);
     return status;
 }

@@ -19,8 +19,9 @@ typedef struct rg_pairs {
     uint64_t *common;           /* ... and its bits: facets over a place that both facets of the pair are over */
 } rg_pairs;
 
-/* RG_ENOMEM; RG_EFORMAT: too many for the memory that this may take. Owner: the caller, rg_pairs_free, also after a failure. */
-rg_status rg_pairs_init(rg_pairs *p, const rg_memory *mem, const rg_cells *c, int32_t nf);
+/* RG_ENOMEM; RG_EFORMAT: too many for the memory that this may take, or `stop` (NULL: nobody) ends it.
+ * Owner: the caller, rg_pairs_free, also after a failure. */
+rg_status rg_pairs_init(rg_pairs *p, const rg_memory *mem, const rg_cells *c, int32_t nf, const rg_stop *stop);
 void rg_pairs_free(rg_pairs *p);
 /* The pair of f and g; -1: they do not overlap. */
 static inline int32_t rg_pairs_find(const rg_pairs *p, int32_t f, int32_t g)

@@ -43,7 +43,7 @@ static rg_status state_init(state *s, const rg_memory *mem, const rg_mesh *m, co
     *good = status == RG_OK && s->flat.state == RG_FLAT_END;
     if (!*good) return status;
     status = rg_cells_init(&s->cells, mem, m, &s->flat, NULL, &why);
-    if (status == RG_OK) status = rg_pairs_init(&s->pairs, mem, &s->cells, s->flat.nf);
+    if (status == RG_OK) status = rg_pairs_init(&s->pairs, mem, &s->cells, s->flat.nf, NULL);
     *good = status == RG_OK;
     return status == RG_EFORMAT ? RG_OK : status;
 }

@@ -4,7 +4,7 @@
 #define RG_PIECES_H
 
 #include "pattern/faces.h"
-#include "pattern/planar.h"
+#include "pattern/graph.h"
 
 /* Finds the sheets of the graph: pieces that hang together and lie in no other one; what lies in a sheet is its own. *piece:
  * out, [*pieces] in the order of the file, the caller's, also after a failure. `take` above 0: only that one, from 1, stays in

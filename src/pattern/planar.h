@@ -1,20 +1,9 @@
 /* planar.h -- lines as drawn to a plane graph: gaps closed, crossings and T-junctions split, doubles merged.
- * Uses  points.h overlap.h lines/lines.h        Used by  layers, pattern */
+ * Uses  graph.h loose.h points.h overlap.h lines/lines.h        Used by  layers, pattern */
 #ifndef RG_PLANAR_H
 #define RG_PLANAR_H
 
-#include "pattern/pattern.h"
-
-typedef struct rg_graph {
-    rg_memory mem;
-    rg_vec2 *X; /* [nv] */
-    rg_edge *E; /* [ne], in the order of the lines */
-    int32_t nv, ne;
-    size_t room;
-    double size;       /* longer side of the bounding box */
-    int32_t loose;     /* creases that were left out as loose ends */
-    double merged_max; /* largest distance merged, file units */
-} rg_graph;
+#include "pattern/graph.h"
 
 /* The graph of the lines that are part of the sheet: cuts of the folded model are left out, auxiliary lines too unless
  * they shall be creases, loose ends as well; what is left out is told in the lines' warnings.
@@ -25,8 +14,5 @@ rg_status rg_planar_from_lines(rg_lines *lines, const rg_reading *s, rg_graph *g
 /* The same of every line, with its own assignment and with loose ends, for whoever keeps the drawing: only doubles and lines
  * without length are left out. merge: as in rg_reading. Only the progress of `ask` counts; NULL: nobody is asked. */
 rg_status rg_planar_from_all_lines(rg_lines *lines, double merge, const rg_reading *ask, rg_graph *g, rg_diag *why);
-/* Takes out the edges marked drop[e] != 0 and the vertices that then have none. RG_ENOMEM. */
-rg_status rg_graph_compact(rg_graph *g, const unsigned char *drop);
-void rg_graph_free(rg_graph *g);
 
 #endif

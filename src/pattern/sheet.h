@@ -4,7 +4,7 @@
 #define RG_SHEET_H
 
 #include "pattern/faces.h"
-#include "pattern/planar.h"
+#include "pattern/graph.h"
 
 /* Counts of the graph as it is go to `info`, with whether it is a disk. Then exactly the edges of the outer border have 'B',
  * and vertices of two edges of one assignment in a straight line are dissolved: `tol` is how far off it they may be.

@@ -49,7 +49,8 @@ static rg_status add(rg_lines *out, const field *f, int n, int32_t where, rg_dia
     return rg_lines_add(out, (rg_vec2){x[0], -x[1]}, (rg_vec2){x[2], -x[3]}, code > 4 ? RG_FLAT : letters[code], where);
 }
 
-rg_status rg_cp_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out, rg_diag *why)
+rg_status rg_cp_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out,
+                      rg_diag *why)
 {
     const char *s = bytes, *end = s + size;
     int32_t where = 0, said = 0;

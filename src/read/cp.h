@@ -8,8 +8,10 @@
 
 #include "lines/lines.h"
 
-/* *out is initialised here; on failure it is left freed. RG_ECANCELLED: by `stop`. RG_EFORMAT: why->line, why->text. A line with a coordinate
+/* *out is initialised here; on failure it is left freed. RG_ECANCELLED: by `stop`.
+ * RG_EFORMAT: why->line, why->text. A line with a coordinate
  * that is not a finite number is dropped with a warning. */
-rg_status rg_cp_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out, rg_diag *why);
+rg_status rg_cp_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out,
+                      rg_diag *why);
 
 #endif

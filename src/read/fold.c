@@ -650,8 +650,8 @@ static rg_status choose(reader *r)
     return failed;
 }
 
-rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, const rg_reading *settings, int keep, rg_lines *out,
-                       rg_diag *why)
+rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop,
+                       const rg_reading *settings, int keep, rg_lines *out, rg_diag *why)
 {
     rg_value *root = NULL;
     rg_lines_init(out, mem);

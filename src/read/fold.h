@@ -14,7 +14,7 @@
 /* s: file_frame, flip, targets. `keep` non-zero: also lines.frame and lines.vertex. *out is initialised here; on
  * failure it is left freed. RG_EFORMAT: why->text begins with the place in the file's tree, why->line is the line of
  * that place, or of what it is missing in; so are warnings. */
-rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, const rg_reading *s, int keep, rg_lines *out,
-                       rg_diag *why);
+rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop,
+                       const rg_reading *s, int keep, rg_lines *out, rg_diag *why);
 
 #endif

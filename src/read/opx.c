@@ -156,7 +156,8 @@ static rg_status document(reader *r, const rg_xml *doc)
     return rg_fail(RG_EFORMAT, r->why, line_of(root), "no object of class oripa.DataSet");
 }
 
-rg_status rg_opx_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out, rg_diag *why)
+rg_status rg_opx_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out,
+                      rg_diag *why)
 {
     rg_xml *doc = NULL;
     rg_lines_init(out, mem);

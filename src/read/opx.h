@@ -10,8 +10,10 @@
 
 #include "lines/lines.h"
 
-/* *out is initialised here; on failure it is left freed. RG_ECANCELLED: by `stop`. RG_EFORMAT: why->line, why->text. A line with a coordinate that is
+/* *out is initialised here; on failure it is left freed. RG_ECANCELLED: by `stop`.
+ * RG_EFORMAT: why->line, why->text. A line with a coordinate that is
  * not a finite number is dropped with a warning. Loads nothing from anywhere, expands no entities. */
-rg_status rg_opx_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out, rg_diag *why);
+rg_status rg_opx_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out,
+                      rg_diag *why);
 
 #endif

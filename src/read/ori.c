@@ -67,7 +67,8 @@ static rg_status check_version(const rg_value *root, rg_diag *why)
     return rg_fail(RG_EFORMAT, why, 1, "@version: \"%.40s\" is not known, v1 is: save it again as .fold or .cp", version);
 }
 
-rg_status rg_ori_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out, rg_diag *why)
+rg_status rg_ori_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out,
+                      rg_diag *why)
 {
     rg_value *root = NULL;
     rg_lines_init(out, mem);

@@ -10,7 +10,9 @@
 
 #include "lines/lines.h"
 
-/* *out is initialised here; on failure it is left freed. RG_ECANCELLED: by `stop`. RG_EFORMAT: why->text begins with the place in the file's tree; why->line. */
-rg_status rg_ori_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out, rg_diag *why);
+/* *out is initialised here; on failure it is left freed. RG_ECANCELLED: by `stop`.
+ * RG_EFORMAT: why->text begins with the place in the file's tree; why->line. */
+rg_status rg_ori_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out,
+                      rg_diag *why);
 
 #endif

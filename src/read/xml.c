@@ -53,7 +53,8 @@ static void note_memory(void *ctx, xmlError *e)
     if (e->code == XML_ERR_NO_MEMORY) *none_left = 1;
 }
 
-static rg_status parse(const void *bytes, size_t size, rg_xml_type type, const rg_stop *stop, const int *none_left, rg_xml **doc, rg_diag *why)
+static rg_status parse(const void *bytes, size_t size, rg_xml_type type, const rg_stop *stop, const int *none_left,
+                       rg_xml **doc, rg_diag *why)
 {
     xmlParserCtxt *parser = xmlNewParserCtxt();
     if (!parser) return RG_ENOMEM;
@@ -85,7 +86,8 @@ static rg_status parse(const void *bytes, size_t size, rg_xml_type type, const r
     return s;
 }
 
-rg_status rg_xml_parse(const void *bytes, size_t size, rg_xml_type type, const rg_stop *stop, rg_xml **doc, rg_diag *why)
+rg_status rg_xml_parse(const void *bytes, size_t size, rg_xml_type type, const rg_stop *stop, rg_xml **doc,
+                       rg_diag *why)
 {
     if (size == 0) return rg_fail(RG_EFORMAT, why, 0, "the file is empty");
     if (size > INT_MAX) return rg_fail(RG_EFORMAT, why, 0, "the file is larger than 2 GB");

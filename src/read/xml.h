@@ -17,7 +17,8 @@ typedef enum rg_xml_type { RG_XML_NO_TYPE, RG_XML_ANY_TYPE } rg_xml_type;
 
 /* RG_EFORMAT: not well-formed, a document type where there may be none; why->line, why->text. RG_ENOMEM.
  * RG_ECANCELLED: by `stop`, which may be NULL. Owner: the caller, rg_xml_free. */
-rg_status rg_xml_parse(const void *bytes, size_t size, rg_xml_type type, const rg_stop *stop, rg_xml **doc, rg_diag *why);
+rg_status rg_xml_parse(const void *bytes, size_t size, rg_xml_type type, const rg_stop *stop, rg_xml **doc,
+                       rg_diag *why);
 void rg_xml_free(rg_xml *doc);
 const rg_xml_node *rg_xml_root(const rg_xml *doc);
 

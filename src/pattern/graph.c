@@ -1,0 +1,34 @@
+#include "pattern/graph.h"
+#include "base/memory.h"
+
+#include <string.h>
+
+rg_status rg_graph_compact(rg_graph *g, const unsigned char *drop)
+{
+    int32_t *number = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *number);
+    if (!number) return RG_ENOMEM;
+    int32_t n = 0;
+    for (int32_t e = 0; e < g->ne; e++)
+        if (!drop[e]) g->E[n++] = g->E[e];
+    g->ne = n;
+    for (int32_t e = 0; e < n; e++) number[g->E[e].v[0]] = number[g->E[e].v[1]] = 1;
+    n = 0;
+    for (int32_t v = 0; v < g->nv; v++) {
+        if (!number[v]) continue;
+        g->X[n] = g->X[v];
+        number[v] = n++;
+    }
+    g->nv = n;
+    for (int32_t e = 0; e < g->ne; e++)
+        for (int i = 0; i < 2; i++) g->E[e].v[i] = number[g->E[e].v[i]];
+    rg_mem_free(&g->mem, number);
+    return RG_OK;
+}
+
+void rg_graph_free(rg_graph *g)
+{
+    if (!g->mem.resize) return;
+    rg_mem_free(&g->mem, g->X);
+    rg_mem_free(&g->mem, g->E);
+    memset(g, 0, sizeof *g);
+}
