@@ -40,7 +40,7 @@ static void want_of_memory_is_told_as_such(void **state)
         rg_xml *doc = NULL;
         rg_diag why = {0, ""};
         left = k;
-        s = rg_xml_parse(text, sizeof text - 1, RG_XML_NO_TYPE, &doc, &why);
+        s = rg_xml_parse(text, sizeof text - 1, RG_XML_NO_TYPE, NULL, &doc, &why);
         refused += s == RG_ENOMEM;
         wrong += s != RG_OK && s != RG_ENOMEM;
         if (s == RG_OK) wrong += !rg_xml_is(rg_xml_root(doc), "java");
@@ -70,7 +70,7 @@ static void who_listens_goes_on_listening(void **state)
     rg_xml *doc = NULL;
     rg_diag why = {0, ""};
     xmlSetStructuredErrorFunc(&his, (xmlStructuredErrorFunc)hear);
-    assert_int_equal(rg_xml_parse("<a><b></a>", 10, RG_XML_NO_TYPE, &doc, &why), RG_EFORMAT);
+    assert_int_equal(rg_xml_parse("<a><b></a>", 10, RG_XML_NO_TYPE, NULL, &doc, &why), RG_EFORMAT);
     assert_int_equal(why.line, 1);
     assert_ptr_equal(xmlStructuredErrorContext, &his);
     assert_true(xmlStructuredError == (xmlStructuredErrorFunc)hear);
