@@ -462,7 +462,8 @@ typedef struct rg_simple_turn {
 /* A part of a motion that goes in stages: simple folds that go together, or all of its creases at once. Borrowed, as
  * all it points to. */
 typedef struct rg_folding_stage {
-    int32_t first_frame, last_frame; /* it is folded flat in both, or not folded at all */
+    int32_t first_frame, last_frame; /* it is folded flat in both, or not folded at all; with fewer frames than
+                                      * stages, the nearest ones */
     int32_t creases;            /* how many it makes, */
     const int32_t *crease;      /* and which */
     int32_t folds;              /* how many simple folds; 0: all its creases at once */

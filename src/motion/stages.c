@@ -50,6 +50,7 @@ typedef struct work {
     int32_t *stage;          /* [fine N] as rg_simple's */
     double *end;             /* [fine N] */
     int32_t frames, *first_frame; /* [stages + 2] */
+    double *begins;               /* [stages + 2] in frames, where they need not be whole numbers */
 } work;
 
 static void work_free(work *w)
@@ -62,8 +63,8 @@ static void work_free(work *w)
     rg_attempt_free(&w->search.best);
     rg_overlay_free(&w->of_base);
     rg_overlay_free(&w->of_drawn);
-    void *block[] = {w->angle, w->which, w->X, w->stage, w->end, w->first_frame};
-    for (int i = 0; i < 6; i++) rg_mem_free(&w->mem, block[i]);
+    void *block[] = {w->angle, w->which, w->X, w->stage, w->end, w->first_frame, w->begins};
+    for (int i = 0; i < 7; i++) rg_mem_free(&w->mem, block[i]);
 }
 
 /* -------------------------------------------------------------------------------------------- taking apart ---- */
@@ -489,15 +490,23 @@ static double turned_at_first(const rg_attempt *t)
     return sum;
 }
 
-/* Frames are even in the largest angle that a crease turns, but for simple folds; the states between stages are frames. */
+/* Frames are even in the largest angle that a crease turns, but for simple folds; the states between stages are frames, where there are
+ * enough of them for each stage to have one. */
 static rg_status share_frames(work *w)
 {
     const int32_t stages = w->simple.stages, legs = w->settings->frames - 1;
     const double first = w->simple.base > 0 ? turned_at_first(&w->search.best) : 0, all = first + A_SIMPLE_FOLD * stages;
     w->frames = w->settings->frames;
     w->first_frame = rg_mem_array(&w->mem, (size_t)stages + 2, sizeof *w->first_frame);
-    if (!w->first_frame) return RG_ENOMEM;
-    for (int32_t j = 0; j <= stages; j++) w->first_frame[j + 1] = (int32_t)lround(legs * (first + A_SIMPLE_FOLD * j) / all);
+    w->begins = rg_mem_array(&w->mem, (size_t)stages + 2, sizeof *w->begins);
+    if (!w->first_frame || !w->begins) return RG_ENOMEM;
+    int enough = 1;
+    for (int32_t j = 0; j <= stages; j++) {
+        w->begins[j + 1] = legs * (first + A_SIMPLE_FOLD * j) / all;
+        w->first_frame[j + 1] = (int32_t)lround(w->begins[j + 1]);
+        enough &= w->first_frame[j + 1] > w->first_frame[j] || w->begins[j + 1] == 0;
+    }
+    for (int32_t j = 0; enough && j <= stages; j++) w->begins[j + 1] = w->first_frame[j + 1];
     return RG_OK;
 }
 
@@ -506,7 +515,7 @@ static int read(void *ctx, double progress, double *rho, rg_vec2 *X)
 {
     const work *w = ctx;
     const rg_attempt *t = &w->search.best;
-    const int32_t *first = w->first_frame;
+    const double *first = w->begins;
     double k = progress * (w->frames - 1);
     if (fabs(k - round(k)) <= 1e-9 * w->frames) k = round(k);
     int32_t j = 0;
