@@ -20,8 +20,8 @@ coverage-table:
 
 # ------------------------------------------------------------------------------------------- threads, memory
 
-# Those that fold with two threads, and those whose pictures are drawn by several; tsan_tests=all: every one.
-tsan_tests ?= test_motion test_attempt test_kept test_stepping test_threads
+# Those in which several threads fold: tries that race, and folds that share what they know. tsan_tests=all: every one, in a quarter of an hour.
+tsan_tests ?= test_attempt test_stepping test_threads
 tsan_bin    = $(if $(filter all,$(tsan_tests)),$(test_bin),$(tsan_tests:%=$B/tests/%))
 
 tsan:

@@ -175,7 +175,7 @@ static rg_status fill(rg_motion *m, const rg_fold *f, int32_t every)
     const rg_motion *old = f->shared->motion;
     const size_t N = (size_t)m->mesh.N, nv = (size_t)m->mesh.nv;
     const int32_t states = rg_fold_states(f);
-    const size_t n = (size_t)((states - 1 + every - 1) / every + 1);
+    const size_t n = ((size_t)states + (size_t)every - 2) / (size_t)every + 1;
     int moved = 0;
     for (int32_t k = 0; k < states; k++) moved |= memcmp(rg_fold_pattern(f, k), m->mesh.X, nv * sizeof(rg_vec2)) != 0;
     m->info = old->info;
