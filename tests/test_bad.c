@@ -135,6 +135,26 @@ static void coordinates_have_one_limit(void **state)
     is_refused("large.cp", "a coordinate of 1e+154 is too large to compute with");
 }
 
+/* A sheet without a crease has nothing to fold, and folds: angles between its frames are none. */
+static void a_sheet_without_creases_folds(void **state)
+{
+    (void)state;
+    const rg_reading r = rg_reading_default();
+    rg_settings settings = rg_settings_default();
+    settings.frames = 3;
+    rg_pattern *p = NULL;
+    rg_motion *m = NULL;
+    rg_diag why = {0, ""};
+    assert_int_equal(rg_pattern_read("patterns/bad/no-creases.fold", &r, &p, &why), RG_OK);
+    assert_int_equal(rg_motion_create(p, &settings, NULL, NULL, &m, &why), RG_OK);
+    const rg_report *q = rg_motion_report(m);
+    assert_int_equal(q->outcome, RG_FOLDED);
+    assert_int_equal(q->unknowns, 0);
+    assert_int_equal(rg_motion_write(m, "/dev/null", NULL, &why), RG_EARG); /* no form that it names */
+    rg_motion_destroy(m);
+    rg_pattern_destroy(p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -144,6 +164,7 @@ int main(void)
         cmocka_unit_test(a_number_is_no_pattern),
         cmocka_unit_test(lines_without_length_are_no_pattern),
         cmocka_unit_test(coordinates_have_one_limit),
+        cmocka_unit_test(a_sheet_without_creases_folds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,11 +23,12 @@ rg_status rg_gaps_add(rg_gaps *g, const rg_memory *mem, int32_t N, int32_t nv, i
 {
     const size_t k = (size_t)g->count;
     rg_status s = rg_mem_grow(mem, (void **)&g->after, &g->room[0], k + 1, sizeof *g->after);
-    if (s == RG_OK) s = rg_mem_grow(mem, (void **)&g->rho, &g->room[1], (k + 1) * (size_t)N, sizeof *g->rho);
+    /* One more than there is, so that there is a place where a sheet has no crease. */
+    if (s == RG_OK) s = rg_mem_grow(mem, (void **)&g->rho, &g->room[1], (k + 1) * (size_t)N + 1, sizeof *g->rho);
     if (s == RG_OK && X) s = rg_mem_grow(mem, (void **)&g->flat, &g->room[2], (k + 1) * (size_t)nv, sizeof *g->flat);
     if (s != RG_OK) return s;
     g->after[k] = after;
-    memcpy(g->rho + k * (size_t)N, rho, (size_t)N * sizeof *rho);
+    if (N > 0) memcpy(g->rho + k * (size_t)N, rho, (size_t)N * sizeof *rho);
     if (X) memcpy(g->flat + k * (size_t)nv, X, (size_t)nv * sizeof *X);
     g->count++;
     return RG_OK;
