@@ -400,7 +400,7 @@ static void all_near(void **state)
             p[v] = (rg_vec3){m.X[v].x, m.X[v].y, 0.1 * m.size * noise(&seed)};
             q[v] = (rg_vec3){m.X[v].x, m.X[v].y, 0.1 * m.size * noise(&seed)};
         }
-        assert_int_equal(rg_proximity_find(&n, p, reach), RG_OK);
+        assert_int_equal(rg_proximity_find(&n, p, reach, 0), RG_OK);
         double most = 1;
         for (int kind = 0; kind < 2; kind++)
             for (int32_t i = 0; i < (kind ? m.ne : m.nv); i++)

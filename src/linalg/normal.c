@@ -8,7 +8,10 @@ rg_status rg_normal_init(rg_normal *N, const rg_memory *mem, int32_t n)
     N->mem = *mem;
     N->n = n;
     N->diagonal = rg_mem_array(mem, (size_t)n, sizeof *N->diagonal);
-    return N->diagonal ? RG_OK : RG_ENOMEM;
+    N->scratch = rg_mem_array(mem, 2 * (size_t)n, sizeof *N->scratch);
+    if (N->diagonal && N->scratch) return RG_OK;
+    rg_normal_free(N);
+    return RG_ENOMEM;
 }
 
 void rg_normal_free(rg_normal *N)
@@ -16,6 +19,7 @@ void rg_normal_free(rg_normal *N)
     if (!N->mem.resize) return;
     rg_supernodal_free(&N->L);
     rg_mem_free(&N->mem, N->diagonal);
+    rg_mem_free(&N->mem, N->scratch);
     memset(N, 0, sizeof *N);
 }
 
@@ -94,16 +98,8 @@ rg_status rg_normal_find(const rg_normal *N, const rg_rows *rows, rg_slots *s, i
         const size_t products = (size_t)n * ((size_t)n + 1) / 2;
         const rg_status status = rg_mem_grow(&N->mem, (void **)&s->to, &s->room, s->used + products, sizeof *s->to);
         if (status != RG_OK) return status;
-        int32_t *to = s->to + s->used;
-        for (int32_t i = 0; i < n; i++)
-            for (int32_t j = 0; j <= i; j++) {
-                const int32_t slot = rg_supernodal_find(&N->L, rows->col[first + i], rows->col[first + j]);
-                if (slot < 0) {
-                    *fits = 0;
-                    return RG_OK;
-                }
-                *to++ = slot;
-            }
+        *fits = rg_supernodal_find(&N->L, n, rows->col + first, N->scratch, N->scratch + N->n, s->to + s->used);
+        if (!*fits) return RG_OK;
         s->used += products;
     }
     return RG_OK;

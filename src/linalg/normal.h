@@ -12,6 +12,7 @@ typedef struct rg_normal {
     int32_t n;
     rg_supernodal L;    /* L.S.n 0: not analysed yet */
     int32_t *diagonal;  /* [n] slots */
+    int32_t *scratch;   /* [2][n] */
     int64_t analyses;
 } rg_normal;
 

@@ -269,25 +269,50 @@ void rg_supernodal_clear(rg_supernodal *L)
     memset(L->x, 0, (size_t)L->S.panel[L->S.count] * sizeof *L->x);
 }
 
-int32_t rg_supernodal_find(const rg_supernodal *L, int32_t i, int32_t j)
+/* Where row r stands in supernode s, from `low` on; -1: it does not. */
+static int32_t stands(const rg_symbolic *S, int32_t s, int32_t low, int32_t r)
 {
-    int32_t r = L->S.place[i], c = L->S.place[j];
-    if (r < c) r = L->S.place[j], c = L->S.place[i];
-    int32_t s = L->S.of[c], low = L->S.start[s], high = L->S.start[s + 1];
+    int32_t high = S->start[s + 1];
     while (high - low > 1) {
-        int32_t middle = low + (high - low) / 2;
-        if (L->S.row[middle] <= r) low = middle;
+        const int32_t middle = low + (high - low) / 2;
+        if (S->row[middle] <= r) low = middle;
         else high = middle;
     }
-    if (L->S.row[low] != r) return -1;
-    return L->S.panel[s] + (c - L->S.column[s]) * rg_symbolic_stride(&L->S, s) + (low - L->S.start[s]);
+    return S->row[low] == r ? low : -1;
+}
+
+/* Columns of one supernode have their rows in common: each row is looked for once in each. */
+int rg_supernodal_find(const rg_supernodal *L, int32_t n, const int32_t *column, int32_t *order, int32_t *at, int32_t *slot)
+{
+    const rg_symbolic *S = &L->S;
+    for (int32_t i = 0; i < n; i++) {
+        int32_t k = i;
+        for (; k > 0 && S->place[column[order[k - 1]]] > S->place[column[i]]; k--) order[k] = order[k - 1];
+        order[k] = i;
+    }
+    for (int32_t a = 0, last = -1; a < n; a++) {
+        const int32_t c = S->place[column[order[a]]], s = S->of[c];
+        for (int32_t b = a; s != last && b < n; b++) {
+            at[b] = stands(S, s, b > a ? at[b - 1] : S->start[s], S->place[column[order[b]]]);
+            if (at[b] < 0) return 0;
+        }
+        last = s;
+        const int32_t base = S->panel[s] + (c - S->column[s]) * rg_symbolic_stride(S, s) - S->start[s];
+        for (int32_t b = a; b < n; b++) {
+            const int32_t i = order[a] > order[b] ? order[a] : order[b], j = order[a] > order[b] ? order[b] : order[a];
+            slot[i * (i + 1) / 2 + j] = base + at[b];
+        }
+    }
+    return 1;
 }
 
 int32_t rg_supernodal_slot(const rg_supernodal *L, int32_t i, int32_t j)
 {
-    const int32_t slot = rg_supernodal_find(L, i, j);
-    assert(slot >= 0);
-    return slot;
+    const rg_symbolic *S = &L->S;
+    const int32_t r = S->place[i] > S->place[j] ? S->place[i] : S->place[j], c = S->place[i] > S->place[j] ? S->place[j] : S->place[i];
+    const int32_t s = S->of[c], at = stands(S, s, S->start[s], r);
+    assert(at >= 0);
+    return S->panel[s] + (c - S->column[s]) * rg_symbolic_stride(S, s) + at - S->start[s];
 }
 
 /* The room that `multiply` needs at the most. */

@@ -161,6 +161,33 @@ static int is_between(const builder *w, int32_t u, int32_t l, rg_vec2 x)
     return 0;
 }
 
+static int32_t edge_of(const builder *w, int32_t f, const double *weight)
+{
+    int32_t v[2], n = 0;
+    for (int k = 0; k < 3 && n < 2; k++)
+        if (fabs(weight[k]) >= NOTHING) v[n++] = w->corner[f][k];
+    for (int32_t j = w->m->facet_start[f]; n == 2 && j < w->m->facet_start[f + 1]; j++) {
+        const int32_t *e = w->m->edge[w->m->facet_edge[j]];
+        if ((e[0] == v[0] && e[1] == v[1]) || (e[0] == v[1] && e[1] == v[0])) return w->m->facet_edge[j];
+    }
+    return -1;
+}
+
+/* Where a corner of the one meets the other, or two edges cross, the row is of that pair. */
+static void set_pair(const builder *w, int32_t u, const double *a, int32_t l, const double *b, rg_end_row *row)
+{
+    row->i = row->j = -1;
+    for (int k = 0; k < 3; k++) {
+        if (fabs(a[k] - 1) < NOTHING) row->i = w->corner[u][k], row->j = l;
+        else if (fabs(b[k] - 1) < NOTHING) row->i = w->corner[l][k], row->j = u;
+    }
+    if (row->i >= 0) return;
+    const int32_t e = edge_of(w, u, a), f = edge_of(w, l, b);
+    if (e < 0 || f < 0) return;
+    row->edges = 1;
+    row->i = e > f ? e : f, row->j = e > f ? f : e;
+}
+
 static rg_status layer_rows(builder *w, int32_t u, int32_t l)
 {
     const shape s = common(&w->triangle[u], &w->triangle[l]);
@@ -173,11 +200,58 @@ static rg_status layer_rows(builder *w, int32_t u, int32_t l)
         double a[3], b[3];
         weights_at(&w->triangle[u], s.x[i], a);
         weights_at(&w->triangle[l], s.x[i], b);
+        set_pair(w, u, a, l, b, &row);
         for (int k = 0; k < 3; k++) add_term(&row, w->corner[u][k], a[k]);
         for (int k = 0; k < 3; k++) add_term(&row, w->corner[l][k], -b[k]);
         status = add_row(w, row, (rg_vec3){0, 0, 1});
     }
     return status;
+}
+
+/* f is a facet at v, or at the edge v ... v2. */
+static int has(const builder *w, int32_t f, int32_t v, int32_t v2)
+{
+    int n = 0;
+    for (int k = 0; k < 3; k++) n += w->corner[f][k] == v || w->corner[f][k] == v2;
+    return n == (v == v2 ? 1 : 2);
+}
+
+/* At x, where v ... v2 of f meets u ... u2 of g: one that has neither of them lies between. */
+static int third_between(const builder *w, int32_t f, const int32_t *v, int32_t g, const int32_t *u, rg_vec2 x)
+{
+    const int side = over(w, f, g);
+    for (int32_t h = 0; side != 0 && h < w->m->nf; h++)
+        if (over(w, f, h) == side && over(w, h, g) == side && !has(w, h, v[0], v[1]) && !(u && has(w, h, u[0], u[1])) &&
+            covers(&w->triangle[h], x, INSIDE))
+            return 1;
+    return 0;
+}
+
+/* Which pairs lie behind a third facet. */
+static void find_behind(builder *w)
+{
+    const rg_mesh *m = w->m;
+    const rg_tree *t = &w->P->tree;
+    rg_sides *s = &w->e->sides;
+    const rg_vec2 *x = w->e->x;
+    for (int32_t v = 0; v < m->nv; v++)
+        for (int32_t g = 0; g < m->nf; g++) {
+            unsigned char *flag = &s->corner_behind[(size_t)v * (size_t)m->nf + (size_t)g];
+            const int32_t both[2] = {v, v};
+            for (int32_t k = t->corner_start[v]; k < t->corner_start[v + 1] && !*flag && !has(w, g, v, v); k++)
+                *flag = (unsigned char)third_between(w, t->corner_facet[k], both, g, NULL, x[v]);
+        }
+    for (int32_t a = 0; a < m->ne; a++)
+        for (int32_t b = 0; b < a; b++) {
+            const int32_t *v = m->edge[a], *u = m->edge[b];
+            const double p = rg_vec2_turn(x[v[0]], x[v[1]], x[u[0]]), q = rg_vec2_turn(x[v[0]], x[v[1]], x[u[1]]);
+            if (!(p * q < 0) || !(rg_vec2_turn(x[u[0]], x[u[1]], x[v[0]]) * rg_vec2_turn(x[u[0]], x[u[1]], x[v[1]]) < 0)) continue;
+            unsigned char *flag = &s->edge_behind[(size_t)a * (size_t)m->ne + (size_t)b];
+            for (int k = 0; k < 4 && !*flag; k++) {
+                const int32_t f = m->edge_facet[a][k / 2], g = m->edge_facet[b][k % 2];
+                if (f >= 0 && g >= 0) *flag = (unsigned char)third_between(w, f, v, g, u, towards(x[u[0]], x[u[1]], p / (p - q)));
+            }
+        }
 }
 
 static rg_status overlaps(builder *w)
@@ -274,7 +348,7 @@ static rg_status edge_rows(builder *w, const line *k, const line *l)
     const double p = rg_vec2_dot(k->along, from), q = rg_vec2_dot(k->along, to);
     const double low = fmax(0, fmin(p, q)), high = fmin(k->length, fmax(p, q));
     if (high - low < STRETCH) return RG_OK;
-    rg_end_row row = {.frame = k->facet[0], .other = l->facet[0]};
+    rg_end_row row = {.frame = k->facet[0], .other = l->facet[0], .i = -1};
     double sign;
     if (rg_vec2_dot(k->in, l->in) < 0) {
         if (w->rules->apart && are_apart(w, k->facet, k->facets, l, towards(x[k->a], x[k->b], (low + high) / 2 / k->length))) return RG_OK;
@@ -337,7 +411,7 @@ static rg_status corner_rows(builder *w, const line *k)
         const rg_vec2 d = rg_vec2_sub(x[v], x[k->a]);
         const double at = rg_vec2_dot(k->along, d);
         if (fabs(rg_vec2_dot(k->in, d)) > ON_LINE || at < -ON_LINE || at > k->length + ON_LINE) continue;
-        rg_end_row row = {.frame = k->facet[0], .other = w->P->own[v]};
+        rg_end_row row = {.frame = k->facet[0], .other = w->P->own[v], .i = -1};
         const int side = corner_side(w, k, v, at, &row.kind);
         if (side == 0) continue;
         add_term(&row, v, side);
@@ -397,6 +471,7 @@ rg_status rg_end_init(rg_end *e, const rg_memory *mem, rg_linkage *P, const doub
     if (s == RG_OK) {
         find_lines(&w);
         s = in_plane(&w);
+        find_behind(&w);
         rg_sides_finish(&e->sides, e->x);
     }
     rg_mem_free(mem, w.triangle);

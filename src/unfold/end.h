@@ -30,6 +30,8 @@ typedef struct rg_end_row {
     double weight[RG_ROW_TERMS];
     int32_t frame, other; /* the facet that carries n, and one of the other side */
     rg_vec3 n;            /* unit, in the facet's own coordinates */
+    int32_t i, j;         /* LAYER: the pair of proximity.h that it is about, a corner and a facet or two edges */
+    int edges;            /* which of them; i negative: neither */
 } rg_end_row;
 
 /* Which of the rows are made that are sufficient but not always needed. */

@@ -136,14 +136,16 @@ static rg_status activate(rg_nearest *q, int32_t row, int soft)
     return RG_OK;
 }
 
-/* Flags: the row, 1, and its soft form, 2, that q->dz breaks and that are not active. */
+/* Flags: the row, 1, and its soft form, 2, that q->dz breaks and that are not active. Where it pushed as hard as the hardest it would
+ * give by as much as its compliance says: what is broken by less is not worth a row. */
 static int broken(const rg_nearest *q, const rg_row *row, int with_soft)
 {
     const double value = rg_nearest_value(q, row);
     int which = 0;
     for (int soft = 0; soft <= (with_soft && row->soft_c > 0); soft++) {
         const double b = soft ? row->soft_b : row->b;
-        if (!(row->active >> soft & 1) && b - value > BROKEN + BROKEN_PART * fabs(b)) which |= 1 << soft;
+        const double gives = (soft ? 0 : row->c) * q->q.largest;
+        if (!(row->active >> soft & 1) && b - value > BROKEN + BROKEN_PART * fabs(b) + gives) which |= 1 << soft;
     }
     return which;
 }
@@ -212,6 +214,27 @@ static rg_status push(rg_nearest *q, const double *r)
     return RG_OK;
 }
 
+/* A row that is active from the start. */
+static int is_expected(const rg_nearest *q, const rg_row *row, int with_soft)
+{
+    if (!with_soft) return row->closing;
+    return row->pushed ? *row->pushed & row->pushed_by : q->all;
+}
+
+static void remember_pushing(rg_nearest *q, int with_soft)
+{
+    for (int32_t i = 0; i < q->count; i++) {
+        if (!with_soft) q->row[i].closing = 0;
+        else if (q->row[i].pushed) *q->row[i].pushed &= (unsigned char)~q->row[i].pushed_by;
+    }
+    for (int32_t i = 0; i < q->actives; i++) {
+        rg_row *row = &q->row[q->active[i] / 2];
+        if (!(q->q.x[i] > q->q.slack[i])) continue;
+        if (!with_soft) row->closing = 1;
+        else if (row->pushed) *row->pushed |= row->pushed_by;
+    }
+}
+
 rg_status rg_nearest_solve(rg_nearest *q, const double *wish, const double *r, int with_soft)
 {
     int more = 0;
@@ -222,9 +245,10 @@ rg_status rg_nearest_solve(rg_nearest *q, const double *wish, const double *r, i
         q->row[i].active = 0;
         q->row[i].base = rg_nearest_value(q, &q->row[i]);
     }
-    for (int32_t i = 0; q->all && i < q->count && s == RG_OK; i++)
-        for (int soft = 0; soft <= (with_soft && q->row[i].soft_c > 0) && s == RG_OK; soft++) s = activate(q, i, soft);
-    if (s == RG_OK) s = add_broken(q, with_soft, 1, &more);
+    for (int32_t i = 0; i < q->count && s == RG_OK; i++)
+        for (int soft = 0; soft <= (with_soft && q->row[i].soft_c > 0) && s == RG_OK; soft++)
+            if (is_expected(q, &q->row[i], with_soft)) s = activate(q, i, soft);
+    if (s == RG_OK && q->actives == 0) s = add_broken(q, with_soft, 1, &more);
     more |= q->actives > 0;
     for (int round = 0; s == RG_OK && more && round < ROUNDS; round++) {
         s = push(q, r);
@@ -232,5 +256,6 @@ rg_status rg_nearest_solve(rg_nearest *q, const double *wish, const double *r, i
         move(q, q->y);
         s = add_broken(q, with_soft, round + 1 < NEAREST_ROUNDS, &more);
     }
+    if (s == RG_OK) remember_pushing(q, with_soft);
     return s;
 }

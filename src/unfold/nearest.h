@@ -30,7 +30,10 @@ typedef struct rg_row {
     int32_t carried;       /* how n turns with what it is about, for the caller; 0: it does not */
     double base;           /* what the row is along the projected wish */
     int32_t at;            /* among the rows that are made, -1: not */
+    unsigned char *pushed, pushed_by; /* NULL, or who remembers, by a flag, that a row of the same pushed: then it is active
+                                       * from the start, else only when it is broken, whatever q->all says */
     int active;            /* flags: the row, 1, and its soft form, 2; 4 times them: what is broken of it */
+    int closing;           /* non-zero: it pushed when it was solved without soft forms last */
     int32_t next;          /* broken too, of the same feature; -1: none */
 } rg_row;
 

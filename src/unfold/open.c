@@ -9,11 +9,12 @@ static const double OPEN = 0.03, LAYER = 2e-3, INSIDE = 5e-4, BESIDE = 3e-5;
 static const double SOFT = 1e-5, SOFT_IN_PLANE = 0.03; /* compliance, and in the plane, as many times it */
 static const double BOUND = 1e-12;                     /* compliance of half a turn */
 static const int32_t ITERATIONS = 24, CLOSE = 20;
-static const double LARGEST = 0.3; /* change of an unknown in an iteration, over part: rows are linear only so far */
+static const double LARGEST = 0.6; /* change of an unknown in an iteration, over part: rows are linear only so far */
 static const double LARGEST_AT_ONCE = 0.1, REPAIR_LARGEST = 0.1;
-static const double FIRST = 1e-3, GROWTH = 1.1; /* the end is opened by so much first, and then more and more */
+static const double FIRST = 1e-3, GROWTH = 1.2; /* the end is opened by so much first, and then more and more */
 static const int32_t SETTLE = 12, STEPS = 200, FAILURES = 20, CLOSE_SLOWLY = 8;
 static const double FINE = 2e-5; /* lengths of the sheet: facets that cross less deep are as good as apart, while they lie on each other */
+static const double OVER = 1e-4; /* radians past half a turn: closing may put a crease there, as in stride.c */
 static const double STILL_AT_ONCE = 1e-4, CLOSED = 1e-12, CLOSED_ENOUGH = 1e-10;
 /* Repair: pairs are looked at this near; less than that part of what is wanted counts as touching. */
 static const double NEAR = 6e-3, TOUCHING = 0.5;
@@ -23,13 +24,23 @@ static const double REPAIR_HARD = 1e-7, REPAIR_KEEP = 1e-9, REPAIR_SOFT = 1e-4; 
 static const double REPAIR_INSIDE = 2e-4, REPAIR_BESIDE = 2e-5, REPAIR_SCALE = 5e-5; /* of rows in the plane where want is the last */
 static const double NEAR_HALF_TURN = 0.3;
 
-static rg_status add_end_rows(const rg_linkage *P, const rg_end *e, rg_nearest *q, const rg_open_way *way,
+static unsigned char *flag_of(const rg_linkage *P, rg_proximity *near, int edges, int32_t i, int32_t j)
+{
+    return edges ? near->edge + (size_t)i * (size_t)P->mesh->ne + (size_t)j : near->corner + (size_t)i * (size_t)P->mesh->nf + (size_t)j;
+}
+
+static rg_status add_end_rows(const rg_linkage *P, const rg_end *e, rg_proximity *near, rg_nearest *q, const rg_open_way *way,
                               double part)
 {
     const double scale = way->scaled || way->grow ? part / OPEN : 1;
     for (int32_t k = 0; k < e->count; k++) {
         const rg_end_row *from = &e->row[k];
-        if (way->grow && !rg_end_is_live(e, from, P)) continue;
+        const int is_live = !way->grow || rg_end_is_live(e, from, P);
+        if (from->i >= 0) {
+            unsigned char *flag = flag_of(P, near, from->edges, from->i, from->j);
+            *flag = (unsigned char)(is_live ? *flag | RG_PROXIMITY_LAYER : *flag & ~RG_PROXIMITY_LAYER);
+        }
+        if (!is_live) continue;
         const double gap = rg_end_gap(from, P->place, P->p);
         const int layer = from->kind == RG_END_LAYER;
         const double want = layer ? LAYER * scale : (from->kind == RG_END_INSIDE ? INSIDE : BESIDE) * scale * scale;
@@ -93,7 +104,7 @@ static double least_gap(const rg_linkage *P, const rg_end *e, int in_plane)
 /* Near parts, by their sides: what is right now may not become wrong. */
 static rg_status add_side_rows(const rg_linkage *P, const rg_end *e, rg_proximity *near, rg_nearest *q)
 {
-    rg_status s = rg_proximity_find(near, P->p, NEAR);
+    rg_status s = rg_proximity_find(near, P->p, NEAR, 0);
     for (int32_t k = 0; s == RG_OK && k < near->count; k++) {
         rg_close_pair *at = &near->pair[k];
         rg_vec3 n;
@@ -106,6 +117,10 @@ static rg_status add_side_rows(const rg_linkage *P, const rg_end *e, rg_proximit
         row->n = n;
         row->b = d > 0 ? -0.7 * d : -d;
         row->c = SIDE_HARD;
+        const size_t wide = (size_t)(at->kind ? P->mesh->ne : P->mesh->nf), pair = (size_t)at->i * wide + (size_t)at->j;
+        const int behind = (at->kind ? e->sides.edge_behind : e->sides.corner_behind)[pair];
+        row->pushed = flag_of(P, near, at->kind, at->i, at->j);
+        row->pushed_by = behind || *row->pushed & RG_PROXIMITY_LAYER ? 0 : RG_PROXIMITY_PUSHED; /* another row says it */
     }
     return s;
 }
@@ -115,7 +130,7 @@ static rg_status iterate(rg_linkage *P, const rg_end *e, const rg_open_way *way,
                          rg_nearest *q, double *z, double *step)
 {
     for (int32_t i = 0; i < P->n; i++) q->wish[i] = (i < P->N ? 1 - part : 1) * e->z[i] - z[i];
-    rg_status s = add_end_rows(P, e, q, way, part);
+    rg_status s = add_end_rows(P, e, near, q, way, part);
     if (s == RG_OK && way->grow && part > FIRST) s = add_side_rows(P, e, near, q);
     if (s == RG_OK && way->grow && part > FIRST) s = rg_crossed_add(crossed, P, near, q);
     if (s == RG_OK) s = add_bounds(P, z, e->z, 0, way->margin * (way->grow ? part * part / (OPEN * OPEN) : 1), q);
@@ -126,7 +141,7 @@ static rg_status iterate(rg_linkage *P, const rg_end *e, const rg_open_way *way,
 
 static rg_status worst_side(const rg_linkage *P, const rg_end *e, rg_proximity *near, double *worst)
 {
-    const rg_status s = rg_proximity_find(near, P->p, NEAR);
+    const rg_status s = rg_proximity_find(near, P->p, NEAR, 0);
     *worst = 1;
     for (int32_t k = 0; s == RG_OK && k < near->count; k++) {
         rg_close_pair *at = &near->pair[k];
@@ -135,6 +150,13 @@ static rg_status worst_side(const rg_linkage *P, const rg_end *e, rg_proximity *
         if (rg_sides_tell(&e->sides, P, at, &n, &d) && d >= -NOT_THERE) *worst = fmin(*worst, d);
     }
     return s;
+}
+
+static double over_half_turn(const rg_linkage *P, const double *z)
+{
+    double most = 0;
+    for (int32_t i = 0; i < P->N; i++) most = fmax(most, fabs(z[i]) - RG_PI);
+    return most;
 }
 
 /* The end is opened by very little first, then more and more, as long as rows hold: a path, each state of which is closed. */
@@ -150,9 +172,11 @@ static rg_status open_slowly(rg_linkage *P, const rg_end *e, const rg_open_way *
         stand(P, q, z);
         s = iterate(P, e, way, part, crossed, near, q, z, &step);
         if (s != RG_OK) break;
+        rg_stride_hold(P, z, q->scale);
         const int closed = rg_stride_close(P, q, z, CLOSED, CLOSE_SLOWLY);
+        rg_stride_scale(P, way->give, q->scale);
         rg_linkage_put(P, z);
-        if (!closed || rg_contact_deepest(crossed->plates, P->p, FINE, crossed->look, &hit)) {
+        if (!closed || over_half_turn(P, z) > OVER || rg_contact_deepest(crossed->plates, P->p, FINE, crossed->look, &hit)) {
             failed++; /* what has begun to cross is parted by the next one */
             continue;
         }
@@ -244,7 +268,7 @@ rg_status rg_open_repair(rg_linkage *P, const rg_end *e, double want, double sof
     rg_status s = RG_OK;
     for (int32_t n = 0; n < most && s == RG_OK && q->work + q->q.work - spent < budget; n++) {
         const double angle = stand(P, q, z);
-        s = rg_proximity_find(near, P->p, NEAR);
+        s = rg_proximity_find(near, P->p, NEAR, 0);
         if (s == RG_OK) s = add_near_rows(P, e, want, soft, near, q, &result->worst);
         if (s == RG_OK && result->worst > TOUCHING * want && !(least_gap(P, e, 1) <= -1e-6) && angle < 1e-9) break;
         if (s == RG_OK) s = add_plane_rows(P, e, want, q);
@@ -257,7 +281,7 @@ rg_status rg_open_repair(rg_linkage *P, const rg_end *e, double want, double sof
     if (s != RG_OK) return s;
     rg_stride_close(P, q, z, CLOSED, CLOSE);
     result->angle = stand(P, q, z);
-    s = rg_proximity_find(near, P->p, NEAR);
+    s = rg_proximity_find(near, P->p, NEAR, 0);
     if (s == RG_OK) s = add_near_rows(P, e, want, soft, near, q, &result->worst);
     result->least = least_gap(P, e, 0);
     return s;

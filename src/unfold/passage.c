@@ -136,6 +136,7 @@ static void begin(rg_passage *w, double budget)
     w->opened = w->landed = w->reached = 0;
     w->state = RG_STRIDE_NO_STEP;
     w->track.count = 0;
+    memset(w->refused, 0, sizeof w->refused);
     w->q.q.most_work = fmax(budget, 1);
     w->q.q.stop = w->stop;
     w->q.q.ctx = w->ctx;
@@ -158,7 +159,8 @@ static void put_away(rg_passage *w, rg_stride *s)
 {
     w->spent += s->q.work + s->q.q.work;
     w->steps += s->steps;
-    for (int i = 0; i < RG_REFUSALS; i++) w->refused += s->refused[i];
+    for (int i = 0; i < RG_REFUSALS; i++) w->refused[i] += s->refused[i];
+    w->who = s->who;
     rg_stride_free(s);
 }
 

@@ -123,8 +123,7 @@ static rg_status keep(rg_proximity *n, const rg_close_pair *at)
     return s;
 }
 
-/* Both ends of the shortest line are inside their edges; else a corner is as near. */
-static int inside(const rg_close_pair *at)
+int rg_proximity_is_inside(const rg_close_pair *at)
 {
     return at->weight[0] > 0 && at->weight[1] > 0 && at->weight[2] < 0 && at->weight[3] < 0;
 }
@@ -145,7 +144,7 @@ static int pair_of(const rg_proximity *n, rg_near_kind kind, int32_t i, int32_t 
     return !(*flag & RG_PROXIMITY_APART);
 }
 
-typedef struct finding { rg_proximity *n; const rg_vec3 *p; double least; rg_status status; } finding;
+typedef struct finding { rg_proximity *n; const rg_vec3 *p; double least, touching; rg_status status; } finding;
 
 static void find(void *ctx, rg_near_kind kind, int32_t i, int32_t j, int32_t a, int32_t b)
 {
@@ -155,12 +154,12 @@ static void find(void *ctx, rg_near_kind kind, int32_t i, int32_t j, int32_t a, 
     (void)a, (void)b;
     if (f->status != RG_OK || !pair_of(f->n, kind, i, j, &at, &flag)) return;
     measure(&at, f->p);
-    if (at.d < f->least && (at.kind == 0 || inside(&at))) f->status = keep(f->n, &at);
+    if (at.d < f->least && (at.kind == 0 || at.d < f->touching || rg_proximity_is_inside(&at))) f->status = keep(f->n, &at);
 }
 
-rg_status rg_proximity_find(rg_proximity *n, const rg_vec3 *p, double least)
+rg_status rg_proximity_find(rg_proximity *n, const rg_vec3 *p, double least, double touching)
 {
-    finding f = {n, p, least, RG_OK};
+    finding f = {n, p, least, touching, RG_OK};
     n->count = 0;
     rg_near_candidates(&n->plates, p, NULL, least, &n->work, find, &f);
     return f.status;

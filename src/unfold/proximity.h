@@ -34,13 +34,18 @@ enum {
     RG_PROXIMITY_APART = 1, /* kept apart by a hinge */
     RG_PROXIMITY_GLUED = 2, /* its layers lie on each other */
     RG_PROXIMITY_ABOVE = 4, /* when last apart, the first part was on the side that the second's normal points to, */
-    RG_PROXIMITY_BELOW = 8  /* on the other: of edges, the normal of both, first by second */
+    RG_PROXIMITY_BELOW = 8, /* on the other: of edges, the normal of both, first by second */
+    RG_PROXIMITY_PUSHED = 16, /* while it opened, its row pushed; */
+    RG_PROXIMITY_LAYER = 32   /* a row of the end speaks of it */
 };
 
 rg_status rg_proximity_init(rg_proximity *n, const rg_memory *mem, const rg_mesh *m);
 void rg_proximity_free(rg_proximity *n);
-/* n->pair[n->count]: all pairs nearer than `least` at p[nv]. RG_ENOMEM: more room was needed. */
-rg_status rg_proximity_find(rg_proximity *n, const rg_vec3 *p, double least);
+/* n->pair[n->count]: all pairs nearer than `least` at p[nv]; of edges whose shortest line ends at a corner, which is as near to
+ * what is beside the edge, only those nearer than `touching`. RG_ENOMEM: more room was needed. */
+rg_status rg_proximity_find(rg_proximity *n, const rg_vec3 *p, double least, double touching);
+/* Both ends of the shortest line are inside their edges. */
+int rg_proximity_is_inside(const rg_close_pair *at);
 /* The distance of a pair at p, which need not be near. */
 double rg_proximity_distance(const rg_proximity *n, int32_t kind, int32_t i, int32_t j, const rg_vec3 *p, rg_close_pair *at);
 

@@ -20,7 +20,9 @@ rg_status rg_sides_init(rg_sides *s, const rg_memory *mem, const rg_mesh *m)
     s->over = rg_mem_array(mem, nf * nf, 1);
     s->corner = rg_mem_array(mem, (size_t)m->nv * nf, 1);
     s->edge = rg_mem_array(mem, ne * ne, 1);
-    if (s->up && s->over && s->corner && s->edge) return RG_OK;
+    s->corner_behind = rg_mem_array(mem, (size_t)m->nv * nf, 1);
+    s->edge_behind = rg_mem_array(mem, ne * ne, 1);
+    if (s->up && s->over && s->corner && s->edge && s->corner_behind && s->edge_behind) return RG_OK;
     rg_sides_free(s);
     return RG_ENOMEM;
 }
@@ -28,8 +30,8 @@ rg_status rg_sides_init(rg_sides *s, const rg_memory *mem, const rg_mesh *m)
 void rg_sides_free(rg_sides *s)
 {
     if (!s->mem.resize) return;
-    void *block[] = {s->up, s->over, s->corner, s->edge};
-    for (int i = 0; i < 4; i++) rg_mem_free(&s->mem, block[i]);
+    void *block[] = {s->up, s->over, s->corner, s->edge, s->corner_behind, s->edge_behind};
+    for (int i = 0; i < 6; i++) rg_mem_free(&s->mem, block[i]);
     memset(s, 0, sizeof *s);
 }
 

@@ -18,6 +18,8 @@ typedef struct rg_sides {
                              * from 10, 13, 16 on with the edge of the facet that the vertex lies on: over it, under it, and
                              * inside that folded edge; outside it, partly over and partly under the facet */
     signed char *edge;      /* [ne][ne] the same of the facets at either edge */
+    unsigned char *corner_behind, *edge_behind; /* the same pairs: non-zero: a third facet lies between the two where they meet, so
+                             * that what it keeps apart from either is apart */
 } rg_sides;
 
 /* up and over are zero, to be filled, then rg_sides_finish with the positions x[nv] in the plane. RG_ENOMEM. Owner: the caller, rg_sides_free. */

@@ -13,16 +13,18 @@ static const double FLOOR_LAST = 1e-5, FLOOR_LESS = 0.6;
 static const int32_t PATIENCE = 12;      /* the floor is lowered when so many steps */
 static const double SLOW = 0.02;         /* bring less than this part of what is left */
 static const double SOFT = 0.3, SOFT_MOST = 1e-3, SOFT_COMPLIANCE = 1e-5; /* 1e-3 is too weak to open, 1e-7 stops the motion */
+static const double ONE_WAY = 0.5;        /* cosine: ways that are nearer are the same */
 static const double HARD_COMPLIANCE = 1e-10; /* of a row, so that rows that contradict each other give a little */
 static const double CLOSING_ROUNDS = 1e-6; /* and of a glued pair, lest layers on each other make a program of each closing */
 static const double NOT_THERE = 1e-4; /* a part that is farther on its wrong side, in a state that does not cross, has gone round */
-static const double THICK = 0.07;
+static const double THICK = 0.006;       /* the floor over how far it is open: a dozen layers share what there is of room */
 static const double BELOW_FLOOR = 0.2;   /* what closing may take of a distance that is below the floor */
 static const double NEAR_HALF_TURN = 0.6; /* creases this near to half a turn get their bound as a row */
 static const double OVER_HALF_TURN = 1e-4; /* what rounding and closing may put a crease past it */
 static const double OVER_ROUNDING = 1e-8; /* and what it may go on by in a step, where it is past that */
 static const double ADDED_BACK = 0.1, PATTERN_BACK = 0.5; /* what added creases and pattern are wished back by in a step */
 static const double ADDED_SCALE = 3;     /* an added crease bends more readily than a drawn one leaves its wish */
+static const double LOCKED = 1e-3, HELD = 0.1; /* radians from half a turn; how readily such a crease turns in closing */
 static const double LEAST_AREA = 0.1;    /* of a facet, of what it was */
 static const double SMALL_AREA = 0.5, AREA_FLOOR = 0.12; /* facets of less get a row; and what it keeps: a little more than the least */
 static const double MOST_CORRECTION = 0.7, ALWAYS_CORRECTED = 1e-3; /* of the step: else it went to another branch */
@@ -35,12 +37,12 @@ static const double WRONG_BY = 1e-5;     /* a glued pair may not be farther than
 static const double MAY_FALL = 2;        /* or is as far as it was, but for so many times what closing leaves */
 static const double CROSSED = 6e-5;      /* a step after which facets cross deeper (lengths of the sheet) is none */
 static const double STILL = 1e-7;        /* a step in which no crease turns by more is none */
+static const double DAMPING = 0.1; /* of closing, over what is open */
 static const double CLOSED = 1e-11, HARDLY_OPEN = 1e-8;
 static const int WITH_ROWS = 5, NEWTON = 12; /* frozen rows that can't all hold keep kicking Newton off: rows for some iterations only */
 static const int HALVINGS = 12;
 static const double ARRIVED_FLAT = 0.985, ARRIVED_FOLDED = 0.993;
-static const double TOUCH = 1e-6; /* the same of a pair that has no side: only where there is no distance to go by */
-static const double GLUE = 2e-5, RELEASE = 3e-5, SIDE_RELEASE = 1e-5; /* distances from which a pair is glued, released */
+static const double GLUE = 2e-5, RELEASE = 3e-5, SIDE_RELEASE = 1e-5; /* from where a pair is glued, released */
 static const double HARDLY_OPEN_END = 0.08, GROWTH = 0.3, LAGGING = 0.7, OPENS = 1.05; /* near the end: steps as a part of how far it is open */
 static const double SIDE_COUNTS = 1e-3;  /* pairs nearer than that are held by their side in the order */
 
@@ -54,17 +56,27 @@ void rg_stride_scale(const rg_linkage *P, double give, double *scale)
     for (int32_t i = 0; i < P->U; i++) scale[P->N + i] = give * P->freedom.reach[i];
 }
 
+void rg_stride_hold(const rg_linkage *P, const double *z, double *scale)
+{
+    for (int32_t i = 0; i < P->N; i++)
+        if (fabs(z[i]) > RG_PI - LOCKED) scale[i] *= HELD;
+}
+
 int rg_stride_close(rg_linkage *P, rg_nearest *q, double *z, double tol, int32_t most)
 {
+    int closed = 0;
     for (int32_t i = 0;; i++) {
         const double angle = rg_coupled_assemble(&P->J, z, z + P->N, NULL);
-        if (angle <= tol) return 1;
-        if (i == most || !(angle < 1)) return 0;
+        closed = angle <= tol;
+        if (closed || i == most || !(angle < 1)) break;
+        P->J.A.damping = DAMPING * angle; /* where equations all but depend on each other, as near flat, full steps overshoot */
         rg_coupled_renew(&P->J, q->scale);
         q->work += 20 * P->J.A.L.S.entries + P->J.A.L.S.flops;
         rg_nearest_project(q, NULL, P->J.r);
         for (int32_t k = 0; k < P->n; k++) z[k] += q->dz[k];
     }
+    P->J.A.damping = 0;
+    return closed;
 }
 
 /* At s->z: everything that the linear rows are made of. */
@@ -131,7 +143,7 @@ static int tell(rg_stride *s, rg_close_pair *at, rg_vec3 *n, double *d)
     rg_vec3 apart = {0, 0, 0};
     if (!(rg_vec3_dot(up, up) > 0)) return 0;
     for (int i = 0; i < 4; i++) apart = rg_vec3_axpy(at->weight[i], s->P->p[at->v[i]], apart);
-    if (at->d > TOUCH && fabs(rg_vec3_dot(apart, up)) < STEEP * at->d) return 0; /* past the rim */
+    if (at->d > GLUE && fabs(rg_vec3_dot(apart, up)) < STEEP * at->d) return 0; /* past the rim */
     *n = up;
     *d = rg_vec3_dot(apart, up);
     return 1;
@@ -150,7 +162,7 @@ static void glue(rg_stride *s)
                 double d;
                 if (*flag || !(rg_proximity_distance(&s->near, kind, i, j, s->P->p, &at) < SIDE_COUNTS)) continue;
                 const int told = s->sides && rg_sides_tell(s->sides, s->P, &at, &n, &d);
-                if (at.d < (told ? GLUE : TOUCH) || (told && d < SIDE_RELEASE)) *flag |= RG_PROXIMITY_GLUED;
+                if (at.d < GLUE || (told && d < SIDE_RELEASE)) *flag |= RG_PROXIMITY_GLUED;
             }
 }
 
@@ -162,7 +174,7 @@ static void release_pair(rg_stride *s, int kind, int32_t i, int32_t j, unsigned 
     if (!(*flag & RG_PROXIMITY_GLUED)) return;
     const double apart = rg_proximity_distance(&s->near, kind, i, j, s->P->p, &at);
     const int told = s->sides && tell(s, &at, &n, &d);
-    if (!(apart > (told ? RELEASE : TOUCH)) || (told && d < SIDE_RELEASE)) return;
+    if (!(apart > RELEASE) || (told && d < SIDE_RELEASE)) return;
     *flag &= (unsigned char)~RG_PROXIMITY_GLUED;
 }
 
@@ -196,7 +208,8 @@ rg_status rg_stride_init(rg_stride *s, const rg_memory *mem, rg_linkage *P, cons
     s->p1 = rg_mem_array(mem, (size_t)P->mesh->nv, sizeof *s->p1);
     s->merit = rg_mem_array(mem, RG_STRIDE_MOST + 1, sizeof *s->merit);
     s->went = rg_mem_array(mem, RG_STRIDE_MOST + 1, sizeof *s->went);
-    rg_status status = s->z && s->z1 && s->wish && s->p1 && s->merit && s->went ? RG_OK : RG_ENOMEM;
+    s->pushed = rg_mem_array(mem, (size_t)P->N + (size_t)(end ? end->count : 0), sizeof *s->pushed);
+    rg_status status = s->z && s->z1 && s->wish && s->p1 && s->pushed && s->merit && s->went ? RG_OK : RG_ENOMEM;
     if (status == RG_OK) status = rg_proximity_init(&s->near, mem, P->mesh);
     if (status == RG_OK) status = rg_nearest_init(&s->q, mem, P);
     if (status != RG_OK) return status;
@@ -216,8 +229,8 @@ void rg_stride_free(rg_stride *s)
     if (!s->mem.resize) return;
     rg_proximity_free(&s->near);
     rg_nearest_free(&s->q);
-    void *block[] = {s->z, s->z1, s->wish, s->p1, s->merit, s->went};
-    for (int i = 0; i < 6; i++) rg_mem_free(&s->mem, block[i]);
+    void *block[] = {s->z, s->z1, s->wish, s->p1, s->pushed, s->merit, s->went};
+    for (int i = 0; i < 7; i++) rg_mem_free(&s->mem, block[i]);
     memset(s, 0, sizeof *s);
 }
 
@@ -284,17 +297,28 @@ static void make_wish(rg_stride *s)
 /* The floor of now: where the end has hardly opened, layers can't be as far apart as later. */
 static double floor_of(const rg_stride *s) { return s->end && s->end->keep ? fmin(s->dm, THICK * s->mean) : s->dm; }
 
+/* Non-zero: the first rows, which part what has crossed, part this pair the other way: it has leaked through, and what is
+ * remembered of it is of the wrong side. */
+static int has_leaked(const rg_stride *s, int32_t crossed, const rg_close_pair *at, rg_vec3 n)
+{
+    for (int32_t k = 0; k < crossed; k++) {
+        const rg_row *row = &s->q.row[k];
+        if (memcmp(row->v, at->v, sizeof at->v) == 0 && row->weight[0] * at->weight[0] * rg_vec3_dot(row->n, n) < 0) return 1;
+    }
+    return 0;
+}
+
 static rg_status add_pair_rows(rg_stride *s)
 {
+    const int32_t crossed = s->q.count;
     const double dm = floor_of(s);
     rg_proximity *near = &s->near;
-    rg_status status = rg_proximity_find(near, s->P->p, REACH * MOVE * s->h / DAMPER + 1e-9);
+    rg_status status = rg_proximity_find(near, s->P->p, REACH * MOVE * s->h / DAMPER + 1e-9, s->sides ? GLUE : 0);
     for (int32_t k = 0; status == RG_OK && k < near->count; k++) {
         rg_close_pair *at = &near->pair[k];
-        rg_vec3 up;
-        double along;
         /* No distance to go by, nor a straight way from state to state that does not cut through what turns. */
-        if (s->sides && at->d < GLUE && (at->d < TOUCH || tell(s, at, &up, &along))) *flag_of(s, at->kind, at->i, at->j) |= RG_PROXIMITY_GLUED;
+        if (s->sides && at->d < GLUE) *flag_of(s, at->kind, at->i, at->j) |= RG_PROXIMITY_GLUED;
+        if (at->kind == 1 && !rg_proximity_is_inside(at)) continue; /* the corner has a row */
         const int glued = is_glued(s, at);
         if (s->sides && !glued && at->d > APART) remember(s, at);
         rg_vec3 n = {0, 0, 0};
@@ -305,6 +329,10 @@ static rg_status add_pair_rows(rg_stride *s)
             const int told = tell(s, at, &n, &d) && d >= -NOT_THERE;
             if (glued && !told) continue;
             if (!told) n = shortest, d = at->d;
+        }
+        if (has_leaked(s, crossed, at, n)) {
+            *flag_of(s, at->kind, at->i, at->j) &= (unsigned char)~(RG_PROXIMITY_ABOVE | RG_PROXIMITY_BELOW);
+            continue;
         }
         rg_row *row = rg_nearest_add(&s->q);
         if (!row) return RG_ENOMEM;
@@ -318,9 +346,31 @@ static rg_status add_pair_rows(rg_stride *s)
         row->b = -DAMPER * fmax(0, d - dm);
         row->floor = d - DAMPER_CLOSING * fmax(0, d - dm) - BELOW_FLOOR * fmin(fmax(d, 0), dm) - (glued ? CLOSING_ROUNDS : 0);
         row->glued = glued ? 1 : 0;
+        row->pushed = flag_of(s, at->kind, at->i, at->j);
+        row->pushed_by = RG_PROXIMITY_PUSHED;
         if (d < dm) row->soft_b = fmin(SOFT * (dm - d), SOFT_MOST), row->soft_c = SOFT_COMPLIANCE;
     }
     return status;
+}
+
+/* Of what a corner or an edge is near to one way, only the nearest pushes it up: in a stack that is the next layer, and what
+ * is behind it is pushed by that. */
+static void push_nearest(rg_stride *s, int32_t first)
+{
+    rg_nearest *q = &s->q;
+    for (int32_t i = first; i < q->count; i++) {
+        rg_row *row = &q->row[i];
+        row->next = q->head[row->feature];
+        q->head[row->feature] = i;
+    }
+    for (int32_t i = first; i < q->count; i++) {
+        rg_row *row = &q->row[i];
+        for (int32_t k = q->head[row->feature]; k >= 0 && row->soft_c > 0; k = q->row[k].next) {
+            const rg_row *other = &q->row[k];
+            if (other->d < row->d && rg_vec3_dot(other->n, row->n) > ONE_WAY) row->soft_c = 0;
+        }
+    }
+    for (int32_t i = first; i < q->count; i++) q->head[q->row[i].feature] = q->row[i].next = -1;
 }
 
 static rg_status add_end_rows(rg_stride *s)
@@ -337,6 +387,8 @@ static rg_status add_end_rows(rg_stride *s)
         memcpy(row->weight, from->weight, sizeof row->weight);
         row->n = rg_end_normal(from, s->P->place);
         row->carried = BY_END + k;
+        row->pushed = &s->pushed[s->P->N + k];
+        row->pushed_by = 1;
         row->c = HARD_COMPLIANCE;
         row->b = -DAMPER * fmax(0, d - END_FLOOR);
         row->floor = d > 0 ? (1 - DAMPER_CLOSING) * d : d - END_ROUNDING;
@@ -359,6 +411,8 @@ static rg_status add_bounds(rg_stride *s)
         row->crease = i;
         row->weight[0] = s->z[i] > 0 ? -1 : 1;
         row->b = fmin(0, rho - RG_PI);
+        row->pushed = &s->pushed[i];
+        row->pushed_by = 1;
         if (rho > RG_PI) row->soft_b = rho - RG_PI, row->soft_c = SOFT_COMPLIANCE; /* one that is locked there can't go back at once */
     }
     return RG_OK;
@@ -499,7 +553,9 @@ static rg_status find_step(rg_stride *s, double *f)
     rg_nearest *q = &s->q;
     rg_nearest_clear(q);
     rg_status status = rg_crossed_add(s->crossed, P, &s->near, q);
+    const int32_t first = q->count;
     if (status == RG_OK) status = add_pair_rows(s);
+    if (status == RG_OK) push_nearest(s, first);
     if (status == RG_OK) status = add_end_rows(s);
     if (status == RG_OK) status = add_bounds(s);
     if (status == RG_OK) status = add_area_rows(s);

@@ -32,6 +32,7 @@ typedef struct rg_stride {
     const double *target;   /* borrowed [N] radians, all 0: unfolding; NAN: none */
     double *z, *z1, *wish;  /* [n] */
     rg_vec3 *p1;            /* [nv] */
+    unsigned char *pushed;  /* [N + rows of the end] in the last step */
     double h, dm, pace;     /* part of the largest step; floor; part of the wish that rows let through lately */
     double *merit, *went;   /* [RG_STRIDE_MOST + 1] how far it was after each step, by judge's measure and in the mean */
     int32_t steps, since;   /* taken; the step at which the floor was lowered last */
@@ -59,6 +60,8 @@ rg_status rg_stride_towards(rg_stride *s, double floor, int *gone);
 void rg_stride_area(const rg_linkage *P, int32_t f, rg_row *row);
 /* W^1/2 of the unknowns: 1 for drawn creases, more for added ones, `give` times the reach of a way of the pattern. */
 void rg_stride_scale(const rg_linkage *P, double give, double *scale);
+/* Creases of z[N] that are locked at half a turn turn less readily: closing knows of no bounds. */
+void rg_stride_hold(const rg_linkage *P, const double *z, double *scale);
 /* Plain Newton: z is closed to `tol` or, returning zero, as near as it came. */
 int rg_stride_close(rg_linkage *P, rg_nearest *q, double *z, double tol, int32_t most);
 

@@ -115,6 +115,8 @@ static void between(rg_track *p, int32_t k, int32_t j, double t)
         const double part = last && i >= p->P->N ? 1 - (1 - t) * (1 - t) : t;
         p->scratch[i] = a[i] + part * (b[i] - a[i]);
     }
+    rg_stride_scale(p->P, 1, p->q->scale);
+    rg_stride_hold(p->P, p->scratch, p->q->scale);
     close(p);
 }
 
@@ -123,7 +125,6 @@ void rg_track_read(rg_track *p, double due)
     const size_t n = (size_t)p->P->n;
     int32_t k = 0;
     while (k + 2 < p->count && p->progress[k + 1] < due) k++;
-    rg_stride_scale(p->P, 1, p->q->scale);
     const double from = p->progress[k], to = p->progress[k + 1];
     if (due <= from || due >= to) {
         memcpy(p->scratch, p->z + (size_t)(due >= to ? k + 1 : k) * n, n * sizeof *p->scratch);

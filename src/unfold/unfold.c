@@ -24,7 +24,7 @@ static const step_of_plan PLAN[] = {
 };
 enum { PLAN_COUNT = sizeof PLAN / sizeof *PLAN };
 /* No try may cost more than this part of what is left. */
-static const double PART_OF_BUDGET = 0.4;
+static const double PART_OF_BUDGET = 0.5;
 
 void rg_unfold_free(rg_unfold *u)
 {
