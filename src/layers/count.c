@@ -1,5 +1,6 @@
 #include "layers/count.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -333,8 +334,20 @@ static void choose_part(counter *c, size_t first, int32_t n, uint64_t which)
     }
 }
 
+/* What is wished for most is decided first: a pair that wishes for nothing has either order, and may force others. */
+static void put_surest_first(counter *c, size_t first, int32_t n, const double *wish)
+{
+    size_t best = first;
+    for (size_t i = first; i < first + (size_t)n; i++)
+        if (fabs(wish[c->list[i]]) > fabs(wish[c->list[best]])) best = i;
+    const int32_t was = c->list[first];
+    c->list[first] = c->list[best];
+    c->list[best] = was;
+}
+
 static void choose_part_near(counter *c, size_t first, int32_t n, const double *wish)
 {
+    put_surest_first(c, first, n, wish);
     const int wanted = wish[c->list[first]] < 0 ? -1 : 1;
     const int value = try_order(c, first, n, wanted, 1) ? wanted : -wanted;
     const size_t begin = c->used;

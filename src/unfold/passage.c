@@ -1,4 +1,5 @@
 #include "unfold/passage.h"
+#include "contact/course.h"
 #include "unfold/home.h"
 #include "unfold/landing.h"
 #include "unfold/seen.h"
@@ -12,6 +13,8 @@ static const double CLOSED = 1e-9, LEAST_AREA = 0.1;
 static const double OVER = 1e-4; /* radians past half a turn: rounding and closing may put a crease there, as in stride.c */
 /* From this progress on the order of layers is to be seen, where it is. */
 static const double NEAR_THE_END = 0.98;
+/* And on the way from this progress on pairs are followed. */
+static const double FOLLOWED_FROM = 0.7;
 /* So far the end's pattern may be from the one drawn, lengths of the sheet, and so much it may be open, radians. */
 static const double END_MOVES = 1e-2, END_CLOSES = 1e-8, END_CLOSED = 1e-13;
 static const int NEWTON = 12;
@@ -177,6 +180,37 @@ static int is_upset(rg_passage *w, const rg_end *end)
     return 0;
 }
 
+/* Followed from where facets are well apart, each pair comes into the end on the side that it has there, and nothing crosses. Layers
+ * that are all but on each other may have passed through each other where no state shows it. *yes: out. */
+static rg_status comes_in_order(rg_passage *w, int *yes)
+{
+    const rg_track *p = &w->track;
+    rg_course course = {0};
+    int32_t k = 0;
+    while (k + 2 < p->count && p->progress[k] < FOLLOWED_FROM) k++;
+    rg_status s = rg_course_init(&w->mesh, &course);
+    for (; s == RG_OK && k < p->count && course.found.first < 0; k++) {
+        rg_linkage_put(&w->P, p->z + (size_t)k * (size_t)w->P.n);
+        s = rg_course_add(&course, &(rg_plates_state){w->P.X, w->P.place, w->P.p}, 1);
+    }
+    if (s == RG_OK && course.found.first < 0) s = rg_course_end(&course);
+    *yes = s == RG_OK && course.found.first < 0;
+    for (int32_t i = 0; *yes && i < course.sweep.n_before; i++) {
+        int32_t facet[2];
+        const int before = rg_course_side(&course, i, facet), up = w->layers->flat.up[w->layers->flat.facet_of[facet[0]]];
+        *yes = rg_layers_above_of_mesh(w->layers, facet[0], facet[1]) * before * up >= 0;
+    }
+    rg_course_free(&course);
+    return s;
+}
+
+/* In the order that was chosen, all the way, and nothing crosses. */
+static rg_status is_good(rg_passage *w, const rg_end *end, int *yes)
+{
+    *yes = !is_upset(w, end) && !rg_track_crosses_between(&w->track);
+    return *yes ? comes_in_order(w, yes) : RG_OK;
+}
+
 /* The order of layers that the states up to now show, as far as there is one. */
 static rg_status choose_as_seen(rg_passage *w)
 {
@@ -240,7 +274,7 @@ static rg_status land_as_seen(rg_passage *w, int32_t at, int *through)
         rg_linkage_put(&w->P, z);
         const int upset = s == RG_OK && w->track.progress[at] > NEAR_THE_END && rg_end_is_upset(&end, &w->P);
         if (s == RG_OK && !upset) s = land(w, &end, z, target, left(w) / (LANDINGS - k));
-        if (s == RG_OK && !upset) *through = !is_upset(w, &end) && !rg_track_crosses_between(&w->track);
+        if (s == RG_OK && !upset) s = is_good(w, &end, through);
         rg_end_free(&end);
     }
     rg_mem_free(&w->mem, z);
@@ -293,7 +327,7 @@ static rg_status walk(rg_passage *w, const rg_end *end, const double *z, const d
     rg_track_reverse(p);
     const int32_t at = p->count - 1 - opening;
     if (!slowly) status = land(w, end, z, target, left(w));
-    if (status == RG_OK) *through = !is_upset(w, end) && !rg_track_crosses_between(p);
+    if (status == RG_OK) status = is_good(w, end, through);
     if (status == RG_OK && !*through && w->any_order) {
         status = land_as_seen(w, at, through);
         w->as_seen = *through;
