@@ -401,6 +401,45 @@ static void every_index_is_another_order(void **state)
     rg_pattern_destroy(p);
 }
 
+/* What only one pair wishes for is granted where any order has it; and a wish for all that one order has is that order. */
+static void wishes(void **state)
+{
+    (void)state;
+    rg_layers_info info;
+    rg_pattern *p = read_pattern("patterns/four-crane.opx");
+    rg_layers *l = layers_of(p, &info);
+    const size_t pairs = (size_t)info.pairs;
+    uint64_t which[8];
+    double *wish = calloc(pairs, sizeof *wish);
+    signed char *is = calloc(81 * pairs, 1);
+    int granted = 0;
+    for (size_t k = 0; k < 81; k++) {
+        assert_int_equal(rg_layers_which(l, k, which), RG_OK);
+        assert_int_equal(rg_layers_choose(l, which), RG_OK);
+        for (size_t i = 0; i < pairs; i++) is[k * pairs + i] = l->orders.value[i] > 0 ? 1 : -1;
+    }
+    for (size_t i = 0; i < pairs; i++)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            size_t k = 0;
+            while (k < 81 && is[k * pairs + i] != sign) k++;
+            if (k == 81) continue;
+            wish[i] = sign;
+            assert_int_equal(rg_layers_choose_near(l, wish), RG_OK);
+            assert_int_equal(l->orders.value[i] > 0 ? 1 : -1, sign);
+            wish[i] = 0;
+            granted++;
+        }
+    assert_true(granted > (int)pairs); /* some have both */
+    for (size_t k = 0; k < 81; k++) {
+        for (size_t i = 0; i < pairs; i++) wish[i] = is[k * pairs + i];
+        assert_int_equal(rg_layers_choose_near(l, wish), RG_OK);
+        for (size_t i = 0; i < pairs; i++) assert_int_equal(l->orders.value[i] > 0 ? 1 : -1, is[k * pairs + i]);
+    }
+    free(wish), free(is);
+    rg_layers_destroy(l);
+    rg_pattern_destroy(p);
+}
+
 /* ------------------------------------------------------------------------------------------ what else may be ---- */
 
 static rg_layers *layers_of_drawing(rg_lines *lines, const rg_reading *s, rg_layers_info *info)
@@ -716,7 +755,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(own_patterns),   cmocka_unit_test(map_folding), cmocka_unit_test(more_than_can_be_counted),       cmocka_unit_test(brute_force),
-        cmocka_unit_test(reasons), cmocka_unit_test(every_index_is_another_order), cmocka_unit_test(one_crease), cmocka_unit_test(no_crease),
+        cmocka_unit_test(reasons), cmocka_unit_test(every_index_is_another_order), cmocka_unit_test(wishes),
+        cmocka_unit_test(one_crease), cmocka_unit_test(no_crease),
         cmocka_unit_test(flat_creases_are_paper), cmocka_unit_test(undriven_creases), cmocka_unit_test(ends_that_are_not_flat),
         cmocka_unit_test(moved_and_triangulated), cmocka_unit_test(levels), cmocka_unit_test(overlaps),
         cmocka_unit_test(real_patterns)};
