@@ -1,4 +1,5 @@
-/* A Miura-ori of n x n parallelograms with an angle of 60 degrees, as arrays: what a program of one's own has instead of a file. */
+/* A Miura-ori of n x n parallelograms with an angle of 60 degrees, as arrays: what a program of one's own has instead
+ * of a file. */
 #ifndef MIURA_H
 #define MIURA_H
 
@@ -12,8 +13,9 @@ typedef struct miura {
     char assignment[2 * MIURA_MOST * (MIURA_MOST + 1)];
 } miura;
 
-/* Zigzag i runs along x, and zigzags are mountain and valley by turns. The straight lines at j run along y, and their pieces are by turns
- * too: at each vertex the piece between the acute angles is other than the zigzag, which is Maekawa's theorem. */
+/* Zigzag i runs along x, and zigzags are mountain and valley by turns. The straight lines at j run along y, and their
+ * pieces are by turns too: at each vertex the piece between the acute angles is other than the zigzag, which is
+ * Maekawa's theorem. */
 static rg_drawing miura_draw(miura *m, int n)
 {
     rg_drawing d = rg_drawing_default();

@@ -178,7 +178,8 @@ static void state(rg_json *j, const rg_mesh *mesh, const rg_motion_state *s, con
         rg_json_number(j, NULL, i < 0 ? 0 : rg_number_degrees(s->rho[i]));
     }
     rg_json_close(j);
-    if (memcmp(s->X, mesh->X, (size_t)mesh->nv * sizeof *s->X) != 0) coords2(j, "rigami:vertices_flatCoords", s->X, mesh->nv);
+    if (memcmp(s->X, mesh->X, (size_t)mesh->nv * sizeof *s->X) != 0)
+        coords2(j, "rigami:vertices_flatCoords", s->X, mesh->nv);
 }
 
 /* States number *k ... after a frame, up to the next one; as in rg_motion_state_at. Most frames have none. */

@@ -1,4 +1,4 @@
-"""The C face as it is in the installed rigami.h, for cffi: every function and struct, none written down a second time."""
+"""The C face as it is in the installed rigami.h, for cffi: every function and struct, none written down twice."""
 import os
 import re
 import shlex
@@ -11,9 +11,11 @@ import cffi
 def pkg_config(*options):
     tool = shlex.split(os.environ.get("PKG_CONFIG", "pkg-config"))
     try:
-        return shlex.split(subprocess.run([*tool, *options, "rigami"], check=True, capture_output=True, text=True).stdout)
+        said = subprocess.run([*tool, *options, "rigami"], check=True, capture_output=True, text=True)
+        return shlex.split(said.stdout)
     except (OSError, subprocess.CalledProcessError):
-        raise SystemExit("rigami is not installed where pkg-config looks: `make install`, then PKG_CONFIG_PATH=PREFIX/lib/pkgconfig") from None
+        raise SystemExit("rigami is not installed where pkg-config looks: "
+                         "`make install`, then PKG_CONFIG_PATH=PREFIX/lib/pkgconfig") from None
 
 
 def header():
@@ -27,7 +29,8 @@ def declarations(path):
         for name in ["stddef.h", "stdint.h", "math.h"]:
             open(os.path.join(empty, name), "w").close()
         compiler = shlex.split(os.environ.get("CC", "cc"))
-        text = subprocess.run([*compiler, "-E", "-P", "-nostdinc", "-I", empty, path], check=True, capture_output=True, text=True).stdout
+        text = subprocess.run([*compiler, "-E", "-P", "-nostdinc", "-I", empty, path],
+                              check=True, capture_output=True, text=True).stdout
     text = text.replace('__attribute__((visibility("default")))', "")
     text = re.sub(r"static inline ([^{;]*)\{[^}]*\}", r"\1;", text)
     constants = re.findall(r"^#define (RG_[A-Z_]+) +\(?\(?(?:double|-?[0-9.]+[.e])", open(path).read(), re.MULTILINE)

@@ -1,13 +1,16 @@
-/* A pattern that is in no file: one vertex of a Miura-ori, from arrays; folded without reading or writing anything, and printed half
- * folded, as a model in the form .obj, with positions out of the fold's own memory. Needs the core alone. */
+/* A pattern that is in no file: one vertex of a Miura-ori, from arrays; folded without reading or writing anything, and
+ * printed half folded, as a model in the form .obj, with positions out of the fold's own memory. Needs the
+ * core alone. */
 #include <rigami.h>
 #include <stdio.h>
 
 int main(void)
 {
-    const double w = 0.8660254037844386; /* sectors of 60 and 120 degrees round the vertex in the middle, which has number 4 */
+    /* sectors of 60 and 120 degrees round the vertex in the middle, which has number 4 */
+    const double w = 0.8660254037844386;
     const double at[9][2] = {{0, 0}, {w, 0.5}, {2 * w, 0}, {0, 1}, {w, 1.5}, {2 * w, 1}, {0, 2}, {w, 2.5}, {2 * w, 2}};
-    const int32_t ends[12][2] = {{0, 1}, {1, 2}, {2, 5}, {5, 8}, {8, 7}, {7, 6}, {6, 3}, {3, 0}, {3, 4}, {4, 5}, {1, 4}, {4, 7}};
+    const int32_t ends[12][2] = {{0, 1}, {1, 2}, {2, 5}, {5, 8}, {8, 7}, {7, 6}, {6, 3}, {3, 0}, {3, 4}, {4, 5}, {1, 4},
+                                 {4, 7}};
     rg_drawing drawing = rg_drawing_default();
     drawing.vertices = 9, drawing.at = at;
     drawing.edges = 12, drawing.ends = ends;
@@ -25,7 +28,8 @@ int main(void)
         const rg_sheet *sheet = rg_motion_get_sheet(rg_fold_motion(fold));
         for (int32_t f = 0; f < sheet->facets; f++) {
             printf("f");
-            for (int32_t k = sheet->facet_start[f]; k < sheet->facet_start[f + 1]; k++) printf(" %d", (int)sheet->facet_vertex[k] + 1);
+            for (int32_t k = sheet->facet_start[f]; k < sheet->facet_start[f + 1]; k++)
+                printf(" %d", (int)sheet->facet_vertex[k] + 1);
             printf("\n");
         }
     }

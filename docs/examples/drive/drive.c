@@ -1,5 +1,6 @@
-/* Drives one crease of a Miura-ori from 0 to 60 degrees; the others follow by the least motion that the facets allow. At every vertex the
- * half angles keep a ratio of tangents, cos(60 degrees), which is printed beside. Needs the core alone. */
+/* Drives one crease of a Miura-ori from 0 to 60 degrees; the others follow by the least motion that the facets allow.
+ * At every vertex the half angles keep a ratio of tangents, cos(60 degrees), which is printed beside. Needs the core
+ * alone. */
 #include "../miura.h"
 #include <math.h>
 #include <stdio.h>
@@ -19,7 +20,8 @@ int main(void)
     if (s == RG_OK) s = rg_fold_create_flat(pattern, &settings, &fold, &why);
     if (s == RG_OK) {
         const rg_motion *sheet = rg_fold_motion(fold);
-        const int32_t straight = rg_motion_crease_between(sheet, v, v + n + 1), zigzag = rg_motion_crease_between(sheet, v, v + 1);
+        const int32_t straight = rg_motion_crease_between(sheet, v, v + n + 1),
+            zigzag = rg_motion_crease_between(sheet, v, v + 1);
         const double target = -60 * degree; /* zigzag 3 is a mountain */
         s = rg_fold_drive(fold, 1, &zigzag, &target);
         for (const rg_step_info *i = rg_fold_get_info(fold); s == RG_OK; i = rg_fold_step(fold)) {

@@ -1,5 +1,6 @@
-/* Folds every crease pattern of a folder, as many at a time as there are processors, and prints a line for each. Handles are not shared
- * between threads, so nothing has to be locked but the list and the printing.  ./folder patterns/ */
+/* Folds every crease pattern of a folder, as many at a time as there are processors, and prints a line for each.
+ * Handles are not shared between threads, so nothing has to be locked but the list and the printing.  ./folder
+ * patterns/ */
 #include <dirent.h>
 #include <pthread.h>
 #include <rigami.h>
@@ -14,7 +15,8 @@ static int next(work *w, char *path, size_t room)
 {
     struct dirent *d;
     pthread_mutex_lock(&w->lock);
-    while ((d = readdir(w->list)) && (d->d_name[0] == '.' || !strrchr(d->d_name, '.') || strstr(d->d_name, ".md"))) continue;
+    while ((d = readdir(w->list)) && (d->d_name[0] == '.' || !strrchr(d->d_name, '.') || strstr(d->d_name, ".md")))
+        continue;
     if (d) snprintf(path, room, "%s/%s", w->folder, d->d_name);
     pthread_mutex_unlock(&w->lock);
     return d != NULL;

@@ -13,8 +13,10 @@ int main(int argc, char **argv)
     if (s == RG_OK) s = rg_motion_write(motion, argv[2], NULL, &why); /* .stl, .glb, .gif, ... by the extension */
     if (s == RG_OK) {
         const rg_report *r = rg_motion_report(motion);
-        printf("%.1f %% folded in %d frames, closed to %.0e rad\n", r->folded_percent, (int)r->frame_count, r->max_closure_residual);
-        if (r->outcome == RG_STOPPED) printf("short of its end: %s\n", r->reason); /* no error: the model is what was reached */
+        printf("%.1f %% folded in %d frames, closed to %.0e rad\n", r->folded_percent, (int)r->frame_count,
+               r->max_closure_residual);
+        /* no error: the model is what was reached */
+        if (r->outcome == RG_STOPPED) printf("short of its end: %s\n", r->reason);
     } else
         fprintf(stderr, "%s:%d: %s\n", argv[1], why.line, why.text);
     rg_motion_destroy(motion);

@@ -1,5 +1,5 @@
-/* Half-folds a Miura-ori, wishes that a single crease turned, and projects that wish onto what the facets allow, eq. (9): the other
- * creases turn with it. Also says how many ways there are to go. Needs the core alone. */
+/* Half-folds a Miura-ori, wishes that a single crease turned, and projects that wish onto what the facets allow,
+ * eq. (9): the other creases turn with it. Also says how many ways there are to go. Needs the core alone. */
 #include "../miura.h"
 #include <math.h>
 #include <stdio.h>

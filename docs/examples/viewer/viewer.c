@@ -1,5 +1,6 @@
-/* What a viewer of one's own needs: the fold is found in a thread, which the user may end; then each state becomes the two arrays that OpenGL,
- * Direct3D or WebGL draw: triangles with normals, and the creases as lines.  ./viewer pattern.opx [PERCENT at which the user loses patience] */
+/* What a viewer of one's own needs: the fold is found in a thread, which the user may end; then each state becomes the
+ * two arrays that OpenGL, Direct3D or WebGL draw: triangles with normals, and the creases as lines.  ./viewer
+ * pattern.opx [PERCENT at which the user loses patience] */
 #include <math.h>
 #include <pthread.h>
 #include <rigami.h>
@@ -67,7 +68,8 @@ int main(int argc, char **argv)
     if (argc < 2) return fprintf(stderr, "usage: %s pattern [percent]\n", argv[0]), 2;
     rg_pattern *pattern = NULL;
     rg_diag why = {0};
-    if (rg_pattern_read(argv[1], NULL, &pattern, &why) != RG_OK) return fprintf(stderr, "%s:%d: %s\n", argv[1], why.line, why.text), 1;
+    if (rg_pattern_read(argv[1], NULL, &pattern, &why) != RG_OK)
+        return fprintf(stderr, "%s:%d: %s\n", argv[1], why.line, why.text), 1;
     search q = {.pattern = pattern, .patience = argc > 2 ? atoi(argv[2]) : 101};
     pthread_t thread;
     if (pthread_create(&thread, NULL, look, &q) != 0) look(&q);
@@ -80,14 +82,16 @@ int main(int argc, char **argv)
             fill_triangles(q.fold, sheet, triangles); /* glBufferSubData(GL_ARRAY_BUFFER, 0, bytes, triangles) */
             const size_t points = fill_lines(q.fold, sheet, lines);
             if (i->frame % 20 == 0)
-                printf("%5.1f %%  %d triangles, %d lines, a corner at (%.1f %.1f %.1f)\n", 100 * i->progress, (int)sheet->triangles, (int)(points / 2),
+                printf("%5.1f %%  %d triangles, %d lines, a corner at (%.1f %.1f %.1f)\n", 100 * i->progress,
+                       (int)sheet->triangles, (int)(points / 2),
                        triangles[1].at[0], triangles[1].at[1], triangles[1].at[2]);
             if (i->outcome != RG_RUNNING) break;
         }
         free(triangles);
         free(lines);
     } else if (q.status == RG_OK) {
-        printf("ended at %d %%: there are %d frames all the same\n", (int)atomic_load(&q.percent), (int)rg_motion_report(rg_fold_motion(q.fold))->frame_count);
+        printf("ended at %d %%: there are %d frames all the same\n", (int)atomic_load(&q.percent),
+               (int)rg_motion_report(rg_fold_motion(q.fold))->frame_count);
     } else
         fprintf(stderr, "%s\n", q.why.text);
     rg_fold_destroy(q.fold);

@@ -1,4 +1,6 @@
-"""The package against the C face and the command line. RIGAMI: the program; needs matplotlib.   python test_rigami.py"""
+"""The package against the C face and the command line. RIGAMI: the program; needs matplotlib.
+
+python test_rigami.py"""
 import os
 import subprocess
 import tempfile
@@ -27,7 +29,8 @@ class Miura(unittest.TestCase):
 
     def test_folds_as_the_command_line_does(self):
         """Every frame's angles and places as the program writes them, byte for byte."""
-        subprocess.run([PROGRAM, "fold", self.file, "-q", "-o", self.out("a.csv"), "-o", self.out("a.fold"), "-o", self.out("a.obj")], check=True)
+        outputs = [word for name in ("a.csv", "a.fold", "a.obj") for word in ("-o", self.out(name))]
+        subprocess.run([PROGRAM, "fold", self.file, "-q", *outputs], check=True)
         pattern = rigami.Pattern.read(self.file)
         motion = rigami.Motion(pattern)
         self.assertEqual(motion.outcome, "folded")
@@ -52,7 +55,8 @@ class Miura(unittest.TestCase):
         self.assertTrue(np.array_equal(np.array(frames).view(np.uint64), angles.view(np.uint64)))
 
     def test_drives_a_crease_and_plots(self):
-        """One crease from flat to 60 degrees: at a vertex the tangents of half the angles keep their ratio, cos 60 degrees or 1."""
+        """One crease from flat to 60 degrees: at a vertex the tangents of half the angles keep their ratio, cos 60
+        degrees or 1."""
         pattern = rigami.Pattern.read(self.file)
         fold = rigami.Fold(pattern, flat=True, frames=61)
         driven = 0

@@ -5,9 +5,10 @@
     for state in rigami.Fold(pattern):
         print(state.progress, state.angles)
 
-Angles are in radians, valley positive. Arrays that come out are views of the library's own memory, not to be written to; each keeps what
-it belongs to alive. Those of a Fold show its present state and hold until it is moved: copy what is to be kept. Arrays that go in are used
-where they are, if they are of the right type (float64, int32) and in one piece. `lib` and `ffi` are the whole C face, see rigami.h."""
+Angles are in radians, valley positive. Arrays that come out are views of the library's own memory, not to be written
+to; each keeps what it belongs to alive. Those of a Fold show its present state and hold until it is moved: copy what is
+to be kept. Arrays that go in are used where they are, if they are of the right type (float64, int32) and in one piece.
+`lib` and `ffi` are the whole C face, see rigami.h."""
 import numpy as np
 
 from ._face import ffi, lib
@@ -61,7 +62,8 @@ def _array(x, kind, ctype, *shape):
 
 def _fill(struct, keep, options):
     """Options by the names of the struct's members; of an enum by the end of a value's name: method="rk4"."""
-    fields = dict(ffi.typeof(struct).fields) if ffi.typeof(struct).kind == "struct" else dict(ffi.typeof(struct).item.fields)
+    kind = ffi.typeof(struct)
+    fields = dict((kind if kind.kind == "struct" else kind.item).fields)
     for name, value in options.items():
         if name not in fields or name in ("size", "memory", "progress", "progress_ctx"):
             raise TypeError(f"there is no option {name}")
@@ -156,7 +158,8 @@ class Pattern:
 
     @classmethod
     def from_arrays(cls, vertices, edges, assignment, targets=None, title=None, **options):
-        """vertices (n, 2), edges (m, 2) numbers of vertices, assignment m letters BMVUFC, targets m radians: nan by assignment, FREE."""
+        """vertices (n, 2), edges (m, 2) numbers of vertices, assignment m letters BMVUFC, targets m radians: nan by
+        assignment, FREE."""
         x, at = _array(vertices, np.float64, "double (*)[2]", None, 2)
         e, ends = _array(edges, np.int32, "int32_t (*)[2]", None, 2)
         letters = assignment.encode() if isinstance(assignment, str) else bytes("".join(assignment), "ascii")
@@ -201,7 +204,8 @@ class Pattern:
     @property
     def warnings(self):
         out = ffi.new("const rg_diag **")
-        return [(out[0][i].line, ffi.string(out[0][i].text).decode()) for i in range(lib.rg_pattern_warnings(self._handle, out))]
+        count = lib.rg_pattern_warnings(self._handle, out)
+        return [(out[0][i].line, ffi.string(out[0][i].text).decode()) for i in range(count)]
 
     def edge_at(self, x, y):
         """The edge nearest to a point, -1: none."""
@@ -295,7 +299,8 @@ class Motion(_Sheet):
         settings, keep = _made("rg_settings", options)
         out, why, watched = ffi.new("rg_motion **"), ffi.new("rg_diag *"), _Watched(progress)
         driven = ffi.new("rg_driven[]", list(angles.items()))
-        status = lib.rg_motion_create_driven(pattern._handle, len(angles), driven, settings, *watched.arguments, out, why)
+        status = lib.rg_motion_create_driven(pattern._handle, len(angles), driven, settings, *watched.arguments, out,
+                                             why)
         self = cls._of(out[0]) if status == lib.RG_OK else None
         watched.end()
         _check(status, why)
@@ -316,7 +321,8 @@ class Motion(_Sheet):
 
     @property
     def outcome(self):
-        return {lib.RG_FOLDED: "folded", lib.RG_STOPPED: "stopped", lib.RG_RESTS: "rests"}.get(self.report.outcome, "running")
+        names = {lib.RG_FOLDED: "folded", lib.RG_STOPPED: "stopped", lib.RG_RESTS: "rests"}
+        return names.get(self.report.outcome, "running")
 
     @property
     def reason(self):
@@ -361,7 +367,8 @@ class Motion(_Sheet):
         """A picture, (height, width, 3) bytes. Options are the members of rg_picture."""
         picture, keep = _made("rg_picture", options)
         rgb, why = np.empty((picture.height, picture.width, 3), np.uint8), ffi.new("rg_diag *")
-        _check(lib.rg_motion_draw(self._motion, range(len(self))[frame], picture, ffi.cast("unsigned char *", ffi.from_buffer(rgb)), why), why)
+        pixels = ffi.cast("unsigned char *", ffi.from_buffer(rgb))
+        _check(lib.rg_motion_draw(self._motion, range(len(self))[frame], picture, pixels, why), why)
         return rgb
 
     def write(self, path, **options):
@@ -388,7 +395,8 @@ class Snapshot:
 
 
 class Fold(_Sheet):
-    """A fold that the caller moves. Options are the members of rg_settings; flat=True: looks for no motion, to be driven."""
+    """A fold that the caller moves. Options are the members of rg_settings; flat=True: looks for no motion, to be
+    driven."""
 
     def __init__(self, pattern, progress=None, flat=False, **options):
         settings, keep = _made("rg_settings", options)
@@ -453,7 +461,8 @@ class Fold(_Sheet):
         _check(lib.rg_fold_go_to_angle(self._handle, crease, radians))
 
     def drive(self, angles):
-        """{crease: radians}: each turns evenly there with the steps that follow, all others follow by the least motion, eq. (9)."""
+        """{crease: radians}: each turns evenly there with the steps that follow, all others follow by the least
+        motion, eq. (9)."""
         creases, where = _array(list(angles.keys()), np.int32, "int32_t *", None)
         radians, to = _array(list(angles.values()), np.float64, "double *", None)
         _check(lib.rg_fold_drive(self._handle, len(creases), where, to))
@@ -566,9 +575,11 @@ def rigami_warn(ctx, warning):
 
 
 def convert(path, out, **options):
-    """One crease pattern file to another; what the output cannot hold comes back as a list of texts. Options: of rg_reading."""
+    """One crease pattern file to another; what the output cannot hold comes back as a list of texts. Options: of
+    rg_reading."""
     told, reading = [], _made("rg_reading", options)
     why = ffi.new("rg_diag *")
     handle = ffi.new_handle(told)
-    _check(lib.rg_convert(str(path).encode(), str(out).encode(), lib.RG_FORMAT_AUTO, reading[0], lib.rigami_warn, handle, why), why)
+    _check(lib.rg_convert(str(path).encode(), str(out).encode(), lib.RG_FORMAT_AUTO, reading[0], lib.rigami_warn,
+                          handle, why), why)
     return told
