@@ -793,8 +793,8 @@ RG_API rg_status rg_convert_to(const void *bytes, size_t size, rg_format to, con
 
 /* Writes an example crease pattern as .opx. `kind`: one of rg_generate_kinds(), a NULL-ended list of names. n, m:
  * its size (0: the kind's default; m = 0: the same as n; `random`: m is the seed). angle: radians, 0 for the kind's
- * default. path "-": standard output. RG_EARG: no such kind or size, why->text says so. Memory is malloc's, but for
- * rg_generate_pattern's. */
+ * default. path "-": standard output. RG_EARG: no such kind or size, why->text says so. Memory is malloc's here and
+ * in rg_generate_to; rg_generate_pattern and rg_example_write take an allocator. */
 RG_API const char *const *rg_generate_kinds(void);
 RG_API rg_status rg_generate(const char *kind, int32_t n, int32_t m, double angle, const char *path, rg_diag *why);
 /* The same to a sink; or as a pattern at once. r: as in rg_pattern_create. */
@@ -814,6 +814,7 @@ typedef struct rg_example {
                        * `side` */
     double unit;      /* metres in a unit of the file, 0: it says none */
     rg_format format; /* of what is written; AUTO: by the path's extension, .opx where it has none */
+    const rg_memory *memory; /* NULL: malloc; NULL */
 } rg_example;
 /* size: sizeof(rg_example) of the caller. */
 RG_API void rg_example_init(rg_example *e, size_t size);

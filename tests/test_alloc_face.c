@@ -234,6 +234,21 @@ static rg_status sinks(const rg_memory *mem, counted *c)
     return status;
 }
 
+static rg_status examples_written(const rg_memory *mem, counted *c)
+{
+    char folder[] = "/tmp/rigami-example-XXXXXX", path[64];
+    rg_example e = rg_example_default();
+    e.memory = mem;
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/x.fold", folder);
+    const long asked = c->asked;
+    const rg_status status = rg_example_write("miura", &e, path, NULL);
+    assert_true(c->asked > asked);
+    unlink(path);
+    assert_int_equal(rmdir(folder), 0);
+    return status;
+}
+
 /* ---------------------------------------------------------------------------------------- of what is there already ---- */
 
 static rg_pattern *generated_with(const rg_memory *mem, const char *kind, int32_t n)
@@ -480,6 +495,7 @@ static void each_of_them(void **state)
     (void)state;
     refuse_everywhere(from_arrays, "rg_pattern_create");
     refuse_everywhere(generated_at_once, "rg_generate_pattern");
+    refuse_everywhere(examples_written, "rg_example_write");
     refuse_everywhere(moved_fold, "rg_fold_create");
     refuse_everywhere(read_off_a_path, "rg_fold_go_to");
     refuse_everywhere(steered_fold, "rg_fold_drive");

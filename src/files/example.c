@@ -5,6 +5,7 @@
 #include "generate/generate.h"
 #include "read/read.h"
 
+#include <stddef.h>
 #include <string.h>
 
 static rg_example usual_example(void) { return (rg_example){.size = sizeof(rg_example)}; }
@@ -18,7 +19,8 @@ void rg_example_init(rg_example *e, size_t size)
 static rg_status take(const rg_example *given, rg_example *out, rg_diag *why)
 {
     rg_example mine = usual_example();
-    const rg_status s = given ? rg_take(&mine, sizeof mine, given, given->size, sizeof mine, why) : RG_OK;
+    const size_t least = offsetof(rg_example, memory); /* as it was at first */
+    const rg_status s = given ? rg_take(&mine, sizeof mine, given, given->size, least, why) : RG_OK;
     if (s != RG_OK) return s;
     if (!(mine.side >= 0 && mine.side <= 1e9) || !(mine.cell >= 0 && mine.cell <= 1e9) ||
         !(mine.unit >= 0 && mine.unit <= 1e9))
@@ -31,12 +33,13 @@ static rg_status take(const rg_example *given, rg_example *out, rg_diag *why)
 
 rg_status rg_example_write(const char *kind, const rg_example *given, const char *path, rg_diag *why)
 {
-    const rg_memory mem = rg_mem_default(NULL);
-    const rg_reading r = rg_reading_default();
+    rg_reading r = rg_reading_default();
     rg_example e;
     rg_lines lines;
     rg_status s = take(given, &e, why);
     if (s != RG_OK) return s;
+    const rg_memory mem = rg_mem_default(e.memory);
+    r.memory = e.memory;
     if (e.format == RG_FORMAT_AUTO) e.format = rg_read_extension(path);
     const char *slash = strrchr(path, '/');
     if (e.format == RG_FORMAT_AUTO && !strchr(slash ? slash : path, '.')) e.format = RG_FORMAT_OPX;
