@@ -649,6 +649,25 @@ static void small_facets(void **state)
     below(least, -0.1); /* the wish alone breaks them */
     assert_int_equal(rg_nearest_solve(&q, wish, P.J.r, 1), RG_OK);
     for (int32_t k = 0; k < q.count; k++) below(-0.0201, rg_nearest_value(&q, &q.row[k]));
+    /* Rows that wait until they are broken, and are remembered: the same step; and those that push are the ones that are remembered. */
+    double *step = calloc((size_t)P.n, sizeof *step);
+    unsigned char *pushed = calloc((size_t)q.count, 1);
+    assert_true(step && pushed);
+    memcpy(step, q.dz, (size_t)P.n * sizeof *step);
+    for (int32_t k = 0; k < q.count; k++) q.row[k].pushed = &pushed[k], q.row[k].pushed_by = k % 2 ? 4 : 0; /* 0: never remembered */
+    q.all = 1;
+    for (int round = 0; round < 2; round++) {
+        int remembered = 0;
+        assert_int_equal(rg_nearest_solve(&q, wish, P.J.r, 1), RG_OK);
+        for (int32_t i = 0; i < P.n; i++) near(q.dz[i], step[i], 1e-6);
+        for (int32_t k = 0; k < q.count; k++) {
+            if (pushed[k]) near(rg_nearest_value(&q, &q.row[k]), -0.02, 1e-4);
+            assert_true(pushed[k] == 0 || (k % 2 && pushed[k] == 4));
+            remembered += pushed[k] != 0;
+        }
+        assert_true(remembered > 0);
+    }
+    free(step), free(pushed);
     free(z), free(wish), free(X);
     rg_nearest_free(&q);
     rg_linkage_free(&P);

@@ -1,5 +1,5 @@
 /* open.h -- from the flat-folded end to a state a little open, in which no layer has passed through another.
- * Uses  crossed.h end.h proximity.h nearest.h        Used by  unfold.c */
+ * Uses  crossed.h end.h proximity.h nearest.h        Used by  passage.c */
 #ifndef RG_OPEN_H
 #define RG_OPEN_H
 

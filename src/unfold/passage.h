@@ -1,5 +1,5 @@
 /* passage.h -- one try of a motion without contact: from the flat end, in one order of its layers, or from flat.
- * Uses  layers.h open.h stride.h landing.h home.h track.h seen.h        Used by  unfold.c
+ * Uses  layers.h course.h open.h stride.h landing.h home.h track.h seen.h        Used by  unfold.c
  *
  * From the end: it is opened a little, unfolded to flat with contacts as hard rows, and landed from where it was
  * opened. From flat: folded with the same rows, which jams more often but needs no order, and landed in the one that it
