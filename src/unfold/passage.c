@@ -15,6 +15,9 @@ static const double OVER = 1e-4; /* radians past half a turn: rounding and closi
 static const double NEAR_THE_END = 0.98;
 /* And on the way from this progress on pairs are followed. */
 static const double FOLLOWED_FROM = 0.7;
+/* Where layers are mostly well apart yet. */
+enum { LAST_PLACES = 2 };
+static const double LAST_PLACE[LAST_PLACES] = {0.97, 0.985};
 /* So far the end's pattern may be from the one drawn, lengths of the sheet, and so much it may be open, radians. */
 static const double END_MOVES = 1e-2, END_CLOSES = 1e-8, END_CLOSED = 1e-13;
 static const int NEWTON = 12;
@@ -180,27 +183,45 @@ static int is_upset(rg_passage *w, const rg_end *end)
     return 0;
 }
 
-/* Followed from where facets are well apart, each pair comes into the end on the side that it has there, and nothing crosses. Layers
- * that are all but on each other may have passed through each other where no state shows it. *yes: out. */
+/* A state more of the course. */
+static rg_status look_at(rg_passage *w, const double *z, rg_course *course)
+{
+    rg_linkage_put(&w->P, z);
+    return rg_course_add(course, &(rg_plates_state){w->P.X, w->P.place, w->P.p}, 1);
+}
+
+/* Of a course that has come to the end: nothing crosses, and each pair comes in on the side that it has there. */
+static rg_status ends_in_order(rg_passage *w, rg_course *course, int *yes)
+{
+    const rg_status s = course->found.first < 0 ? rg_course_end(course) : RG_OK;
+    *yes = s == RG_OK && course->found.first < 0;
+    for (int32_t i = 0; *yes && i < course->sweep.n_before; i++) {
+        int32_t facet[2];
+        const int before = rg_course_side(course, i, facet), up = w->layers->flat.up[w->layers->flat.facet_of[facet[0]]];
+        *yes = rg_layers_above_of_mesh(w->layers, facet[0], facet[1]) * before * up >= 0;
+    }
+    return s;
+}
+
+/* Followed from where facets are well apart; and from the last places at which they are, straight into the end. Layers that are
+ * all but on each other may have passed through each other where no state shows it. *yes: out. */
 static rg_status comes_in_order(rg_passage *w, int *yes)
 {
     const rg_track *p = &w->track;
-    rg_course course = {0};
-    int32_t k = 0;
-    while (k + 2 < p->count && p->progress[k] < FOLLOWED_FROM) k++;
-    rg_status s = rg_course_init(&w->mesh, &course);
-    for (; s == RG_OK && k < p->count && course.found.first < 0; k++) {
-        rg_linkage_put(&w->P, p->z + (size_t)k * (size_t)w->P.n);
-        s = rg_course_add(&course, &(rg_plates_state){w->P.X, w->P.place, w->P.p}, 1);
+    rg_status s = RG_OK;
+    *yes = 1;
+    for (int straight = 0; s == RG_OK && *yes && straight < 2; straight++) {
+        rg_course course = {0};
+        s = rg_course_init(&w->mesh, &course);
+        for (int k = 0; straight && s == RG_OK && k < LAST_PLACES; k++) {
+            rg_track_read(&w->track, LAST_PLACE[k]);
+            s = look_at(w, p->scratch, &course);
+        }
+        for (int32_t k = 0; s == RG_OK && k < p->count && course.found.first < 0; k++)
+            if (straight ? k + 1 == p->count : p->progress[k] >= FOLLOWED_FROM) s = look_at(w, p->z + (size_t)k * (size_t)w->P.n, &course);
+        if (s == RG_OK) s = ends_in_order(w, &course, yes);
+        rg_course_free(&course);
     }
-    if (s == RG_OK && course.found.first < 0) s = rg_course_end(&course);
-    *yes = s == RG_OK && course.found.first < 0;
-    for (int32_t i = 0; *yes && i < course.sweep.n_before; i++) {
-        int32_t facet[2];
-        const int before = rg_course_side(&course, i, facet), up = w->layers->flat.up[w->layers->flat.facet_of[facet[0]]];
-        *yes = rg_layers_above_of_mesh(w->layers, facet[0], facet[1]) * before * up >= 0;
-    }
-    rg_course_free(&course);
     return s;
 }
 
