@@ -213,7 +213,7 @@ static rg_status build(rg_motion *m, const rg_value *root, const rg_pattern *p, 
     m->from = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *m->from);
     if (!m->target || !m->from) return RG_ENOMEM;
     for (int32_t i = 0; i < m->mesh.N; i++) m->target[i] = m->mesh.target[m->mesh.crease_edge[i]];
-    s = find_frames(&g);
+    if (s == RG_OK) s = find_frames(&g);
     if (s == RG_OK) s = read_frames(&g);
     if (s == RG_OK) s = as_plates(m);
     rg_mem_free(&m->mem, g.frame);
