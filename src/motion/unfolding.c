@@ -81,12 +81,31 @@ static int read(void *ctx, double progress, double *rho, rg_vec2 *X)
     return 1;
 }
 
+static rg_status triangulate(const rg_mesh *none, int shorter, rg_mesh *m)
+{
+    return shorter ? rg_triangulate_short(none, m) : rg_triangulate_all(none, m);
+}
+
+/* Do short diagonals make another mesh? */
+static rg_status differ(const rg_mesh *none, int *yes)
+{
+    rg_mesh m[2];
+    *yes = 0;
+    rg_status s = triangulate(none, 0, &m[0]);
+    if (s != RG_OK) return s;
+    s = triangulate(none, 1, &m[1]);
+    if (s == RG_OK) *yes = m[0].ne != m[1].ne || memcmp(m[0].edge, m[1].edge, (size_t)m[0].ne * sizeof *m[0].edge) != 0;
+    rg_mesh_free(&m[0]);
+    if (s == RG_OK) rg_mesh_free(&m[1]);
+    return s;
+}
+
 /* What unfolding found, as an attempt. */
-static rg_status take_over(rg_attempt *t, rg_unfold *u, const rg_mesh *none, const rg_settings *s, rg_diag *why)
+static rg_status take_over(rg_attempt *t, rg_unfold *u, const rg_mesh *none, const rg_settings *s, int shorter, rg_diag *why)
 {
     rg_mesh m;
     const double sign = s->to < 0 ? -1 : 1;
-    rg_status status = rg_triangulate_all(none, &m);
+    rg_status status = triangulate(none, shorter, &m);
     if (status != RG_OK) return status;
     double *target = rg_mem_array(&u->mem, (size_t)m.N, sizeof *target);
     if (!target) {
@@ -104,7 +123,7 @@ static rg_status take_over(rg_attempt *t, rg_unfold *u, const rg_mesh *none, con
     return RG_OK;
 }
 
-static void adopt(rg_search *c, rg_attempt *t, const char *how)
+static void adopt(rg_search *c, rg_attempt *t, const char *how, int shorter)
 {
     rg_attempt_free(&c->best);
     c->best = *t;
@@ -114,7 +133,7 @@ static void adopt(rg_search *c, rg_attempt *t, const char *how)
     c->rung = RG_UNFOLDED;
     c->direction = "backward";
     c->compliance = GIVE;
-    snprintf(c->strategy, sizeof c->strategy, "%s", how);
+    snprintf(c->strategy, sizeof c->strategy, "%s%s", how, shorter ? ", short diagonals" : "");
 }
 
 /* Who takes what unfolding finds. */
@@ -123,6 +142,7 @@ typedef struct taker {
     const rg_settings *settings;
     rg_watch *watch;
     rg_diag *why;
+    int shorter;
     rg_attempt found; /* the first of which all is proved free, or else the first */
     char how[160];
 } taker;
@@ -139,14 +159,14 @@ static rg_status accept(void *ctx, rg_unfold *u, int *yes)
     int32_t crossing = -1, unproved = 0;
     look.frames = LOOKED_AT;
     look.pace = RG_PACE_PERCENT;
-    rg_status s = take_over(&t, u, k->none, &look, k->why);
+    rg_status s = take_over(&t, u, k->none, &look, k->shorter, k->why);
     if (s == RG_OK) s = first_crossing(&t, k->watch, &crossing, &unproved);
     const int good = s == RG_OK && crossing < 0 && !k->watch->cancelled && rg_search_is_folded(&t);
     *yes = good && unproved == 0;
     if (good && (*yes || !k->found.mem.resize)) {
         rg_attempt_free(&k->found);
         rg_attempt_free(&t);
-        s = take_over(&k->found, u, k->none, k->settings, k->why);
+        s = take_over(&k->found, u, k->none, k->settings, k->shorter, k->why);
         memcpy(k->how, u->how, sizeof k->how);
         u->most = fmin(u->most, AGAIN * u->work);
     } else {
@@ -161,16 +181,23 @@ rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings 
     const rg_memory mem = rg_mem_default(s->memory);
     const double begun = rg_seconds();
     const int32_t triangles = none->facet_start[none->nf] - 2 * none->nf;
-    const double work = part * MOST_WORK[s->effort] * fmin(MOST_TIMES, fmax(1, (double)triangles / TRIANGLES));
+    const double most = part * MOST_WORK[s->effort] * fmin(MOST_TIMES, fmax(1, (double)triangles / TRIANGLES));
     taker k = {.none = none, .settings = s, .watch = watch, .why = why};
-    const rg_unfold_wish wish = {s->to < 0 ? -1 : 1, s->layer_order, 0, work, stop_taking, accept, &k};
-    rg_unfold u;
-    const rg_status status = rg_unfold_run(&u, &mem, none, &wish);
-    c->tries += u.tries;
-    if (status == RG_OK && k.found.mem.resize && !watch->cancelled) adopt(c, &k.found, k.how);
+    double spent = 0;
+    int two;
+    rg_status status = differ(none, &two);
+    for (k.shorter = 0; status == RG_OK && k.shorter <= two && !k.found.mem.resize && !watch->cancelled; k.shorter++) {
+        const double work = k.shorter < two ? most / 2 : most - spent;
+        const rg_unfold_wish wish = {s->to < 0 ? -1 : 1, s->layer_order, k.shorter, work, stop_taking, accept, &k};
+        rg_unfold u;
+        status = rg_unfold_run(&u, &mem, none, &wish);
+        c->tries += u.tries;
+        spent += u.work;
+        rg_unfold_free(&u);
+    }
+    if (status == RG_OK && k.found.mem.resize && !watch->cancelled) adopt(c, &k.found, k.how, k.shorter > 1);
     c->cost.seconds += rg_seconds() - begun;
     rg_attempt_free(&k.found);
-    rg_unfold_free(&u);
     return status == RG_ENOMEM ? rg_fail(status, why, 0, "%s", rg_status_text(status)) : status;
 }
 
