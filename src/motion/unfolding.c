@@ -133,7 +133,7 @@ static void adopt(rg_search *c, rg_attempt *t, const char *how, int shorter)
     c->rung = RG_UNFOLDED;
     c->direction = "backward";
     c->compliance = GIVE;
-    snprintf(c->strategy, sizeof c->strategy, "%s%s", how, shorter ? ", short diagonals" : "");
+    snprintf(c->strategy, sizeof c->strategy, "%.140s%s", how, shorter ? ", short diagonals" : "");
 }
 
 /* Who takes what unfolding finds. */
