@@ -1,5 +1,6 @@
 /* stability -- every hard place by every method: a table, a heat map.   stability FOLDER [SCENARIO]
- * Ends with status 1 if the program as it comes drifts or diverges anywhere, or folds what cannot fold. */
+ * Ends with status 1 if the program as it comes drifts or diverges anywhere, or folds what cannot fold; or if a path, or a sheet whose facets
+ * are in each other's way, fails a check. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,6 +10,7 @@
 
 #include "near.h"
 #include "paths.h"
+#include "contacts.h"
 #include "scenarios.h"
 
 #include <unistd.h>
@@ -158,10 +160,56 @@ static int look_at_path(int i, path_seen *x)
     return failed;
 }
 
+/* ---------------------------------------------------------------------------------------------- contact ---- */
+
+static void verdict_of(const contact_seen *x, char *text, size_t room)
+{
+    if (x->is_free) snprintf(text, room, "free");
+    else if (x->outcome != RG_FOLDED) snprintf(text, room, "stopped at %.3g %%", x->percent);
+    else snprintf(text, room, "crosses from %.3g %%, %.2g deep", x->from, x->depth);
+}
+
+static void write_contacts(FILE *md, FILE *csv, const contact_seen *x)
+{
+    fprintf(md, "\nFacets in each other's way, the program as it comes; what fails is in bold. Depths are over the sheet's size:\n\n"
+                "| sheet | left as it is, depth | as it comes | by | verify | 2, 60, 301 frames | states of 60 frames | seconds: left, avoided |\n"
+                "|---|---|---|---|---|---|---|---|\n");
+    fprintf(csv, "sheet,outcome,free,valid,same_verdict,percent,crosses_from_percent,depth,depth_left,layers,states,seconds_left,seconds,how\n");
+    for (int i = 0; i < CONTACTS; i++, x++) {
+        const char *mark[CONTACT_CHECKS];
+        char said[80];
+        for (int k = 0; k < CONTACT_CHECKS; k++) mark[k] = contact_fails(&contacts[i], x, k) ? "**" : "";
+        verdict_of(x, said, sizeof said);
+        fprintf(md, "| **%s**: %s | %.2g | %s%s%s | %s; layers %s | %s%s%s | %s%s%s | %d | %.2g, %.2g |\n", contacts[i].name, contacts[i].what,
+                x->depth_plain, mark[UNEXPECTED], said, mark[UNEXPECTED], x->how, x->order, mark[NOT_VALID],
+                x->is_free ? x->is_valid ? "valid" : "not valid" : "-", mark[NOT_VALID], mark[OTHER_VERDICT], x->same ? "the same" : "another verdict",
+                mark[OTHER_VERDICT], (int)x->states, x->seconds_plain, x->seconds);
+        fprintf(csv, "\"%s\",%s,%d,%d,%d,%.4g,%.4g,%.3g,%.3g,%s,%d,%.3g,%.3g,\"%s\"\n", contacts[i].name, outcome_name(x->outcome), x->is_free,
+                x->is_valid, x->same, x->percent, x->from, x->depth, x->depth_plain, x->order, (int)x->states, x->seconds_plain, x->seconds, x->how);
+    }
+}
+
+/* How many checks fail. */
+static int look_at_contact(int i, contact_seen *x)
+{
+    static const char *const names[] = {"not as it has to be", "told to be free, and not valid", "depends on frames"};
+    int failed = 0;
+    char said[80];
+    *x = contact_look(&contacts[i]);
+    verdict_of(x, said, sizeof said);
+    printf("contact %-14s %-28s left %.2g deep, %.2f s; %.2f s  %s", contacts[i].name, said, x->depth_plain, x->seconds_plain, x->seconds, x->how);
+    for (int k = 0; k < CONTACT_CHECKS; k++)
+        if (contact_fails(&contacts[i], x, k)) printf(failed++ ? ", %s" : " FAILS: %s", names[k]);
+    printf("\n");
+    fflush(stdout);
+    return failed;
+}
+
 int main(int argc, char **argv)
 {
     static cell c[SCENARIOS][METHODS];
     static path_seen way[PATHS];
+    static contact_seen touch[CONTACTS];
     int failed = 0;
     if (argc < 2) return fprintf(stderr, "usage: stability FOLDER [SCENARIO]\n"), 2;
     for (int i = 0; i < SCENARIOS; i++) {
@@ -179,6 +227,8 @@ int main(int argc, char **argv)
     }
     for (int i = 0; i < PATHS; i++)
         if (argc <= 2 || strcmp(argv[2], paths[i].name) == 0) failed |= look_at_path(i, &way[i]) > 0;
+    for (int i = 0; i < CONTACTS; i++)
+        if (argc <= 2 || strcmp(argv[2], contacts[i].name) == 0) failed |= look_at_contact(i, &touch[i]) > 0;
     if (argc > 2) return failed;
     FILE *f = out_file(argv[1], "stability.csv");
     write_csv(f, c);
@@ -189,6 +239,9 @@ int main(int argc, char **argv)
     f = out_file(argv[1], "table.md");
     write_md(f, c);
     write_paths_md(f, way);
+    FILE *csv = out_file(argv[1], "contact.csv");
+    write_contacts(f, csv, touch);
+    fclose(csv);
     fclose(f);
     f = out_file(argv[1], "paths.csv");
     write_paths_csv(f, way);

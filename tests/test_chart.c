@@ -9,6 +9,8 @@
 #include "near.h"
 #include "chart/chart.h"
 #include "counted.h"
+#include "paths.h"
+#include "contacts.h"
 #include "scenarios.h"
 
 static rg_chart *chart_of(rg_pattern *p, int32_t frames)
@@ -307,9 +309,54 @@ static void verdicts(void **state)
     }
 }
 
+static int stop_at_once(void *ctx, double done)
+{
+    (void)ctx, (void)done;
+    return 1;
+}
+
+/* What is in its own way crosses where it is left, and not where that is avoided, which costs something. */
+static void contact_is_charted(void **state)
+{
+    (void)state;
+    rg_touch t[RG_TOUCHES];
+    rg_diag why = {0, ""};
+    const rg_settings s = rg_settings_default();
+    rg_pattern *p = draw_by_hand();
+    assert_int_equal(rg_touch_measure(t, p, &s, NULL, NULL, &why), RG_OK);
+    assert_true(t[RG_TOUCH_LEFT].crosses);
+    below(0.01, t[RG_TOUCH_LEFT].depth);
+    assert_true(t[RG_TOUCH_LEFT].frames > 0);
+    assert_false(t[RG_TOUCH_AVOIDED].crosses);
+    below(t[RG_TOUCH_AVOIDED].depth, 1e-300);
+    for (int k = 0; k < RG_TOUCHES; k++) {
+        assert_int_equal(t[k].outcome, RG_FOLDED);
+        near(t[k].percent, 100, 1e-6);
+        below(1e-9, t[k].seconds);
+    }
+    assert_int_equal(rg_touch_measure(t, p, &s, stop_at_once, NULL, &why), RG_OK);
+    assert_true(t[RG_TOUCH_LEFT].seconds == 0);
+    rg_pattern_destroy(p);
+}
+
+/* The sheets of the table of contact, those that take less than a second. */
+static void what_is_in_its_own_way(void **state)
+{
+    (void)state;
+    static const char *const quick[] = {"pleats", "letter", "roll", "corner over", "corner under", "bird base", "locked"};
+    for (int k = 0; k < CONTACTS; k++)
+        for (size_t j = 0; j < sizeof quick / sizeof *quick; j++) {
+            if (strcmp(contacts[k].name, quick[j]) != 0) continue;
+            const contact_seen x = contact_look(&contacts[k]);
+            for (int check = 0; check < CONTACT_CHECKS; check++)
+                if (contact_fails(&contacts[k], &x, check)) fail_msg("%s: fails check %d", contacts[k].name, check);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(contact_is_charted), cmocka_unit_test(what_is_in_its_own_way),
         cmocka_unit_test(degree4),  cmocka_unit_test(order_along_freedoms), cmocka_unit_test(files),
         cmocka_unit_test(where_creases_roll), cmocka_unit_test(curve_without_memory), cmocka_unit_test(verdicts), cmocka_unit_test(every_frame_is_made),  cmocka_unit_test(hard_places),
     };

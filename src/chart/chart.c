@@ -178,7 +178,7 @@ rg_status rg_chart_create(const rg_pattern *p, const rg_settings *given, rg_prog
     if (taken != RG_OK) return taken;
     const rg_memory mem = rg_mem_default(settings->memory);
     rg_mesh none, all = {0};
-    watch w = {progress, ctx, 0, 5 * 3 + 3, 0};
+    watch w = {progress, ctx, 0, 5 * 3 + 4, 0};
     rg_status s = rg_mesh_from_pattern(p, &mem, &none, why);
     if (s != RG_OK) return s;
     rg_chart *c = rg_mem_array(&mem, 1, sizeof *c);
@@ -188,6 +188,8 @@ rg_status rg_chart_create(const rg_pattern *p, const rg_settings *given, rg_prog
     if (s == RG_OK) s = rg_triangulate_all(&none, &all);
     if (s == RG_OK) s = rg_alike_find(p, &c->alike);
     if (s == RG_OK) s = fill(c, &none, &all, &w, why);
+    if (s == RG_OK) s = rg_touch_measure(c->touch, p, settings, ask, &w, why);
+    tick(&w);
     rg_mesh_free(&none);
     rg_mesh_free(&all);
     if (s != RG_OK) {

@@ -1,5 +1,5 @@
 /* chart.h -- speed against accuracy of one pattern: every method with every solver, over a range of steps.
- * Uses  reference.h order.h relaxed.h model.h alike.h        Used by  table.c plot.c */
+ * Uses  reference.h order.h relaxed.h touch.h model.h alike.h        Used by  table.c plot.c */
 #ifndef RG_CHART_H
 #define RG_CHART_H
 
@@ -7,6 +7,7 @@
 #include "chart/order.h"
 #include "chart/reference.h"
 #include "chart/relaxed.h"
+#include "chart/touch.h"
 #include "pattern/alike.h"
 
 #include <stdio.h>
@@ -25,6 +26,7 @@ struct rg_chart {
     rg_run run[RG_CHART_RUNS];  /* curve by curve; the first is the default */
     rg_order order[RG_ORDERS];
     double from, to;            /* progress: the stretch that the orders are of */
+    rg_touch touch[RG_TOUCHES]; /* facets left as they are, and kept out of each other's way */
     rg_model none, all;
     int32_t edges_all, nodes;   /* of the sheet cut into triangles */
     rg_alike alike;             /* of the sheet as drawn */

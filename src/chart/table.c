@@ -287,6 +287,27 @@ static void models(const rg_chart *c, FILE *out)
             (int)c->alike.creases, (int)c->none.unknowns, (int)c->alike.vertices, (int)c->none.constraints / 3);
 }
 
+/* Cost of avoidance against depth of crossing. */
+static void contact(const rg_chart *c, FILE *out)
+{
+    static const char *const name[RG_TOUCHES] = {"left as they are", "kept apart"};
+    const rg_touch *left = &c->touch[RG_TOUCH_LEFT];
+    fputs("\nFacets that would pass through each other:\n\n| | seconds | times those | folded | crosses from | depth, of the sheet | frames | added creases |\n"
+          "|---|---|---|---|---|---|---|---|\n", out);
+    for (int k = 0; k < RG_TOUCHES; k++) {
+        const rg_touch *t = &c->touch[k];
+        if (!(t->seconds > 0)) continue;
+        fprintf(out, "| %s | ", name[k]);
+        brief(t->seconds, out);
+        fprintf(out, " | ");
+        brief(t->seconds / left->seconds, out);
+        fprintf(out, " | %.1f %% | ", t->percent);
+        if (t->crosses) fprintf(out, "%.1f %% | %.2g | %d", t->from, t->depth, (int)t->frames);
+        else fputs("nowhere | 0 | 0", out);
+        fprintf(out, " | %d |\n", (int)t->added);
+    }
+}
+
 void rg_chart_words(const rg_chart *c, const char *title, FILE *out)
 {
     fprintf(out, "## %s\n\n%d creases%s, %d constraints, %d frames.\n", title, (int)c->N,
@@ -294,6 +315,7 @@ void rg_chart_words(const rg_chart *c, const char *title, FILE *out)
     if (c->relaxed.folds) {
         relaxed(c, out);
         models(c, out);
+        contact(c, out);
         fputs("\n", out);
         straight_on(c, out);
         return;
@@ -302,6 +324,7 @@ void rg_chart_words(const rg_chart *c, const char *title, FILE *out)
     verdict(c, out);
     orders(c, out);
     models(c, out);
+    contact(c, out);
     fputs("\n", out);
     runs(c, out);
 }
