@@ -130,6 +130,7 @@ static const member EXAMPLE[] = {
     REAL(rg_example, cell, 0, 1e9),
     REAL(rg_example, unit, 0, 1e9),
     WHOLE(rg_example, format, 0, RG_FORMAT_DXF), /* those that are written */
+    BORROWED(rg_example, memory),
 };
 
 /* ------------------------------------------------------------------------------------------- what takes them ---- */

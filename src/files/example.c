@@ -19,8 +19,8 @@ void rg_example_init(rg_example *e, size_t size)
 static rg_status take(const rg_example *given, rg_example *out, rg_diag *why)
 {
     rg_example mine = usual_example();
-    const size_t least = offsetof(rg_example, memory); /* as it was at first */
-    const rg_status s = given ? rg_take(&mine, sizeof mine, given, given->size, least, why) : RG_OK;
+    const size_t first = offsetof(rg_example, memory); /* as it was at first; nothing between is anybody's */
+    const rg_status s = given ? rg_take(&mine, sizeof mine, given, given->size, given->size == first ? first : sizeof mine, why) : RG_OK;
     if (s != RG_OK) return s;
     if (!(mine.side >= 0 && mine.side <= 1e9) || !(mine.cell >= 0 && mine.cell <= 1e9) ||
         !(mine.unit >= 0 && mine.unit <= 1e9))
