@@ -607,7 +607,7 @@ static void adopt(work *w, rg_search *c, rg_attempt *t)
 static rg_status fold(work *w, rg_stages *q, rg_search *c, rg_watch *watch, rg_diag *why)
 {
     rg_attempt t = {0};
-    int32_t crossing = -1;
+    int32_t unproved;
     int good = 1;
     rg_settings with = *w->settings;
     with.pace = RG_PACE_PERCENT; /* `read` has its own */
@@ -626,8 +626,8 @@ static rg_status fold(work *w, rg_stages *q, rg_search *c, rg_watch *watch, rg_d
     for (int32_t i = 0; s == RG_OK && i < w->fine.N; i++) target[i] = w->sign * w->fine.target[w->fine.crease_edge[i]];
     if (s == RG_OK) s = rg_mesh_copy(&w->fine, &m);
     if (s == RG_OK) s = rg_attempt_from_path(&t, &m, &with, target, read, w, why);
-    if (s == RG_OK) s = rg_unfolding_crosses(&t, w->settings, NULL, &crossing);
-    if (s == RG_OK && crossing < 0) {
+    if (s == RG_OK) s = rg_unfolding_judge(&t, &with, NULL, &good, &unproved, why);
+    if (s == RG_OK && good) {
         s = tell(w, q);
         if (s == RG_OK) adopt(w, c, &t);
     }

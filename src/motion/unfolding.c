@@ -2,6 +2,8 @@
 #include "base/clock.h"
 #include "base/status.h"
 #include "contact/course.h"
+#include "motion/ending.h"
+#include "motion/measure.h"
 #include "unfold/unfold.h"
 
 #include <stdio.h>
@@ -12,6 +14,9 @@
 static const double MOST_WORK[] = {0, 5e10, 3e12};
 static const int32_t TRIANGLES = 250;
 static const double MOST_TIMES = 4;
+
+/* As a part of that: for facets cut by short diagonals, where nothing came of long ones. */
+static const double PART_OF_SHORT = 0.5;
 
 /* What moving a vertex of the pattern by the shortest line at it counts, in radians of a crease, as in relax.h. */
 static const double GIVE = 1;
@@ -136,6 +141,24 @@ static void adopt(rg_search *c, rg_attempt *t, const char *how, int shorter)
     snprintf(c->strategy, sizeof c->strategy, "%.140s%s", how, shorter ? ", short diagonals" : "");
 }
 
+rg_status rg_unfolding_judge(const rg_attempt *t, const rg_settings *s, rg_watch *watch, int *is_free, int32_t *unproved, rg_diag *why)
+{
+    rg_motion m = {.mem = t->mem, .settings = *s, .mesh = t->mesh, .target = t->target, .from = t->from, .rho = t->rho, .flat = t->flat, .gaps = t->gaps};
+    m.frame = rg_mem_array(&m.mem, (size_t)t->count, sizeof *m.frame);
+    m.report.frame_count = t->count;
+    m.report.frames = m.frame;
+    rg_status status = m.frame ? rg_tree_init(&m.mesh, -1, &m.tree) : RG_ENOMEM;
+    if (status == RG_OK) status = rg_measure_frames(&m, watch);
+    if (status == RG_OK) status = rg_ending_find(&m, watch, why);
+    *is_free = status == RG_OK && m.report.contact == RG_CONTACT_FREE;
+    *unproved = m.report.contact_unproved;
+    if (m.tree.mem.resize) rg_tree_free(&m.tree);
+    rg_layers_destroy(m.layers);
+    rg_mem_free(&m.mem, m.side);
+    rg_mem_free(&m.mem, m.frame);
+    return status;
+}
+
 /* Who takes what unfolding finds. */
 typedef struct taker {
     const rg_mesh *none;
@@ -156,12 +179,13 @@ static rg_status accept(void *ctx, rg_unfold *u, int *yes)
     taker *k = ctx;
     rg_attempt t = {0};
     rg_settings look = *k->settings;
-    int32_t crossing = -1, unproved = 0;
+    int is_free = 0;
+    int32_t unproved = 0;
     look.frames = LOOKED_AT;
     look.pace = RG_PACE_PERCENT;
     rg_status s = take_over(&t, u, k->none, &look, k->shorter, k->why);
-    if (s == RG_OK) s = first_crossing(&t, k->watch, &crossing, &unproved);
-    const int good = s == RG_OK && crossing < 0 && !k->watch->cancelled && rg_search_is_folded(&t);
+    if (s == RG_OK) s = rg_unfolding_judge(&t, &look, k->watch, &is_free, &unproved, k->why);
+    const int good = s == RG_OK && is_free && !k->watch->cancelled && rg_search_is_folded(&t);
     *yes = good && unproved == 0;
     if (good && (*yes || !k->found.mem.resize)) {
         rg_attempt_free(&k->found);
@@ -183,16 +207,14 @@ rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings 
     const int32_t triangles = none->facet_start[none->nf] - 2 * none->nf;
     const double most = part * MOST_WORK[s->effort] * fmin(MOST_TIMES, fmax(1, (double)triangles / TRIANGLES));
     taker k = {.none = none, .settings = s, .watch = watch, .why = why};
-    double spent = 0;
     int two;
     rg_status status = differ(none, &two);
     for (k.shorter = 0; status == RG_OK && k.shorter <= two && !k.found.mem.resize && !watch->cancelled; k.shorter++) {
-        const double work = k.shorter < two ? most / 2 : most - spent;
+        const double work = k.shorter ? PART_OF_SHORT * most : most;
         const rg_unfold_wish wish = {s->to < 0 ? -1 : 1, s->layer_order, k.shorter, work, stop_taking, accept, &k};
         rg_unfold u;
         status = rg_unfold_run(&u, &mem, none, &wish);
         c->tries += u.tries;
-        spent += u.work;
         rg_unfold_free(&u);
     }
     if (status == RG_OK && k.found.mem.resize && !watch->cancelled) adopt(c, &k.found, k.how, k.shorter > 1);

@@ -14,4 +14,8 @@ rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings 
 /* The first of evenly spaced states of a path in which facets cross; -1: none. Frames that can be read off again are let go. */
 rg_status rg_unfolding_crosses(rg_attempt *t, const rg_settings *s, rg_watch *watch, int32_t *frame);
 
+/* As it will be judged in the end, in its frames and between them: facets cross nowhere, and come in the order that they lie in.
+ * *unproved: out, ways between states of which neither is sure. watch NULL: nobody's. RG_ENOMEM. */
+rg_status rg_unfolding_judge(const rg_attempt *t, const rg_settings *s, rg_watch *watch, int *is_free, int32_t *unproved, rg_diag *why);
+
 #endif

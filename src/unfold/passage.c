@@ -15,9 +15,6 @@ static const double OVER = 1e-4; /* radians past half a turn: rounding and closi
 static const double NEAR_THE_END = 0.98;
 /* And on the way from this progress on pairs are followed. */
 static const double FOLLOWED_FROM = 0.7;
-/* Where layers are mostly well apart yet. */
-enum { LAST_PLACES = 2 };
-static const double LAST_PLACE[LAST_PLACES] = {0.97, 0.985};
 /* So far the end's pattern may be from the one drawn, lengths of the sheet, and so much it may be open, radians. */
 static const double END_MOVES = 1e-2, END_CLOSES = 1e-8, END_CLOSED = 1e-13;
 static const int NEWTON = 12;
@@ -203,25 +200,17 @@ static rg_status ends_in_order(rg_passage *w, rg_course *course, int *yes)
     return s;
 }
 
-/* Followed from where facets are well apart; and from the last places at which they are, straight into the end. Layers that are
- * all but on each other may have passed through each other where no state shows it. *yes: out. */
+/* Followed from where facets are well apart: layers that are all but on each other may pass through each other where no state shows
+ * it. *yes: out. */
 static rg_status comes_in_order(rg_passage *w, int *yes)
 {
     const rg_track *p = &w->track;
-    rg_status s = RG_OK;
-    *yes = 1;
-    for (int straight = 0; s == RG_OK && *yes && straight < 2; straight++) {
-        rg_course course = {0};
-        s = rg_course_init(&w->mesh, &course);
-        for (int k = 0; straight && s == RG_OK && k < LAST_PLACES; k++) {
-            rg_track_read(&w->track, LAST_PLACE[k]);
-            s = look_at(w, p->scratch, &course);
-        }
-        for (int32_t k = 0; s == RG_OK && k < p->count && course.found.first < 0; k++)
-            if (straight ? k + 1 == p->count : p->progress[k] >= FOLLOWED_FROM) s = look_at(w, p->z + (size_t)k * (size_t)w->P.n, &course);
-        if (s == RG_OK) s = ends_in_order(w, &course, yes);
-        rg_course_free(&course);
-    }
+    rg_course course = {0};
+    rg_status s = rg_course_init(&w->mesh, &course);
+    for (int32_t k = 0; s == RG_OK && k < p->count && course.found.first < 0; k++)
+        if (p->progress[k] >= FOLLOWED_FROM) s = look_at(w, p->z + (size_t)k * (size_t)w->P.n, &course);
+    if (s == RG_OK) s = ends_in_order(w, &course, yes);
+    rg_course_free(&course);
     return s;
 }
 

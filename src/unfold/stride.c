@@ -206,10 +206,11 @@ rg_status rg_stride_init(rg_stride *s, const rg_memory *mem, rg_linkage *P, cons
     s->z1 = rg_mem_array(mem, (size_t)P->n, sizeof *s->z1);
     s->wish = rg_mem_array(mem, (size_t)P->n, sizeof *s->wish);
     s->p1 = rg_mem_array(mem, (size_t)P->mesh->nv, sizeof *s->p1);
+    s->middle = rg_mem_array(mem, (size_t)P->n, sizeof *s->middle);
     s->merit = rg_mem_array(mem, RG_STRIDE_MOST + 1, sizeof *s->merit);
     s->went = rg_mem_array(mem, RG_STRIDE_MOST + 1, sizeof *s->went);
     s->pushed = rg_mem_array(mem, (size_t)P->N + (size_t)(end ? end->count : 0), sizeof *s->pushed);
-    rg_status status = s->z && s->z1 && s->wish && s->p1 && s->pushed && s->merit && s->went ? RG_OK : RG_ENOMEM;
+    rg_status status = s->z && s->z1 && s->wish && s->p1 && s->middle && s->pushed && s->merit && s->went ? RG_OK : RG_ENOMEM;
     if (status == RG_OK) status = rg_proximity_init(&s->near, mem, P->mesh);
     if (status == RG_OK) status = rg_nearest_init(&s->q, mem, P);
     if (status != RG_OK) return status;
@@ -229,8 +230,8 @@ void rg_stride_free(rg_stride *s)
     if (!s->mem.resize) return;
     rg_proximity_free(&s->near);
     rg_nearest_free(&s->q);
-    void *block[] = {s->z, s->z1, s->wish, s->p1, s->pushed, s->merit, s->went};
-    for (int i = 0; i < 7; i++) rg_mem_free(&s->mem, block[i]);
+    void *block[] = {s->z, s->z1, s->wish, s->p1, s->middle, s->pushed, s->merit, s->went};
+    for (int i = 0; i < 8; i++) rg_mem_free(&s->mem, block[i]);
     memset(s, 0, sizeof *s);
 }
 
@@ -525,6 +526,18 @@ static int changes_side(const rg_stride *s)
     return 0;
 }
 
+/* What is read off between two states is closed for itself, and bends: do facets cross half way from z to z1? s->p1 is lost. */
+static int crosses_half_way(rg_stride *s)
+{
+    rg_linkage *P = s->P;
+    rg_contact_hit hit;
+    if (!s->crossed) return 0;
+    for (int32_t i = 0; i < P->n; i++) s->middle[i] = (s->z[i] + s->z1[i]) / 2;
+    rg_stride_close(P, &s->q, s->middle, CLOSED, NEWTON);
+    rg_linkage_positions(P, s->middle, s->p1);
+    return rg_contact_deepest(s->crossed->plates, s->p1, CROSSED, s->crossed->look, &hit);
+}
+
 /* -1: the trial step f dz, closed to z1, is one that paper can make; else why not. */
 static int refuse(rg_stride *s, const double *dz, double f)
 {
@@ -543,7 +556,8 @@ static int refuse(rg_stride *s, const double *dz, double f)
     if (changes_side(s)) return RG_REFUSED_SIDE;
     rg_contact_hit hit;
     if (s->crossed && rg_contact_deepest(s->crossed->plates, s->p1, CROSSED, s->crossed->look, &hit)) return RG_REFUSED_SIDE;
-    return rg_proximity_meet(&s->near, P->p, s->p1, GAP, &s->who) < 1 ? RG_REFUSED_MEETS : -1;
+    if (rg_proximity_meet(&s->near, P->p, s->p1, GAP, &s->who) < 1) return RG_REFUSED_MEETS;
+    return crosses_half_way(s) ? RG_REFUSED_SIDE : -1;
 }
 
 /* The nearest step to s->wish that rows allow: q->dz. *f: out, the part of it that is short enough for them. */

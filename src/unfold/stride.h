@@ -32,6 +32,7 @@ typedef struct rg_stride {
     const double *target;   /* borrowed [N] radians, all 0: unfolding; NAN: none */
     double *z, *z1, *wish;  /* [n] */
     rg_vec3 *p1;            /* [nv] */
+    double *middle;         /* [n] scratch */
     unsigned char *pushed;  /* [N + rows of the end] in the last step */
     double h, dm, pace;     /* part of the largest step; floor; part of the wish that rows let through lately */
     double *merit, *went;   /* [RG_STRIDE_MOST + 1] how far it was after each step, by judge's measure and in the mean */
