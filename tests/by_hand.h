@@ -98,4 +98,17 @@ static inline void by_hand_any(by_hand *h, int folds, unsigned *seed)
     }
 }
 
+/* A preliminary base, fronts outside, one corner of its outermost layer folded over: towards the front, which is outside, or in under
+ * that layer. */
+static inline rg_pattern *base_and_corner(char corner)
+{
+    rg_lines l = drawing();
+    draw_box(&l, -1, -1, 1, 1);
+    draw(&l, RG_MOUNTAIN, -1, 0, 1, 0);
+    draw(&l, RG_MOUNTAIN, 0, -1, 0, 1);
+    draw(&l, RG_VALLEY, -1, 1, 1, -1);
+    draw(&l, corner, 1, 0.5, 0.5, 1);
+    return pattern_of(&l);
+}
+
 #endif

@@ -56,19 +56,8 @@ static inline rg_pattern *draw_by_hand(void)
     by_hand_any(&h, 3, &seed);
     return pattern_of(&h.lines);
 }
-/* A preliminary base with one corner of its outermost layer folded over, or in under that layer. */
-static inline rg_pattern *corner_of(char kind)
-{
-    rg_lines l = drawing();
-    draw_box(&l, -1, -1, 1, 1);
-    draw(&l, RG_MOUNTAIN, -1, 0, 1, 0);
-    draw(&l, RG_MOUNTAIN, 0, -1, 0, 1);
-    draw(&l, RG_VALLEY, -1, 1, 1, -1);
-    draw(&l, kind, 1, 0.5, 0.5, 1);
-    return pattern_of(&l);
-}
-static inline rg_pattern *draw_corner_over(void) { return corner_of(RG_VALLEY); }
-static inline rg_pattern *draw_corner_under(void) { return corner_of(RG_MOUNTAIN); }
+static inline rg_pattern *draw_corner_over(void) { return base_and_corner(RG_VALLEY); }
+static inline rg_pattern *draw_corner_under(void) { return base_and_corner(RG_MOUNTAIN); }
 static inline rg_pattern *draw_waterbombs(void) { return of_kind("waterbomb", 6); }
 
 static const contact_of contacts[] = {

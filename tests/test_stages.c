@@ -239,19 +239,6 @@ static rg_status stage(rg_pattern *p, const rg_settings *s, rg_stages *q, rg_sea
     return status;
 }
 
-/* A preliminary base, fronts outside, one corner of its outermost layer folded over: towards the front, which is outside, or in under
- * that layer. */
-static rg_pattern *base_and_corner(char corner)
-{
-    rg_lines l = drawing();
-    draw_box(&l, -1, -1, 1, 1);
-    draw(&l, RG_MOUNTAIN, -1, 0, 1, 0);
-    draw(&l, RG_MOUNTAIN, 0, -1, 0, 1);
-    draw(&l, RG_VALLEY, -1, 1, 1, -1);
-    draw(&l, corner, 1, 0.5, 0.5, 1);
-    return pattern_of(&l);
-}
-
 static void base_first(void **state)
 {
     (void)state;

@@ -28,8 +28,8 @@ static const double AGAIN = 3;
 static const int32_t LOOKED_AT = 121;
 
 /* The first state, of frames and what lies between them, in which facets cross, or before which they do on the way; -1: none, or the
- * watch (NULL: nobody's) stopped it before it came to one. *unproved: out, ways between states of which neither is sure. */
-static rg_status first_crossing(const rg_attempt *t, rg_watch *watch, int32_t *frame, int32_t *unproved)
+ * watch (NULL: nobody's) stopped it before it came to one. */
+static rg_status first_crossing(const rg_attempt *t, rg_watch *watch, int32_t *frame)
 {
     const rg_mesh *m = &t->mesh;
     rg_course course = {0};
@@ -50,7 +50,6 @@ static rg_status first_crossing(const rg_attempt *t, rg_watch *watch, int32_t *f
     }
     if (s == RG_OK && course.found.states == all) s = rg_course_end(&course);
     if (s == RG_OK) *frame = course.found.first;
-    *unproved = course.found.unproved;
     rg_course_free(&course);
     rg_tree_free(&tree);
     rg_mem_free(&t->mem, place);
@@ -58,15 +57,14 @@ static rg_status first_crossing(const rg_attempt *t, rg_watch *watch, int32_t *f
     return s;
 }
 
-/* The same of the path itself; what went straight on has its frames only. */
+/* The same of the path itself; of what went straight on, of its frames and what it kept between them. */
 rg_status rg_unfolding_crosses(rg_attempt *t, const rg_settings *settings, rg_watch *watch, int32_t *frame)
 {
     rg_settings look = *settings;
     look.frames = LOOKED_AT;
     look.pace = RG_PACE_PERCENT;
     rg_status s = rg_attempt_read(t, &look);
-    int32_t unproved;
-    if (s == RG_OK) s = first_crossing(t, watch, frame, &unproved);
+    if (s == RG_OK) s = first_crossing(t, watch, frame);
     rg_attempt_forget_frames(t);
     return s;
 }
