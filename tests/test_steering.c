@@ -516,6 +516,84 @@ static void recorded(void **state)
     rg_pattern_destroy(p);
 }
 
+/* Bytes that a sink was handed. */
+typedef struct handed { char *bytes; size_t size; } handed;
+
+static int hand(void *ctx, const void *bytes, size_t size)
+{
+    handed *h = ctx;
+    char *more = realloc(h->bytes, h->size + size);
+    if (!more) return 1;
+    memcpy(more + h->size, bytes, size);
+    *h = (handed){more, h->size + size};
+    return 0;
+}
+
+/* A motion that is verified has no fault, whatever it was steered by: what lies between its frames is in its file. */
+static void is_verified(const rg_fold *f, int32_t frames, int legs)
+{
+    handed w = {0};
+    const rg_sink sink = {hand, &w};
+    rg_motion *m = NULL;
+    rg_certificate *c = NULL;
+    const rg_fault *fault;
+    rg_diag why = {0, ""};
+    if (rg_fold_record(f, &m, &why) != RG_OK) fail_msg("%s", why.text);
+    const rg_report *r = rg_motion_report(m);
+    assert_int_equal(r->frame_count, frames);
+    near(r->folded_percent, 100, 1e-9);
+    for (int32_t k = 0; k < frames; k++) {
+        near(r->frames[k].percent, legs > 1 ? 100.0 * k / (frames - 1) : r->frames[k].percent, 1e-9);
+        if (k) assert_true(r->frames[k].percent >= r->frames[k - 1].percent);
+    }
+    assert_int_equal(rg_motion_write_to(m, ".fold", -1, &sink, NULL, NULL), RG_OK);
+    assert_int_equal(rg_certificate_parse(w.bytes, w.size, NULL, NULL, &c, &why), RG_OK);
+    const rg_certificate_info *i = rg_certificate_get_info(c);
+    assert_int_equal(i->frames, frames);
+    assert_true(i->between > 0);
+    below(i->max_leap_deg, 5.001);
+    if (rg_certificate_faults(c, &fault) > 0) fail_msg("frame %d: %s", (int)fault->frame, fault->text);
+    rg_certificate_destroy(c);
+    rg_motion_destroy(m);
+    free(w.bytes);
+}
+
+/* One leg after the other, each a single step, there and back; and a motion that was found, left half way. */
+static void records_are_verified(void **state)
+{
+    (void)state;
+    static const double way[] = {1, 2, 0.3};
+    rg_pattern *p = generated("miura", 6);
+    rg_fold *f = flat_fold(p, 2);
+    const int32_t crease = 0;
+    const double side = letter(f, crease) == 'V' ? 1 : -1;
+    for (int k = 0; k < 3; k++) {
+        const double to = side * way[k];
+        assert_int_equal(rg_fold_drive(f, 1, &crease, &to), RG_OK);
+        while (rg_fold_step(f)->outcome == RG_RUNNING) {}
+        is_verified(f, k + 2, k + 1);
+    }
+    rg_fold_destroy(f);
+    rg_pattern_destroy(p);
+    for (int kind = 0; kind < 2; kind++) { /* straight on; relaxed, on a pattern that moves */
+        p = generated(kind ? "frog" : "bird", 0);
+        f = found_fold(p, 9);
+        for (int k = 0; k < 4; k++) rg_fold_step(f);
+        int32_t c = 0, N;
+        const double *rho = rg_fold_angles(f, &N);
+        for (int32_t i = 0; i < N; i++)
+            if (fabs(rho[i]) > fabs(rho[c])) c = i;
+        /* back, or on to what it aimed at anyway */
+        const double back = 0.99 * rho[c], on = copysign(RG_PI, rho[c]);
+        assert_int_equal(kind ? rg_fold_drive(f, 1, &c, &back) : rg_fold_set_target(f, c, on), RG_OK);
+        while (rg_fold_step(f)->outcome == RG_RUNNING) {}
+        assert_int_equal(rg_fold_get_info(f)->outcome, RG_FOLDED);
+        is_verified(f, 4 + 9, 1);
+        rg_fold_destroy(f);
+        rg_pattern_destroy(p);
+    }
+}
+
 /* Steps of a driven leg, and back, and to the snapshot, ask for no memory. */
 static void steps_ask_for_nothing(void **state)
 {
@@ -553,6 +631,7 @@ int main(void)
         cmocka_unit_test(one_crease_of_a_miura_ori), cmocka_unit_test(back_through_flat), cmocka_unit_test(targets_pins_and_free_creases),
         cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames), cmocka_unit_test(frames_do_not_matter), cmocka_unit_test(to_and_fro), cmocka_unit_test(forgotten_on_the_way),
         cmocka_unit_test(kept_states), cmocka_unit_test(positions_and_transforms), cmocka_unit_test(recorded),
+        cmocka_unit_test(records_are_verified),
         cmocka_unit_test(steps_ask_for_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -73,6 +73,9 @@ const rg_step_info *rg_fold_look(rg_fold *f);
 /* State k of the track becomes the present one; its progress. */
 const rg_step_info *rg_fold_stand(rg_fold *f, int32_t k);
 double rg_fold_progress(const rg_fold *f, int32_t k);
+/* rho[N], X[nv]: out, the state at that part of the way from state k of the track to the next, as it is gone to there. *closes zero: none was
+ * found. RG_ENOMEM. */
+rg_status rg_fold_read_between(rg_fold *f, int32_t k, double part, double *rho, rg_vec2 *X, int *closes);
 /* Is there more to come of the last leg? Then one state more of it, at the end of the track. */
 int rg_fold_has_more(const rg_fold *f);
 void rg_fold_advance(rg_fold *f);

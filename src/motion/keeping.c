@@ -127,18 +127,42 @@ rg_status rg_fold_clone(const rg_fold *f, rg_fold **clone)
 
 /* --------------------------------------------------------------------------------------------- a motion of it ---- */
 
-/* What its creases aim at, and from where. */
+/* A leg begins with no progress. */
+static int begins_leg(const rg_fold *f, int32_t k) { return k == 0 || rg_fold_progress(f, k) == 0; }
+
+static int32_t legs_of(const rg_fold *f)
+{
+    int32_t legs = 0;
+    for (int32_t k = 0; f->steered && k < rg_fold_states(f); k++) legs += begins_leg(f, k);
+    return legs;
+}
+
+/* What its creases aim at, and from where. Of several legs each aims elsewhere, and nothing is aimed at by all. */
 static void set_aims(rg_motion *m, const rg_fold *f)
 {
     const rg_motion *old = f->shared->motion;
+    const int one = legs_of(f) == 1;
     for (int32_t i = 0; i < m->mesh.N; i++) {
         m->from[i] = f->steered ? f->steer->from[i] : old->from[i];
         m->target[i] = old->target[i];
         if (!f->steered) continue;
         const int counts = f->steer->role[i] == RG_ROLE_WISHES || f->steer->role[i] == RG_ROLE_DRIVEN;
         m->target[i] = counts ? f->steer->target[i] : NAN;
-        m->mesh.target[m->mesh.crease_edge[i]] = m->target[i];
+        m->mesh.target[m->mesh.crease_edge[i]] = one ? m->target[i] : NAN;
     }
+}
+
+/* Measuring goes by the angles of the last leg; of several, it is the way that counts, and each is as long as any other. */
+static void set_percent(rg_motion *m, const rg_fold *f, int32_t every)
+{
+    const int32_t legs = legs_of(f), states = rg_fold_states(f);
+    double way = 0;
+    for (int32_t k = 0, leg = -1, frame = 0; legs > 1 && k < states; k++) {
+        leg += begins_leg(f, k);
+        way = fmax(way, leg + rg_fold_progress(f, k));
+        if (k % every == 0 || k == states - 1) m->frame[frame++].percent = m->report.folded_percent = 100 * way / legs;
+    }
+    if (legs > 1) m->report.least_folded_percent = m->report.folded_percent;
 }
 
 static void set_report(rg_motion *m, const rg_fold *f)
@@ -169,14 +193,74 @@ static void set_report(rg_motion *m, const rg_fold *f)
     r->blocking_at = (const double(*)[2])m->blocking_at;
 }
 
-/* Every so many states of the track is a frame, and so is the last; others lie between. */
+/* What reads states off a track, between one of its states and the next, which are as far apart as `way` says. */
+typedef struct track_reader { rg_fold *f; int32_t k; double way; rg_status s; } track_reader;
+
+static int read_track(void *ctx, double way, double *rho, rg_vec2 *X)
+{
+    track_reader *q = ctx;
+    int closes = 0;
+    if (q->s == RG_OK) q->s = rg_fold_read_between(q->f, q->k, way / q->way, rho, X, &closes);
+    return closes;
+}
+
+/* Did the motion that was found go from there to the next? Then it has what lies between them. */
+static int is_found(const rg_fold *f, int32_t k)
+{
+    const rg_motion *old = f->shared->motion;
+    const size_t bytes = 2 * (size_t)rg_fold_mesh(f)->N * sizeof(double);
+    return k + 1 < old->report.frame_count && memcmp(rg_fold_state(f, k), rg_motion_angles(old, k), bytes) == 0;
+}
+
+/* Between states k and k + 1 of the track, after that frame. Half a turn of a crease counts as a whole way: legs are as long as they like. */
+static rg_status fill_between(rg_motion *m, rg_gap_filler *q, track_reader *r, int32_t k, int32_t frame)
+{
+    const rg_motion *old = r->f->shared->motion;
+    const double *a = rg_fold_state(r->f, k), *b = rg_fold_state(r->f, k + 1);
+    rg_status s = RG_OK;
+    if (is_found(r->f, k)) {
+        for (int32_t j = 0; s == RG_OK && j < old->gaps.count; j++)
+            if (old->gaps.after[j] == k)
+                s = rg_gaps_add(&m->gaps, &m->mem, m->mesh.N, m->mesh.nv, frame, old->gaps.rho + (size_t)j * (size_t)m->mesh.N,
+                                !q->moves ? NULL : old->gaps.flat ? old->gaps.flat + (size_t)j * (size_t)m->mesh.nv : old->mesh.X);
+        return s;
+    }
+    r->k = k, r->way = 0;
+    for (int32_t i = 0; i < m->mesh.N; i++) r->way = fmax(r->way, fabs(b[i] - a[i]) / RG_PI);
+    if (r->way > 0) s = rg_gap_fill(q, &m->gaps, frame, 0, a, r->way, b);
+    return s == RG_OK ? r->s : s;
+}
+
+/* Every so many states of the track is a frame, and so is the last; others lie between. f: a clone, by which it is read. */
+static rg_status fill_track(rg_motion *m, rg_fold *f, int32_t every, int moved)
+{
+    const int32_t N = m->mesh.N, nv = m->mesh.nv, states = rg_fold_states(f);
+    track_reader r = {.f = f};
+    rg_gap_filler q;
+    rg_status s = rg_gap_filler_init(&q, &m->mem, N, nv, moved, read_track, &r);
+    for (int32_t k = 0, frame = -1; s == RG_OK && k < states; k++) {
+        const double *rho = rg_fold_state(f, k);
+        const rg_vec2 *X = moved ? rg_fold_pattern(f, k) : NULL;
+        if (k % every == 0 || k == states - 1) {
+            frame++;
+            memcpy(m->rho + (size_t)frame * (size_t)N, rho, (size_t)N * sizeof *rho);
+            if (moved) memcpy(m->flat + (size_t)frame * (size_t)nv, X, (size_t)nv * sizeof *X);
+        } else {
+            s = rg_gaps_add(&m->gaps, &m->mem, N, nv, frame, rho, X);
+        }
+        if (s == RG_OK && k + 1 < states) s = fill_between(m, &q, &r, k, frame);
+    }
+    rg_gap_filler_free(&q);
+    return s;
+}
+
 static rg_status fill(rg_motion *m, const rg_fold *f, int32_t every)
 {
     const rg_motion *old = f->shared->motion;
     const size_t N = (size_t)m->mesh.N, nv = (size_t)m->mesh.nv;
     const int32_t states = rg_fold_states(f);
     const size_t n = ((size_t)states + (size_t)every - 2) / (size_t)every + 1;
-    int moved = 0;
+    int moved = old->gaps.flat != NULL;
     for (int32_t k = 0; k < states; k++) moved |= memcmp(rg_fold_pattern(f, k), m->mesh.X, nv * sizeof(rg_vec2)) != 0;
     m->info = old->info;
     m->info.title = m->title = rg_mem_string(&m->mem, old->info.title);
@@ -195,20 +279,13 @@ static rg_status fill(rg_motion *m, const rg_fold *f, int32_t every)
         !m->blocking_crease || !m->blocking_at)
         return RG_ENOMEM;
     m->report.frames = m->frame;
-    rg_status s = RG_OK;
-    for (int32_t k = 0, frame = 0; s == RG_OK && k < states; k++) {
-        const rg_vec2 *X = moved ? rg_fold_pattern(f, k) : NULL;
-        if (k % every != 0 && k < states - 1) {
-            s = rg_gaps_add(&m->gaps, &m->mem, m->mesh.N, m->mesh.nv, frame - 1, rg_fold_state(f, k), X);
-            continue;
-        }
-        memcpy(m->rho + (size_t)frame * N, rg_fold_state(f, k), N * sizeof *m->rho);
-        if (moved) memcpy(m->flat + (size_t)frame * nv, X, nv * sizeof *m->flat);
-        frame++;
-    }
+    rg_fold *reader = NULL;
+    rg_status s = rg_fold_clone(f, &reader);
+    if (s == RG_OK) s = fill_track(m, reader, every, moved);
+    rg_fold_destroy(reader);
     set_aims(m, f);
     set_report(m, f);
-    return s != RG_OK || f->steered ? s : rg_gaps_copy(&m->gaps, &m->mem, m->mesh.N, m->mesh.nv, &old->gaps);
+    return s;
 }
 
 static rg_status record(const rg_fold *f, int32_t every, rg_motion **motion, rg_diag *why)
@@ -224,6 +301,7 @@ static rg_status record(const rg_fold *f, int32_t every, rg_motion **motion, rg_
     if (s == RG_OK) s = rg_tree_init(&m->mesh, f->settings.fixed_facet, &m->tree);
     if (s == RG_OK) s = rg_motion_lend(m);
     if (s == RG_OK) s = rg_measure_frames(m, NULL);
+    if (s == RG_OK) set_percent(m, f, every);
     if (s == RG_OK) s = rg_ending_find(m, NULL, why);
     if (s != RG_OK) {
         rg_motion_destroy(m);

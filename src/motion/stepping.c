@@ -184,7 +184,7 @@ static int is_smooth(const rg_fold *f)
 }
 
 /* The polynomial through the states about k and k + 1, SIDE of them on each side, as far as progress rises: its value at that part of the
- * way between them, f->guess. Zero: it strays from their chord, which is better then. */
+ * way between them, f->guess. Zero: it strays from their chord, which is better then, or there is none where a leg ends. */
 static int follow(rg_fold *f, int32_t k, double part)
 {
     enum { SIDE = 3 };
@@ -193,6 +193,7 @@ static int follow(rg_fold *f, int32_t k, double part)
     const double s = rg_fold_progress(f, k) + part * (rg_fold_progress(f, k + 1) - rg_fold_progress(f, k));
     int32_t first = k, last = k + 1;
     double turn = 0;
+    if (!(rg_fold_progress(f, k) < rg_fold_progress(f, k + 1))) return 0;
     while (first > 0 && k - first < SIDE - 1 && rg_fold_progress(f, first - 1) < rg_fold_progress(f, first)) first--;
     while (last < rg_fold_states(f) - 1 && last - k < SIDE && rg_fold_progress(f, last) < rg_fold_progress(f, last + 1)) last++;
     for (int32_t i = 0; i < N; i++) f->guess[i] = 0;
@@ -209,6 +210,15 @@ static int follow(rg_fold *f, int32_t k, double part)
     return 1;
 }
 
+/* The crease that turns most from a to b. */
+static int32_t fastest(const rg_fold *f, const double *a, const double *b)
+{
+    int32_t c = 0;
+    for (int32_t i = 1; i < rg_fold_mesh(f)->N; i++)
+        if (fabs(b[i] - a[i]) > fabs(b[c] - a[c])) c = i;
+    return c;
+}
+
 /* The state at that part of the way from k to k + 1 in which crease c has the angle, NAN: that which it has there. */
 static double at_part(rg_fold *f, rg_between *b, int32_t k, double part, int32_t c, double angle)
 {
@@ -216,6 +226,17 @@ static double at_part(rg_fold *f, rg_between *b, int32_t k, double part, int32_t
     const double *from = rg_fold_state(f, k), *to = rg_fold_state(f, k + 1);
     if (!b->moves && is_smooth(f) && follow(f, k, part)) return rg_between_at(b, f->guess, X, f->guess, X, 0, c, isnan(angle) ? f->guess[c] : angle);
     return rg_between_at(b, from, X, to, Y, part, c, isnan(angle) ? from[c] + part * (to[c] - from[c]) : angle);
+}
+
+rg_status rg_fold_read_between(rg_fold *f, int32_t k, double part, double *rho, rg_vec2 *X, int *closes)
+{
+    const double *a = rg_fold_state(f, k), *b = rg_fold_state(f, k + 1);
+    rg_between *way = way_between(f, k);
+    if (!way) return RG_ENOMEM;
+    *closes = !isnan(at_part(f, way, k, part, fastest(f, a, b), NAN));
+    memcpy(rho, way->z, (size_t)rg_fold_mesh(f)->N * sizeof *rho);
+    memcpy(X, way->flat, (size_t)rg_fold_mesh(f)->nv * sizeof *X);
+    return RG_OK;
 }
 
 /* What is now the present state, between states k and k + 1. */
@@ -280,14 +301,12 @@ static rg_status find_progress(rg_fold *f, int32_t k, double goal)
 {
     const double *a = rg_fold_state(f, k), *b = rg_fold_state(f, k + 1);
     double low = 0, high = 1, at_low = rg_fold_progress(f, k), at_high = rg_fold_progress(f, k + 1), part = 0, closure = NAN;
-    int32_t c = 0;
+    const int32_t c = fastest(f, a, b);
     int found;
     const rg_status s = find_on_path(f, k, -1, goal, &found);
     if (s != RG_OK || found) return s;
     rg_between *way = way_between(f, k);
     if (!way) return RG_ENOMEM;
-    for (int32_t i = 1; i < rg_fold_mesh(f)->N; i++)
-        if (fabs(b[i] - a[i]) > fabs(b[c] - a[c])) c = i;
     for (int32_t n = 0; n < SECANTS; n++) {
         part = low + (high - low) * (goal - at_low) / (at_high - at_low);
         if (n % 4 == 3) part = (low + high) / 2; /* where the secant creeps */
