@@ -209,7 +209,7 @@ static rg_status halve(rg_relaxed *R, const rg_settings *s, rg_watch *watch)
 rg_status rg_relaxed_measure(rg_relaxed *R, const rg_mesh *drawn, const rg_settings *s, rg_watch *watch, rg_diag *why)
 {
     rg_search q;
-    const rg_problem problem = {drawn, NULL, NULL, 1};
+    const rg_problem problem = {drawn, NULL, NULL, 1, 0};
     memset(R, 0, sizeof *R);
     R->mem = rg_mem_default(s->memory);
     rg_status status = rg_search_run(&q, &problem, s, watch, why);

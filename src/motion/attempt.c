@@ -20,9 +20,10 @@ void rg_attempt_free(rg_attempt *t)
     if (!t->mem.resize) return;
     if (t->relax) rg_relax_free(t->relax);
     if (t->symmetry) rg_symmetry_free(t->symmetry);
+    if (t->trace) rg_trace_free(t->trace);
     rg_mesh_free(&t->mesh);
-    void *block[] = {t->relax, t->symmetry, t->target, t->from, t->rho, t->flat, t->due, t->vertex, t->crease};
-    for (int i = 0; i < 9; i++) rg_mem_free(&t->mem, block[i]);
+    void *block[] = {t->relax, t->trace, t->symmetry, t->target, t->from, t->rho, t->flat, t->due, t->vertex, t->crease};
+    for (int i = 0; i < 10; i++) rg_mem_free(&t->mem, block[i]);
     rg_gaps_free(&t->gaps, &t->mem);
     memset(t, 0, sizeof *t);
 }
@@ -138,10 +139,10 @@ double rg_attempt_largest_angle(const rg_attempt *t, int32_t i)
 
 /* ------------------------------------------------------------------------------------------ straight on ---- */
 
-static rg_status run_forth(rg_attempt *t, rg_straight *f, int32_t parts, rg_watch *watch)
+static rg_status run_forth(rg_attempt *t, rg_straight *f, int32_t parts, rg_trace *trace, rg_watch *watch)
 {
     rg_gaps_free(&t->gaps, &t->mem);
-    const rg_status s = rg_forth_run(f, &t->mem, parts, watch, t->rho, &t->count, &t->gaps, &t->outcome);
+    const rg_status s = rg_forth_run(f, &t->mem, parts, watch, t->rho, &t->count, &t->gaps, &t->outcome, t->due, trace);
     if (watch->cancelled) t->outcome = RG_STOPPED;
     return s;
 }
@@ -166,7 +167,15 @@ static rg_status find_rest(const rg_mesh *drawn, const rg_settings *settings, rg
     return s;
 }
 
-rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *settings, int32_t most_steps, rg_watch *watch,
+/* Room for the path of f. */
+static rg_status keep_path(rg_attempt *t, const rg_straight *f, int32_t frames)
+{
+    t->due = rg_mem_array(&t->mem, (size_t)frames + 1, sizeof *t->due);
+    t->trace = rg_mem_array(&t->mem, 1, sizeof *t->trace);
+    return t->due && t->trace ? rg_trace_init(t->trace, &t->mem, f) : RG_ENOMEM;
+}
+
+rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *settings, int32_t most_steps, int keeps, rg_watch *watch,
                               rg_diag *why)
 {
     const double begun = rg_seconds();
@@ -188,7 +197,8 @@ rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *sett
     t->rho = rg_mem_array(&t->mem, ((size_t)settings->frames + 1) * (size_t)f->mesh.N, sizeof *t->rho);
     if (!t->rho) s = RG_ENOMEM;
     if (s == RG_OK) rg_straight_set_most_steps(f, most_steps);
-    if (s == RG_OK) s = run_forth(t, f, parts, watch);
+    if (s == RG_OK && keeps) s = keep_path(t, f, settings->frames);
+    if (s == RG_OK) s = run_forth(t, f, parts, t->trace, watch);
     if (s == RG_OK) {
         memcpy(t->target, f->drive.target, (size_t)f->mesh.N * sizeof *t->target);
         for (int32_t i = f->limit.first_added; i < f->mesh.N; i++) t->target[i] = NAN;
@@ -460,7 +470,7 @@ static rg_status read_steadily(rg_attempt *t, const rg_settings *settings)
         s = rg_straight_from_mesh(&copy, &mine, &f, NULL);
     }
     if (s == RG_OK) rg_straight_set_due(f, due);
-    if (s == RG_OK) s = run_forth(t, f, parts, &nobody);
+    if (s == RG_OK) s = run_forth(t, f, parts, NULL, &nobody);
     t->outcome = outcome;
     rg_straight_destroy(f);
     rg_mem_free(&t->mem, sum);

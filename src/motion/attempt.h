@@ -1,12 +1,12 @@
 /* attempt.h -- one try at a motion: the path as far as it came, and frames read off it.
- * Uses  straight.h relax.h        Used by  cuts.c ending.c measure.c search.c
+ * Uses  trace.h relax.h        Used by  cuts.c ending.c measure.c search.c
  *
  * A path knows nothing of frames. It is found once, as states of rising progress; frames are read off it, as many and where
  * they are asked for. */
 #ifndef RG_ATTEMPT_H
 #define RG_ATTEMPT_H
 
-#include "fold/straight.h"
+#include "fold/trace.h"
 #include "fold/relax.h"
 #include "motion/gaps.h"
 #include "motion/motion.h"
@@ -18,6 +18,7 @@ typedef struct rg_attempt {
     double *target;           /* [mesh.N] what was aimed at, radians; NAN: nothing */
     double *from;             /* [mesh.N] where it began */
     rg_relax *relax;          /* owned; NULL: straight on */
+    rg_trace *trace;          /* owned: the path of what went straight on; NULL: it was not kept */
     rg_symmetry *symmetry;    /* owned: what the relaxation keeps; NULL: none */
     int backwards;            /* found from its end: its path runs the other way round */
     int is_from_flat;
@@ -26,7 +27,7 @@ typedef struct rg_attempt {
     rg_vec2 *flat;            /* [count][mesh.nv] the pattern of each; NULL: that of the mesh */
     int32_t count;
     rg_gaps gaps;             /* what lies between them */
-    double *due;              /* [count] progress of the path at each of them; NULL: they were not read off it */
+    double *due;              /* [count] progress of the path at each of them; NULL: they cannot be read off again */
     int is_read;              /* its frames were read off as they were found, evenly as is due, and cannot be again */
     rg_outcome outcome;
     char reason[200];
@@ -45,8 +46,9 @@ typedef struct rg_attempt {
 } rg_attempt;
 
 void rg_attempt_free(rg_attempt *t);
-/* Straight on along the motion that closes exactly, on the pattern given. most_steps 0: as many as it takes. *m is taken over, also on failure. */
-rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *s, int32_t most_steps, rg_watch *watch, rg_diag *why);
+/* Straight on along the motion that closes exactly, on the pattern given. most_steps 0: as many as it takes. keeps: its path can be read again.
+ * *m is taken over, also on failure. */
+rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *s, int32_t most_steps, int keeps, rg_watch *watch, rg_diag *why);
 /* Relaxed, from `from` (NULL: flat) to `target`; backwards: the same motion, looked for from its end. G: on a mesh with the same
  * vertices, kept; NULL: none. *m is taken over, also on failure. budget: of its work. */
 rg_status rg_attempt_relaxed(rg_attempt *t, rg_mesh *m, const rg_settings *s, const rg_relaxation *how, const double *from,

@@ -184,7 +184,7 @@ rg_status rg_motion_with_path(const rg_pattern *p, const rg_settings *given, rg_
     s = rg_motion_name(m, p);
     if (s == RG_OK) s = rg_source_copy(&p->source, &mem, &m->source);
     if (s == RG_OK) s = rg_mesh_from_pattern(p, &mem, &none, why);
-    const rg_problem problem = {&none, NULL, NULL, 1};
+    const rg_problem problem = {&none, NULL, NULL, 1, path != NULL};
     if (s == RG_OK) s = rg_search_run(&search, &problem, settings, &watch, why);
     if (s == RG_OK) s = rg_unfolding_wanted(&search, &none, settings, &watch, &wanted, why);
     if (s == RG_OK && wanted) s = without_contact(&search, &stages, &none, settings, &watch, why);

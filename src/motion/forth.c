@@ -12,6 +12,7 @@ typedef struct keeper {
     rg_memory mem;
     rg_straight *f;
     double *rho;        /* frames */
+    double *due;        /* of each; NULL: not asked for */
     int32_t count;
     rg_gaps *gaps;
     int looks;
@@ -35,6 +36,7 @@ static rg_status keep(keeper *k, double s, int is_frame)
     const double *rho = k->f->rho;
     rg_status status = RG_OK;
     if (k->looks && k->count > 0) status = rg_gap_fill(&k->between, k->gaps, k->count - 1, k->s, k->last, s, rho);
+    if (is_frame && k->due) k->due[k->count] = s;
     if (status == RG_OK && is_frame) memcpy(k->rho + (size_t)k->count++ * N, rho, N * sizeof *rho);
     else if (status == RG_OK) status = rg_gaps_add(k->gaps, &k->mem, m->N, m->nv, k->count - 1, rho, NULL);
     memcpy(k->last, rho, N * sizeof *rho);
@@ -47,15 +49,16 @@ static rg_status keep(keeper *k, double s, int is_frame)
 static int ends_between(const keeper *k) { return k->gaps->count > 0 && k->gaps->after[k->gaps->count - 1] == k->count - 1; }
 
 rg_status rg_forth_run(rg_straight *f, const rg_memory *mem, int32_t parts, rg_watch *watch, double *rho, int32_t *count, rg_gaps *g,
-                       rg_outcome *outcome)
+                       rg_outcome *outcome, double *due, rg_trace *trace)
 {
-    keeper k = {.mem = *mem, .f = f, .rho = rho, .gaps = g, .looks = 1, .is_at = -1};
+    keeper k = {.mem = *mem, .f = f, .rho = rho, .due = due, .gaps = g, .looks = 1, .is_at = -1};
     rg_step_info info = {0};
     k.last = rg_mem_array(mem, (size_t)f->mesh.N, sizeof *k.last);
     rg_status s = rg_gap_filler_init(&k.between, mem, f->mesh.N, f->mesh.nv, 0, read, f);
     if (!k.last) s = RG_ENOMEM;
     while (s == RG_OK && info.outcome == RG_RUNNING) {
         s = rg_straight_step(f, &info);
+        if (s == RG_OK && trace) s = rg_trace_follow(trace, f);
         if (s == RG_OK && info.frame >= 0) s = keep(&k, rg_straight_frame_progress(f, info.frame), info.frame % parts == 0);
         if (rg_watch_tell(watch, f->s_end > 0 ? info.progress / f->s_end : 1)) break;
     }

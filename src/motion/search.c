@@ -140,7 +140,8 @@ static rg_status try_rung(const ladder *l, const rung *r, const rg_symmetry *G, 
         rg_settings mine = *l->settings;
         mine.triangulate = cuts ? RG_TRIANGULATE_ALL : RG_TRIANGULATE_NONE;
         /* Asked for by a method, it may take its time; as one of several rungs it must not. */
-        return rg_attempt_straight(t, &m, &mine, cuts && mine.method == RG_METHOD_AUTO ? MOST_STEPS_TRIANGULATED : 0, watch, why);
+        return rg_attempt_straight(t, &m, &mine, cuts && mine.method == RG_METHOD_AUTO ? MOST_STEPS_TRIANGULATED : 0, p->keeps, watch,
+                                   why);
     }
     const rg_memory mem = rg_mem_default(l->settings->memory);
     double *from = rg_mem_array(&mem, (size_t)m.N, sizeof *from), *to = rg_mem_array(&mem, (size_t)m.N, sizeof *to);

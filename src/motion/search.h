@@ -16,6 +16,7 @@ typedef struct rg_problem {
     const double *from;   /* [drawn->N] radians; NULL: flat */
     const double *to;     /* [drawn->N] radians, NAN: none; NULL: the mesh's own targets */
     int end_is_known;     /* non-zero: `to` closes, so that it may be looked for from there */
+    int keeps;            /* non-zero: the path of what goes straight on is kept, too */
 } rg_problem;
 
 /* So many tries are told of; few searches make more. */

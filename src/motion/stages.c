@@ -375,7 +375,7 @@ static rg_status find_number(const work *w, int64_t *number)
 /* One way to fold the first stage. */
 static rg_status fold_by(work *w, way_to_fold how, rg_watch *watch, int *good, rg_diag *why)
 {
-    const rg_problem problem = {&w->base, NULL, NULL, 1};
+    const rg_problem problem = {&w->base, NULL, NULL, 1, 0};
     rg_search c = {0};
     rg_settings with = *w->settings;
     int64_t number = -1;

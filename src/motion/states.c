@@ -109,7 +109,7 @@ static rg_status look_for(rg_states *q, const rg_problem *p, int32_t frames, rg_
 /* How a state folds from flat, by whatever folds it. */
 static rg_status fold_alone(rg_states *q, int32_t k, int32_t frames, rg_watch *watch, rg_search *found, rg_diag *why)
 {
-    const rg_problem alone = {&q->state[k], NULL, NULL, 1};
+    const rg_problem alone = {&q->state[k], NULL, NULL, 1, 0};
     return look_for(q, &alone, frames, watch, found, why);
 }
 
@@ -233,7 +233,7 @@ static rg_status leg_init(const rg_states *q, leg *w, int32_t k, int32_t frames,
 /* Straight from state to state. */
 static rg_status direct(rg_states *q, const leg *w, rg_watch *watch, rg_search *found, rg_diag *why)
 {
-    const rg_problem straight = {&w->mesh, w->from, w->to, w->to_closes};
+    const rg_problem straight = {&w->mesh, w->from, w->to, w->to_closes, 0};
     return look_for(q, &straight, w->frames, watch, found, why);
 }
 

@@ -12,6 +12,8 @@
 /* Progress between two states is met to this, or an angle; what is off by more, at a leap of the path, is not it. */
 static const double SAME_PLACE = 1e-13, NOT_THERE = 1e-11;
 static const int32_t SECANTS = 40;
+/* What went straight on has its frames where progress was held to so much; a place between them is one where a frame would be. */
+static const double HELD = 1e-10;
 
 /* ------------------------------------------------------------------------------------------- making one ---- */
 
@@ -262,15 +264,38 @@ static void stand_between(rg_fold *f, const rg_between *b, int32_t k, double par
     stand_at(f, k, closure);
 }
 
+/* What reads the path of a motion is made when it is first asked for. */
+static rg_status open_path(rg_shared *of)
+{
+    if (!of->path.trace) return RG_OK;
+    pthread_mutex_lock(&of->reading);
+    const rg_status s = rg_trace_open(of->path.trace, &of->motion->mesh);
+    pthread_mutex_unlock(&of->reading);
+    return s;
+}
+
+/* rho[N], and what else a relaxed state has: out. Returns its closure, NAN: there is none. */
+static double read_path(rg_shared *of, double s, double *rho)
+{
+    pthread_mutex_lock(&of->reading);
+    const double closure = of->path.trace ? rg_trace_read(of->path.trace, s, rho) : rg_chord_at(of->path.relax, s, rho);
+    pthread_mutex_unlock(&of->reading);
+    return closure;
+}
+
 /* Off the path itself, between frames k and k + 1, where crease c has the angle `goal`; c -1: where that is progress. *found zero: there is
  * no path to read, or it leaps over that place. What is read depends on the place alone, not on where frames are. RG_ENOMEM. */
 static rg_status find_on_path(rg_fold *f, int32_t k, int32_t c, double goal, int *found)
 {
     rg_shared *of = f->shared;
-    rg_relax *F = of->path.relax;
+    const rg_relax *F = of->path.relax;
+    const size_t N = (size_t)rg_fold_mesh(f)->N;
     *found = 0;
     if (f->steered || !of->path.due) return RG_OK;
-    if (!f->read && !(f->read = rg_mem_array(&f->mem, (size_t)F->n, sizeof *f->read))) return RG_ENOMEM;
+    if (!f->read && !(f->read = rg_mem_array(&f->mem, F ? (size_t)F->n : N, sizeof *f->read))) return RG_ENOMEM;
+    const rg_status status = open_path(of);
+    if (status != RG_OK) return status;
+    const double tol = F ? F->tol : f->settings.tol;
     const double *due = of->path.due;
     double low = due[k], high = due[k + 1], off_low = (c < 0 ? rg_fold_progress(f, k) : rg_fold_state(f, k)[c]) - goal;
     double off_high = (c < 0 ? rg_fold_progress(f, k + 1) : rg_fold_state(f, k + 1)[c]) - goal, off = NAN, closure = NAN;
@@ -279,20 +304,23 @@ static rg_status find_on_path(rg_fold *f, int32_t k, int32_t c, double goal, int
         double s = low - off_low * (high - low) / (off_high - off_low);
         if (n == 0 && c < 0 && (straight - low) * (high - straight) > 0) s = straight;
         else if (n % 4 == 3) s = (low + high) / 2;
-        pthread_mutex_lock(&of->reading);
-        closure = rg_chord_at(F, s, f->read);
-        pthread_mutex_unlock(&of->reading);
+        closure = read_path(of, s, f->read);
         off = (c < 0 ? progress_of(f, f->read) : f->read[c]) - goal;
-        if (!(closure <= F->tol) || s == low || s == high) break;
+        if (!(closure <= tol) || s == low || s == high || (n == 0 && s == straight && !F && fabs(off) <= HELD)) break;
         if (off * off_low > 0) low = s, off_low = off;
         else high = s, off_high = off;
     }
-    if (!(closure <= F->tol && fabs(off) <= NOT_THERE)) return RG_OK;
-    memcpy(f->rho, f->read, (size_t)F->N * sizeof *f->rho);
-    if (F->U > 0) rg_freedom_move(&F->freedom, f->read + F->N, f->flat);
+    if (!(closure <= tol && fabs(off) <= (F ? NOT_THERE : HELD))) return RG_OK;
+    *found = 1;
+    for (int32_t j = k; j <= k + 1 && !F; j++)
+        if (memcmp(f->read, rg_fold_state(f, j), N * sizeof *f->read) == 0) {
+            rg_fold_stand(f, j);
+            return RG_OK;
+        }
+    memcpy(f->rho, f->read, N * sizeof *f->rho);
+    if (F && F->U > 0) rg_freedom_move(&F->freedom, f->read + F->N, f->flat);
     else memcpy(f->flat, rg_fold_pattern(f, k), (size_t)rg_fold_mesh(f)->nv * sizeof *f->flat);
     stand_at(f, k, closure);
-    *found = 1;
     return RG_OK;
 }
 
