@@ -138,6 +138,48 @@ static void the_default_is_there_when_none_is_given(void **state)
     assert_true(rg_mem_default(NULL).resize != counted_resize);
 }
 
+static void arrays_are_made_together_or_not_at_all(void **state)
+{
+    (void)state;
+    for (int left = 0; left <= 3; left++) {
+        counted c = {left, 0, 0};
+        rg_memory mem = {counted_resize, &c};
+        double *x = (double *)&c;
+        int16_t *i = (int16_t *)&c, (*pair)[2] = NULL;
+        const rg_status s = RG_MEM_ARRAYS(&mem, RG_ARRAY(x, 11), RG_ARRAY(i, 0), RG_ARRAY(pair, 7));
+        assert_int_equal(s, left < 3 ? RG_ENOMEM : RG_OK);
+        assert_int_equal(c.out, left < 3 ? 0 : 3);
+        assert_true((x != NULL) == (left == 3) && (i != NULL) == (left == 3) && (pair != NULL) == (left == 3));
+        for (int k = 0; x && k < 11; k++) assert_true(x[k] == 0);
+        for (int k = 0; pair && k < 7; k++) assert_true(pair[k][0] == 0 && pair[k][1] == 0);
+        RG_MEM_FREE(&mem, x, i, pair);
+        assert_int_equal(c.out, 0);
+    }
+}
+
+static void copies_are_made_together_or_not_at_all(void **state)
+{
+    (void)state;
+    double given[3] = {1.25, 2.385, -7};
+    char word[] = "fold";
+    for (int left = 0; left <= 2; left++) {
+        counted c = {left, 0, 0};
+        rg_memory mem = {counted_resize, &c};
+        double *x = given;
+        char *text = word;
+        int32_t *none = NULL;
+        const rg_status s = RG_MEM_COPIES(&mem, RG_ARRAY(x, 3), RG_ARRAY(none, 5), RG_ARRAY(text, sizeof word));
+        assert_int_equal(s, left < 2 ? RG_ENOMEM : RG_OK);
+        assert_null(none);
+        assert_true((x != NULL) == (left == 2) && (text != NULL) == (left == 2));
+        assert_true(x != given && text != word);
+        if (x) assert_memory_equal(x, given, sizeof given);
+        if (text) assert_string_equal(text, "fold");
+        RG_MEM_FREE(&mem, x, none, text);
+        assert_int_equal(c.out, 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -147,6 +189,8 @@ int main(void)
         cmocka_unit_test(growing_keeps_what_is_there),
         cmocka_unit_test(growing_that_fails_changes_nothing),
         cmocka_unit_test(strings_are_copies),
+        cmocka_unit_test(arrays_are_made_together_or_not_at_all),
+        cmocka_unit_test(copies_are_made_together_or_not_at_all),
         cmocka_unit_test(the_default_is_there_when_none_is_given),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -36,6 +36,54 @@ void *rg_mem_array(const rg_memory *mem, size_t n, size_t size)
     return p;
 }
 
+/* All object pointers look alike. */
+static void put(const rg_array *a, void *block) { memcpy(a->pointer, &block, sizeof block); }
+
+static void *get(const rg_array *a)
+{
+    void *block;
+    memcpy(&block, a->pointer, sizeof block);
+    return block;
+}
+
+/* The i-th could not be made: nor are the others. */
+static rg_status make_none(const rg_memory *mem, const rg_array *array, size_t i, size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        if (k < i) rg_mem_free(mem, get(&array[k]));
+        put(&array[k], NULL);
+    }
+    return RG_ENOMEM;
+}
+
+rg_status rg_mem_arrays(const rg_memory *mem, const rg_array *array, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        void *block = rg_mem_array(mem, array[i].n, array[i].size);
+        if (!block) return make_none(mem, array, i, count);
+        put(&array[i], block);
+    }
+    return RG_OK;
+}
+
+rg_status rg_mem_copies(const rg_memory *mem, const rg_array *array, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const void *from = get(&array[i]);
+        if (!from) continue;
+        void *block = rg_mem_array(mem, array[i].n, array[i].size);
+        if (!block) return make_none(mem, array, i, count);
+        memcpy(block, from, array[i].n * array[i].size);
+        put(&array[i], block);
+    }
+    return RG_OK;
+}
+
+void rg_mem_free_all(const rg_memory *mem, void **block, size_t count)
+{
+    for (size_t i = 0; i < count; i++) rg_mem_free(mem, block[i]);
+}
+
 rg_status rg_mem_grow(const rg_memory *mem, void **block, size_t *room, size_t need, size_t size)
 {
     if (need <= *room) return RG_OK;

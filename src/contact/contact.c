@@ -6,20 +6,17 @@ rg_status rg_contact_work_init(const rg_plates *p, rg_contact_work *w)
 {
     memset(w, 0, sizeof *w);
     w->mem = p->mem;
-    w->box = rg_mem_array(&p->mem, (size_t)p->nodes, sizeof *w->box);
-    w->normal = rg_mem_array(&p->mem, (size_t)p->parts, sizeof *w->normal);
-    w->corner = rg_mem_array(&p->mem, (size_t)p->start[p->parts], sizeof *w->corner);
-    if (w->box && w->normal && w->corner && rg_front_work_init(p, &w->front) == RG_OK) return RG_OK;
-    rg_contact_work_free(w);
-    return RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(&p->mem, RG_ARRAY(w->box, (size_t)p->nodes), RG_ARRAY(w->normal, (size_t)p->parts),
+                                RG_ARRAY(w->corner, (size_t)p->start[p->parts]));
+    if (s == RG_OK) s = rg_front_work_init(p, &w->front);
+    if (s != RG_OK) rg_contact_work_free(w);
+    return s;
 }
 
 void rg_contact_work_free(rg_contact_work *w)
 {
     if (!w->mem.resize) return;
-    rg_mem_free(&w->mem, w->box);
-    rg_mem_free(&w->mem, w->normal);
-    rg_mem_free(&w->mem, w->corner);
+    RG_MEM_FREE(&w->mem, w->box, w->normal, w->corner);
     rg_front_work_free(&w->front);
     memset(w, 0, sizeof *w);
 }

@@ -9,13 +9,11 @@ rg_status rg_course_init(const rg_mesh *m, rg_course *c)
     rg_status s = rg_plates_init(m, &c->plates);
     if (s == RG_OK) s = rg_contact_work_init(&c->plates, &c->look);
     if (s == RG_OK) s = rg_sweep_work_init(&c->plates, &c->sweep);
-    c->worst = rg_mem_array(&m->mem, (size_t)m->nv, sizeof *c->worst);
-    if (!c->worst) s = RG_ENOMEM;
+    const size_t nv = (size_t)m->nv;
+    if (s == RG_OK) s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(c->worst, nv));
     for (int i = 0; i < 3; i++) {
-        c->X[i] = rg_mem_array(&m->mem, (size_t)m->nv, sizeof *c->X[i]);
-        c->place[i] = rg_mem_array(&m->mem, (size_t)m->nf, sizeof *c->place[i]);
-        c->x[i] = rg_mem_array(&m->mem, (size_t)m->nv, sizeof *c->x[i]);
-        if (!c->X[i] || !c->place[i] || !c->x[i]) s = RG_ENOMEM;
+        if (s == RG_OK)
+            s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(c->X[i], nv), RG_ARRAY(c->place[i], (size_t)m->nf), RG_ARRAY(c->x[i], nv));
         c->state[i] = (rg_plates_state){c->X[i], c->place[i], c->x[i]};
     }
     c->found = (rg_course_found){.first = -1, .time = 1, .facet = {-1, -1}, .deepest_state = -1,
@@ -32,9 +30,7 @@ void rg_course_free(rg_course *c)
     rg_contact_work_free(&c->look);
     rg_plates_free(&c->plates);
     for (int i = 0; i < 3; i++) {
-        rg_mem_free(&c->mem, c->X[i]);
-        rg_mem_free(&c->mem, c->place[i]);
-        rg_mem_free(&c->mem, c->x[i]);
+        RG_MEM_FREE(&c->mem, c->X[i], c->place[i], c->x[i]);
     }
     rg_mem_free(&c->mem, c->worst);
     memset(c, 0, sizeof *c);

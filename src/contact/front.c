@@ -16,25 +16,17 @@ rg_status rg_front_work_init(const rg_plates *p, rg_front_work *w)
 {
     memset(w, 0, sizeof *w);
     w->mem = p->mem;
-    w->normal = rg_mem_array(&p->mem, (size_t)p->mesh->nf, sizeof *w->normal);
-    w->from = rg_mem_array(&p->mem, (size_t)p->mesh->nv, sizeof *w->from);
-    w->to = rg_mem_array(&p->mem, (size_t)p->mesh->nv, sizeof *w->to);
-    w->order = rg_mem_array(&p->mem, (size_t)p->borders, sizeof *w->order);
-    w->low = rg_mem_array(&p->mem, (size_t)p->borders, sizeof *w->low);
-    w->high = rg_mem_array(&p->mem, (size_t)p->borders, sizeof *w->high);
-    if (w->normal && w->from && w->to && w->order && w->low && w->high) {
-        for (int32_t i = 0; i < p->borders; i++) w->order[i] = i;
-        return RG_OK;
-    }
-    rg_front_work_free(w);
-    return RG_ENOMEM;
+    const size_t nv = (size_t)p->mesh->nv, borders = (size_t)p->borders;
+    const rg_status s = RG_MEM_ARRAYS(&p->mem, RG_ARRAY(w->normal, (size_t)p->mesh->nf), RG_ARRAY(w->from, nv), RG_ARRAY(w->to, nv),
+                                      RG_ARRAY(w->order, borders), RG_ARRAY(w->low, borders), RG_ARRAY(w->high, borders));
+    for (int32_t i = 0; s == RG_OK && i < p->borders; i++) w->order[i] = i;
+    return s;
 }
 
 void rg_front_work_free(rg_front_work *w)
 {
     if (!w->mem.resize) return;
-    void *block[] = {w->normal, w->from, w->to, w->order, w->low, w->high};
-    for (int i = 0; i < 6; i++) rg_mem_free(&w->mem, block[i]);
+    RG_MEM_FREE(&w->mem, w->normal, w->from, w->to, w->order, w->low, w->high);
     memset(w, 0, sizeof *w);
 }
 

@@ -81,12 +81,9 @@ rg_status rg_near_work_init(const rg_plates *p, rg_near_work *w)
     const rg_mesh *m = p->mesh;
     memset(w, 0, sizeof *w);
     w->mem = p->mem;
-    w->box = rg_mem_array(&p->mem, (size_t)p->nodes, sizeof *w->box);
-    w->leaf = rg_mem_array(&p->mem, (size_t)p->parts, sizeof *w->leaf);
-    w->corner_part = rg_mem_array(&p->mem, (size_t)m->nv, sizeof *w->corner_part);
-    w->edge_part = rg_mem_array(&p->mem, (size_t)m->ne, sizeof *w->edge_part);
-    w->side = rg_mem_array(&p->mem, (size_t)p->start[p->parts], sizeof *w->side);
-    if (!w->box || !w->leaf || !w->corner_part || !w->edge_part || !w->side) {
+    if (RG_MEM_ARRAYS(&p->mem, RG_ARRAY(w->box, (size_t)p->nodes), RG_ARRAY(w->leaf, (size_t)p->parts),
+                      RG_ARRAY(w->corner_part, (size_t)m->nv), RG_ARRAY(w->edge_part, (size_t)m->ne),
+                      RG_ARRAY(w->side, (size_t)p->start[p->parts])) != RG_OK) {
         rg_near_work_free(w);
         return RG_ENOMEM;
     }
@@ -112,8 +109,7 @@ rg_status rg_near_work_init(const rg_plates *p, rg_near_work *w)
 void rg_near_work_free(rg_near_work *w)
 {
     if (!w->mem.resize) return;
-    void *block[] = {w->box, w->leaf, w->corner_part, w->edge_part, w->side};
-    for (int i = 0; i < 5; i++) rg_mem_free(&w->mem, block[i]);
+    RG_MEM_FREE(&w->mem, w->box, w->leaf, w->corner_part, w->edge_part, w->side);
     memset(w, 0, sizeof *w);
 }
 

@@ -110,11 +110,10 @@ static rg_status find_parts(rg_plates *p)
     int32_t largest = 3;
     for (int32_t f = 0; f < m->nf; f++)
         if (m->facet_start[f + 1] - m->facet_start[f] > largest) largest = m->facet_start[f + 1] - m->facet_start[f];
-    int32_t *v = rg_mem_array(&p->mem, (size_t)largest, sizeof *v),
-        *count = rg_mem_array(&p->mem, (size_t)largest, sizeof *count);
-    int32_t *piece = rg_mem_array(&p->mem, (size_t)largest * RG_PLATE_CORNERS, sizeof *piece);
-    const int ok = v && count && piece;
-    for (int32_t f = 0; ok && f < m->nf; f++) {
+    int32_t *v, *count, *piece;
+    if (RG_MEM_ARRAYS(&p->mem, RG_ARRAY(v, (size_t)largest), RG_ARRAY(count, (size_t)largest),
+                      RG_ARRAY(piece, (size_t)largest * RG_PLATE_CORNERS)) != RG_OK) return RG_ENOMEM;
+    for (int32_t f = 0; f < m->nf; f++) {
         const int32_t n = m->facet_start[f + 1] - m->facet_start[f], *corner = m->facet_vertex + m->facet_start[f];
         p->first[f] = p->parts;
         memcpy(v, corner, (size_t)n * sizeof *v);
@@ -122,10 +121,8 @@ static rg_status find_parts(rg_plates *p)
         else cut(p, f, v, n, piece, count);
     }
     p->first[m->nf] = p->parts;
-    rg_mem_free(&p->mem, v);
-    rg_mem_free(&p->mem, count);
-    rg_mem_free(&p->mem, piece);
-    return ok ? RG_OK : RG_ENOMEM;
+    RG_MEM_FREE(&p->mem, v, count, piece);
+    return RG_OK;
 }
 
 /* ---------------------------------------------------------------------------------- tree ---- */
@@ -195,13 +192,9 @@ rg_status rg_plates_init(const rg_mesh *m, rg_plates *p)
     }
     p->size = m->nv ? hypot(high.x - low.x, high.y - low.y) / sqrt(2) : 0;
     /* A facet of n corners has at most n - 2 parts, of no more than 3 (n - 2) corners together. */
-    p->facet = rg_mem_array(&m->mem, corners, sizeof *p->facet);
-    p->start = rg_mem_array(&m->mem, corners + 1, sizeof *p->start);
-    p->vertex = rg_mem_array(&m->mem, 3 * corners, sizeof *p->vertex);
-    p->first = rg_mem_array(&m->mem, (size_t)m->nf + 1, sizeof *p->first);
-    p->node = rg_mem_array(&m->mem, 2 * corners, sizeof *p->node);
-    p->border = rg_mem_array(&m->mem, (size_t)m->ne, sizeof *p->border);
-    rg_status s = p->facet && p->start && p->vertex && p->first && p->node && p->border ? RG_OK : RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(p->facet, corners), RG_ARRAY(p->start, corners + 1),
+                                RG_ARRAY(p->vertex, 3 * corners), RG_ARRAY(p->first, (size_t)m->nf + 1),
+                                RG_ARRAY(p->node, 2 * corners), RG_ARRAY(p->border, (size_t)m->ne));
     for (int32_t e = 0; s == RG_OK && e < m->ne; e++)
         if (m->edge_crease[e] < 0) p->border[p->borders++] = e;
     if (s == RG_OK) s = find_parts(p);
@@ -213,8 +206,7 @@ rg_status rg_plates_init(const rg_mesh *m, rg_plates *p)
 void rg_plates_free(rg_plates *p)
 {
     if (!p->mem.resize) return;
-    void *block[] = {p->facet, p->start, p->vertex, p->first, p->node, p->border};
-    for (int i = 0; i < 6; i++) rg_mem_free(&p->mem, block[i]);
+    RG_MEM_FREE(&p->mem, p->facet, p->start, p->vertex, p->first, p->node, p->border);
     memset(p, 0, sizeof *p);
 }
 

@@ -16,18 +16,16 @@ rg_status rg_sweep_work_init(const rg_plates *p, rg_sweep_work *w)
 {
     memset(w, 0, sizeof *w);
     w->mem = p->mem;
-    w->ball = rg_mem_array(&p->mem, (size_t)p->nodes, sizeof *w->ball);
-    w->back = rg_mem_array(&p->mem, (size_t)p->mesh->nf, sizeof *w->back);
-    if (w->ball && w->back && rg_front_work_init(p, &w->front) == RG_OK) return RG_OK;
-    rg_sweep_work_free(w);
-    return RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(&p->mem, RG_ARRAY(w->ball, (size_t)p->nodes), RG_ARRAY(w->back, (size_t)p->mesh->nf));
+    if (s == RG_OK) s = rg_front_work_init(p, &w->front);
+    if (s != RG_OK) rg_sweep_work_free(w);
+    return s;
 }
 
 void rg_sweep_work_free(rg_sweep_work *w)
 {
     if (!w->mem.resize) return;
-    void *block[] = {w->ball, w->back, w->before, w->now};
-    for (int i = 0; i < 4; i++) rg_mem_free(&w->mem, block[i]);
+    RG_MEM_FREE(&w->mem, w->ball, w->back, w->before, w->now);
     rg_front_work_free(&w->front);
     memset(w, 0, sizeof *w);
 }

@@ -71,9 +71,8 @@ typedef struct plane {
 
 static void free_plane(plane *p, const rg_memory *mem)
 {
-    void *block[] = {p->X,      p->E,     p->face_start,    p->face_vertex, p->face_edge,
-                     p->letter, p->angle, p->vertex_source, p->edge_source};
-    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(mem, block[i]);
+    RG_MEM_FREE(mem, p->X, p->E, p->face_start, p->face_vertex, p->face_edge, p->letter, p->angle, p->vertex_source,
+                p->edge_source);
     rg_graph_free(&p->g);
     rg_star_free(&p->star);
     rg_faces_free(&p->faces);
@@ -97,10 +96,8 @@ static int32_t without_spurs(const rg_faces *f, int32_t k, int32_t *half)
 static rg_status find_faces(plane *p, const rg_memory *mem)
 {
     const int32_t ne = p->g.ne;
-    p->face_start = rg_mem_array(mem, (size_t)p->faces.count + 1, sizeof *p->face_start);
-    p->face_vertex = rg_mem_array(mem, 2 * (size_t)ne, sizeof *p->face_vertex);
-    p->face_edge = rg_mem_array(mem, 2 * (size_t)ne, sizeof *p->face_edge);
-    if (!p->face_start || !p->face_vertex || !p->face_edge) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(p->face_start, (size_t)p->faces.count + 1), RG_ARRAY(p->face_vertex, 2 * (size_t)ne),
+                      RG_ARRAY(p->face_edge, 2 * (size_t)ne)) != RG_OK) return RG_ENOMEM;
     for (int32_t k = 0, at = 0; k < p->faces.count; k++) {
         if (!(p->faces.area[k] > 0)) continue;
         const int32_t n = without_spurs(&p->faces, k, p->face_edge + at);
@@ -120,9 +117,8 @@ static rg_status find_faces(plane *p, const rg_memory *mem)
 
 static rg_status letter_edges(plane *p, const rg_memory *mem)
 {
-    p->letter = rg_mem_array(mem, (size_t)p->g.ne, 1);
-    p->angle = rg_mem_array(mem, (size_t)p->g.ne, sizeof *p->angle);
-    if (!p->letter || !p->angle) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(p->letter, (size_t)p->g.ne),
+                      RG_ARRAY(p->angle, (size_t)p->g.ne)) != RG_OK) return RG_ENOMEM;
     for (int32_t e = 0; e < p->g.ne; e++) {
         const rg_edge *edge = &p->g.E[e];
         const char a = edge->assignment;
@@ -157,11 +153,10 @@ static int old_numbers(const plane *p, const rg_lines *l, int32_t *old)
 static rg_status number(plane *p, const rg_lines *l)
 {
     const rg_memory *mem = &l->mem;
-    p->X = rg_mem_array(mem, (size_t)p->g.nv, sizeof *p->X);
-    p->E = rg_mem_array(mem, (size_t)p->g.ne, 2 * sizeof *p->E);
-    int32_t *old = rg_mem_array(mem, (size_t)p->g.nv, sizeof *old);
-    unsigned char *taken = rg_mem_array(mem, (size_t)p->g.nv, 1);
-    rg_status s = p->X && p->E && old && taken ? RG_OK : RG_ENOMEM;
+    int32_t *old;
+    unsigned char *taken;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(p->X, (size_t)p->g.nv), RG_ARRAY(p->E, 2 * (size_t)p->g.ne),
+                                RG_ARRAY(old, (size_t)p->g.nv), RG_ARRAY(taken, (size_t)p->g.nv));
     if (s == RG_OK) {
         int same = old_numbers(p, l, old);
         for (int32_t v = 0; same && v < p->g.nv; v++) same = !taken[old[v]]++;
@@ -173,8 +168,7 @@ static rg_status number(plane *p, const rg_lines *l)
         p->sheet.same_edges = l->vertex && p->g.ne == l->count &&
                               rg_value_count(rg_value_get(l->frame, "edges_vertices")) == (size_t)p->g.ne;
     }
-    rg_mem_free(mem, old);
-    rg_mem_free(mem, taken);
+    RG_MEM_FREE(mem, old, taken);
     return s;
 }
 
@@ -238,11 +232,10 @@ static rg_status number_faces(plane *p, const rg_lines *l)
     const rg_memory *mem = &l->mem;
     const rg_value *list = rg_value_get(l->frame, "faces_vertices");
     if (!p->sheet.same_vertices || rg_value_count(list) != (size_t)p->sheet.nf) return RG_OK;
-    named *name = rg_mem_array(mem, (size_t)p->g.ne, sizeof *name);
-    int32_t *start = rg_mem_array(mem, (size_t)p->sheet.nf + 1, sizeof *start);
-    int32_t *vertex = rg_mem_array(mem, 2 * (size_t)p->g.ne, sizeof *vertex);
-    int32_t *edge = rg_mem_array(mem, 2 * (size_t)p->g.ne, sizeof *edge);
-    rg_status s = name && start && vertex && edge ? RG_OK : RG_ENOMEM;
+    named *name;
+    int32_t *start, *vertex, *edge;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(name, (size_t)p->g.ne), RG_ARRAY(start, (size_t)p->sheet.nf + 1),
+                                RG_ARRAY(vertex, 2 * (size_t)p->g.ne), RG_ARRAY(edge, 2 * (size_t)p->g.ne));
     for (int32_t e = 0; s == RG_OK && e < p->g.ne; e++) {
         const int32_t a = p->E[2 * e], b = p->E[2 * e + 1];
         name[e] = (named){a < b ? a : b, a < b ? b : a, e};
@@ -254,10 +247,7 @@ static rg_status number_faces(plane *p, const rg_lines *l)
         memcpy(p->face_edge, edge, (size_t)start[p->sheet.nf] * sizeof *edge);
         p->sheet.same_faces = 1;
     }
-    rg_mem_free(mem, name);
-    rg_mem_free(mem, start);
-    rg_mem_free(mem, vertex);
-    rg_mem_free(mem, edge);
+    RG_MEM_FREE(mem, name, start, vertex, edge);
     return s;
 }
 

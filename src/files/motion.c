@@ -111,11 +111,9 @@ static rg_status read_frames(given *g)
 {
     rg_motion *m = g->m;
     const size_t nv = (size_t)m->mesh.nv, N = (size_t)m->mesh.N;
-    rg_vec3 *normal = rg_mem_array(&m->mem, (size_t)m->mesh.nf, sizeof *normal);
-    m->space = rg_mem_array(&m->mem, (size_t)g->count * nv, sizeof *m->space);
-    m->rho = rg_mem_array(&m->mem, (size_t)g->count * N, sizeof *m->rho);
-    m->frame = rg_mem_array(&m->mem, (size_t)g->count, sizeof *m->frame);
-    rg_status s = normal && m->space && m->rho && m->frame ? RG_OK : RG_ENOMEM;
+    rg_vec3 *normal;
+    rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(normal, (size_t)m->mesh.nf), RG_ARRAY(m->space, (size_t)g->count * nv),
+                                RG_ARRAY(m->rho, (size_t)g->count * N), RG_ARRAY(m->frame, (size_t)g->count));
     for (int32_t k = 0; s == RG_OK && k < g->count; k++) {
         rg_vec3 *x = m->space + (size_t)k * nv;
         double *rho = m->rho + (size_t)k * N;
@@ -209,9 +207,8 @@ static rg_status build(rg_motion *m, const rg_value *root, const rg_pattern *p, 
     name_flat_lines(m);
     if (s == RG_OK) s = rg_motion_lend(m);
     g.nv = (int32_t)rg_value_count(rg_value_get(m->source.frame, "vertices_coords"));
-    m->target = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *m->target);
-    m->from = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *m->from);
-    if (!m->target || !m->from) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->target, (size_t)m->mesh.N),
+                      RG_ARRAY(m->from, (size_t)m->mesh.N)) != RG_OK) return RG_ENOMEM;
     for (int32_t i = 0; i < m->mesh.N; i++) m->target[i] = m->mesh.target[m->mesh.crease_edge[i]];
     if (s == RG_OK) s = find_frames(&g);
     if (s == RG_OK) s = read_frames(&g);

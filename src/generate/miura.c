@@ -42,11 +42,8 @@ static void strip_free(strip *s, const rg_memory *mem)
 static rg_status strip_init(strip *s, const rg_memory *mem, int32_t columns, int32_t rows)
 {
     *s = (strip){columns, rows, NULL, NULL, NULL, NULL};
-    s->c = rg_mem_array(mem, (size_t)columns + 1, sizeof *s->c);
-    s->k = rg_mem_array(mem, (size_t)columns + 1, sizeof *s->k);
-    s->y = rg_mem_array(mem, (size_t)rows + 1, sizeof *s->y);
-    s->Y = rg_mem_array(mem, (size_t)rows + 1, sizeof *s->Y);
-    return s->c && s->k && s->y && s->Y ? RG_OK : RG_ENOMEM;
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(s->c, (size_t)columns + 1), RG_ARRAY(s->k, (size_t)columns + 1),
+                         RG_ARRAY(s->y, (size_t)rows + 1), RG_ARRAY(s->Y, (size_t)rows + 1));
 }
 
 /* n columns and m rows of rhombs with the acute angle given. */

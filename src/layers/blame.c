@@ -112,10 +112,8 @@ rg_status rg_blame_find(rg_blame *b, const rg_memory *mem, const rg_mesh *m, con
                         int32_t n)
 {
     search s = {.mem = *mem, .m = m, .f = f, .c = c, .b = b};
-    s.in = rg_mem_array(mem, (size_t)f->nf, 1);
-    s.over_start = rg_mem_array(mem, (size_t)c->faces.count + 1, sizeof *s.over_start);
-    s.over = rg_mem_array(mem, (size_t)c->over_start[c->faces.count], sizeof *s.over);
-    if (!s.in || !s.over_start || !s.over) s.status = RG_ENOMEM;
+    s.status = RG_MEM_ARRAYS(mem, RG_ARRAY(s.in, (size_t)f->nf), RG_ARRAY(s.over_start, (size_t)c->faces.count + 1),
+                             RG_ARRAY(s.over, (size_t)c->over_start[c->faces.count]));
     b->count = 0;
     if (s.status == RG_OK) {
         int32_t had = 0, found = 0;
@@ -140,8 +138,6 @@ rg_status rg_blame_find(rg_blame *b, const rg_memory *mem, const rg_mesh *m, con
             const int32_t swap = b->facet[j];
             b->facet[j] = b->facet[j - 1], b->facet[j - 1] = swap;
         }
-    rg_mem_free(mem, s.in);
-    rg_mem_free(mem, s.over_start);
-    rg_mem_free(mem, s.over);
+    RG_MEM_FREE(mem, s.in, s.over_start, s.over);
     return s.status;
 }

@@ -21,8 +21,7 @@ void rg_cells_free(rg_cells *c)
     const rg_memory mem = c->mem;
     rg_graph_free(&c->graph);
     rg_faces_free(&c->faces);
-    void *block[] = {c->along_start, c->along, c->across_start, c->across, c->point, c->over_start, c->over};
-    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&mem, block[i]);
+    RG_MEM_FREE(&mem, c->along_start, c->along, c->across_start, c->across, c->point, c->over_start, c->over);
     memset(c, 0, sizeof *c);
 }
 
@@ -182,9 +181,10 @@ static double best_point(const rg_vec2 *corner, int32_t n, double *scratch, rg_v
 
 static rg_status walk_cells(rg_cells *c, const rg_mesh *m, const rg_flat *f, const box *of_facet, const rg_stop *stop, list *over)
 {
-    rg_vec2 *corner = rg_mem_array(&c->mem, 2 * (size_t)c->graph.ne, sizeof *corner);
-    double *scratch = rg_mem_array(&c->mem, 4 * (size_t)c->graph.ne, sizeof *scratch);
-    rg_status s = corner && scratch ? RG_OK : RG_ENOMEM;
+    rg_vec2 *corner;
+    double *scratch;
+    rg_status s = RG_MEM_ARRAYS(&c->mem, RG_ARRAY(corner, 2 * (size_t)c->graph.ne),
+                                RG_ARRAY(scratch, 4 * (size_t)c->graph.ne));
     for (int32_t i = 0; s == RG_OK && i < c->faces.count; i++) {
         rg_vec2 x = {0, 0};
         int32_t n = 0, h = c->faces.first[i];
@@ -197,8 +197,7 @@ static rg_status walk_cells(rg_cells *c, const rg_mesh *m, const rg_flat *f, con
         c->point[i] = x;
         c->over_start[i + 1] = (int32_t)over->count;
     }
-    rg_mem_free(&c->mem, corner);
-    rg_mem_free(&c->mem, scratch);
+    RG_MEM_FREE(&c->mem, corner, scratch);
     return s;
 }
 
@@ -210,12 +209,10 @@ rg_status rg_cells_init(rg_cells *c, const rg_memory *mem, const rg_mesh *m, con
     rg_status s = draw(c, m, f, why);
     if (s == RG_OK) s = find_faces(c);
     if (s != RG_OK) return s;
-    box *of_facet = rg_mem_array(mem, (size_t)f->nf, sizeof *of_facet);
-    c->along_start = rg_mem_array(mem, (size_t)c->graph.ne + 1, sizeof *c->along_start);
-    c->across_start = rg_mem_array(mem, (size_t)c->graph.ne + 1, sizeof *c->across_start);
-    c->over_start = rg_mem_array(mem, (size_t)c->faces.count + 1, sizeof *c->over_start);
-    c->point = rg_mem_array(mem, (size_t)c->faces.count, sizeof *c->point);
-    if (!of_facet || !c->point || !c->along_start || !c->across_start || !c->over_start) s = RG_ENOMEM;
+    const size_t edges = (size_t)c->graph.ne, faces = (size_t)c->faces.count;
+    box *of_facet;
+    s = RG_MEM_ARRAYS(mem, RG_ARRAY(of_facet, (size_t)f->nf), RG_ARRAY(c->along_start, edges + 1),
+                      RG_ARRAY(c->across_start, edges + 1), RG_ARRAY(c->over_start, faces + 1), RG_ARRAY(c->point, faces));
     for (int32_t g = 0; s == RG_OK && g < f->nf; g++) {
         of_facet[g] = (box){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
         for (int32_t j = f->start[g]; j < f->start[g + 1]; j++) {

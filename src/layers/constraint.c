@@ -7,8 +7,7 @@ void rg_constraints_free(rg_constraints *k)
 {
     if (!k->mem.resize) return;
     const rg_memory mem = k->mem;
-    void *block[] = {k->item, k->start, k->of, k->hinge, k->hinge_edge};
-    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&mem, block[i]);
+    RG_MEM_FREE(&mem, k->item, k->start, k->of, k->hinge, k->hinge_edge);
     memset(k, 0, sizeof *k);
 }
 
@@ -136,9 +135,8 @@ static void drop_doubles(rg_constraints *k)
 /* start[pair] after counting two to the right, as the fill moves each on by one. */
 static rg_status list_by_pair(rg_constraints *k, int32_t pairs)
 {
-    k->start = rg_mem_array(&k->mem, (size_t)pairs + 2, sizeof *k->start);
-    k->of = rg_mem_array(&k->mem, 4 * (size_t)k->count, sizeof *k->of);
-    if (!k->start || !k->of) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&k->mem, RG_ARRAY(k->start, (size_t)pairs + 2),
+                      RG_ARRAY(k->of, 4 * (size_t)k->count)) != RG_OK) return RG_ENOMEM;
     for (int32_t i = 0; i < k->count; i++)
         for (int j = 0; j < k->item[i].n; j++) k->start[k->item[i].pair[j] + 2]++;
     for (int32_t i = 2; i <= pairs; i++) k->start[i] += k->start[i - 1];
@@ -150,9 +148,8 @@ static rg_status list_by_pair(rg_constraints *k, int32_t pairs)
 /* A valley folds the other facet onto the front: above it where its front is up. */
 static rg_status find_hinges(rg_constraints *k, const rg_mesh *m, const rg_flat *f, const rg_pairs *p)
 {
-    k->hinge = rg_mem_array(&k->mem, (size_t)p->count, 1);
-    k->hinge_edge = rg_mem_array(&k->mem, (size_t)p->count, sizeof *k->hinge_edge);
-    if (!k->hinge || !k->hinge_edge) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&k->mem, RG_ARRAY(k->hinge, (size_t)p->count),
+                      RG_ARRAY(k->hinge_edge, (size_t)p->count)) != RG_OK) return RG_ENOMEM;
     for (int32_t e = 0; e < m->ne; e++) {
         const int32_t a = f->beside[e][0], b = f->beside[e][1];
         if (f->turn[e] == 0 || f->turn[e] == 2 || a < 0 || b < 0) continue;

@@ -177,8 +177,7 @@ static rg_status begin(counter *c, rg_orders *o, int32_t *weight, int64_t work)
 
 static void end(counter *c)
 {
-    rg_mem_free(&c->o->mem, c->open);
-    rg_mem_free(&c->o->mem, c->list);
+    RG_MEM_FREE(&c->o->mem, c->open, c->list);
 }
 
 /* ---------------------------------------------------------------------------------------------- parts ---- */
@@ -187,20 +186,16 @@ void rg_parts_free(rg_parts *q)
 {
     if (!q->mem.resize) return;
     const rg_memory mem = q->mem;
-    void *block[] = {q->start, q->pair, q->orders, q->counted, q->more, q->found, q->weight};
-    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&mem, block[i]);
+    RG_MEM_FREE(&mem, q->start, q->pair, q->orders, q->counted, q->more, q->found, q->weight);
     memset(q, 0, sizeof *q);
 }
 
 static rg_status keep_parts(rg_parts *q, const counter *c)
 {
     for (size_t at = 0; at < c->used; at += 1 + (size_t)c->list[at]) q->count++;
-    q->start = rg_mem_array(&q->mem, (size_t)q->count + 1, sizeof *q->start);
-    q->pair = rg_mem_array(&q->mem, c->used, sizeof *q->pair);
-    q->orders = rg_mem_array(&q->mem, (size_t)q->count, sizeof *q->orders);
-    q->counted = rg_mem_array(&q->mem, (size_t)q->count, sizeof *q->counted);
-    q->more = rg_mem_array(&q->mem, (size_t)q->count, 1);
-    if (!q->start || !q->pair || !q->orders || !q->counted || !q->more) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&q->mem, RG_ARRAY(q->start, (size_t)q->count + 1), RG_ARRAY(q->pair, c->used),
+                      RG_ARRAY(q->orders, (size_t)q->count), RG_ARRAY(q->counted, (size_t)q->count),
+                      RG_ARRAY(q->more, (size_t)q->count)) != RG_OK) return RG_ENOMEM;
     int32_t i = 0;
     for (size_t at = 0; at < c->used; at += 1 + (size_t)c->list[at], i++) {
         memcpy(q->pair + q->start[i], c->list + at + 1, (size_t)c->list[at] * sizeof *q->pair);
@@ -273,9 +268,8 @@ rg_status rg_parts_init(rg_parts *q, const rg_memory *mem, rg_orders *o, int64_t
     counter c;
     memset(q, 0, sizeof *q);
     q->mem = *mem;
-    q->weight = rg_mem_array(mem, (size_t)o->pairs->count, sizeof *q->weight);
-    q->found = rg_mem_array(mem, (size_t)o->pairs->count, 1);
-    if (!q->weight || !q->found) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(q->weight, (size_t)o->pairs->count),
+                      RG_ARRAY(q->found, (size_t)o->pairs->count)) != RG_OK) return RG_ENOMEM;
     rg_status s = begin(&c, o, q->weight, work);
     if (s == RG_OK) divide(&c, NULL, o->pairs->count);
     if (s == RG_OK) s = c.status;

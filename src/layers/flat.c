@@ -16,8 +16,8 @@ void rg_flat_free(rg_flat *f)
 {
     if (!f->mem.resize) return;
     const rg_memory mem = f->mem;
-    void *block[] = {f->facet_of, f->part_start, f->part, f->start, f->edge, f->beside, f->up, f->turn, f->place, f->x, f->middle};
-    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&mem, block[i]);
+    RG_MEM_FREE(&mem, f->facet_of, f->part_start, f->part, f->start, f->edge, f->beside, f->up, f->turn, f->place, f->x,
+                f->middle);
     memset(f, 0, sizeof *f);
 }
 
@@ -188,21 +188,12 @@ rg_status rg_flat_init(rg_flat *f, const rg_memory *mem, const rg_mesh *m, const
     memset(f, 0, sizeof *f);
     f->mem = *mem;
     const size_t nf = (size_t)m->nf, ne = (size_t)m->ne, nv = (size_t)m->nv;
-    int32_t *scratch = rg_mem_array(mem, nf + nv, sizeof *scratch);
-    f->facet_of = rg_mem_array(mem, nf, sizeof *f->facet_of);
-    f->part_start = rg_mem_array(mem, nf + 2, sizeof *f->part_start);
-    f->part = rg_mem_array(mem, nf, sizeof *f->part);
-    f->start = rg_mem_array(mem, nf + 2, sizeof *f->start);
-    f->edge = rg_mem_array(mem, 2 * ne, sizeof *f->edge);
-    f->beside = rg_mem_array(mem, ne, sizeof *f->beside);
-    f->up = rg_mem_array(mem, nf, 1);
-    f->turn = rg_mem_array(mem, ne, 1);
-    f->place = rg_mem_array(mem, nf, sizeof *f->place);
-    f->x = rg_mem_array(mem, nv, sizeof *f->x);
-    f->middle = rg_mem_array(mem, nf, sizeof *f->middle);
-    rg_status s = scratch && f->facet_of && f->part_start && f->part && f->start && f->edge && f->beside && f->up && f->turn && f->place && f->x && f->middle
-                      ? RG_OK
-                      : RG_ENOMEM;
+    int32_t *scratch;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(scratch, nf + nv), RG_ARRAY(f->facet_of, nf),
+                                RG_ARRAY(f->part_start, nf + 2), RG_ARRAY(f->part, nf), RG_ARRAY(f->start, nf + 2),
+                                RG_ARRAY(f->edge, 2 * ne), RG_ARRAY(f->beside, ne), RG_ARRAY(f->up, nf),
+                                RG_ARRAY(f->turn, ne), RG_ARRAY(f->place, nf), RG_ARRAY(f->x, nv),
+                                RG_ARRAY(f->middle, nf));
     if (s == RG_OK) {
         number_facets(f, m);
         list_edges(f, m);

@@ -22,8 +22,7 @@ void rg_layers_destroy(rg_layers *l)
     rg_constraints_free(&l->constraints);
     rg_orders_free(&l->orders);
     rg_parts_free(&l->parts);
-    rg_mem_free(&mem, l->count);
-    rg_mem_free(&mem, l);
+    RG_MEM_FREE(&mem, l->count, l);
 }
 
 const rg_layers_info *rg_layers_get_info(const rg_layers *l) { return &l->info; }
@@ -416,8 +415,7 @@ int32_t rg_layers_levels(const rg_layers *l, int32_t *level, int32_t *cuts)
     int32_t *room = rg_mem_array(&l->mem, 4 * nf, sizeof *room), top = 0, cut = 0;
     unsigned char *seen = rg_mem_array(&l->mem, (size_t)p->count, 1);
     if (!room || !seen) {
-        rg_mem_free(&l->mem, room);
-        rg_mem_free(&l->mem, seen);
+        RG_MEM_FREE(&l->mem, room, seen);
         return -1;
     }
     climb c = {l, room, room + nf, room + 2 * nf, room + 3 * nf, seen, 0, 0};
@@ -437,8 +435,7 @@ int32_t rg_layers_levels(const rg_layers *l, int32_t *level, int32_t *cuts)
         if (level[f] > top) top = level[f];
         climb_over(&c, f, level);
     }
-    rg_mem_free(&l->mem, room);
-    rg_mem_free(&l->mem, c.seen);
+    RG_MEM_FREE(&l->mem, room, c.seen);
     if (cuts) *cuts = cut;
     return top + 1;
 }

@@ -6,9 +6,7 @@ void rg_overlaps_free(rg_overlaps *o)
 {
     if (!o->mem.resize) return;
     const rg_memory mem = o->mem;
-    rg_mem_free(&mem, o->start);
-    rg_mem_free(&mem, o->loop);
-    rg_mem_free(&mem, o->corner);
+    RG_MEM_FREE(&mem, o->start, o->loop, o->corner);
     memset(o, 0, sizeof *o);
 }
 
@@ -92,12 +90,9 @@ rg_status rg_overlaps_init(rg_overlaps *o, const rg_memory *mem, const rg_cells 
     o->mem = *mem;
     const int32_t cells = c->faces.count;
     walk w = {.c = c};
-    w.start = rg_mem_array(mem, (size_t)p->nf + 2, sizeof *w.start);
-    w.cell = rg_mem_array(mem, (size_t)c->over_start[cells], sizeof *w.cell);
-    w.in = rg_mem_array(mem, (size_t)cells, sizeof *w.in);
-    w.seen = rg_mem_array(mem, 2 * (size_t)c->graph.ne, sizeof *w.seen);
-    o->start = rg_mem_array(mem, (size_t)p->count + 1, sizeof *o->start);
-    rg_status s = w.start && w.cell && w.in && w.seen && o->start ? RG_OK : RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(w.start, (size_t)p->nf + 2),
+                                RG_ARRAY(w.cell, (size_t)c->over_start[cells]), RG_ARRAY(w.in, (size_t)cells),
+                                RG_ARRAY(w.seen, 2 * (size_t)c->graph.ne), RG_ARRAY(o->start, (size_t)p->count + 1));
     if (s == RG_OK) s = rg_mem_grow(mem, (void **)&o->loop, &o->loop_room, 1, sizeof *o->loop);
     if (s == RG_OK) {
         o->loop[0] = 0;
@@ -110,9 +105,6 @@ rg_status rg_overlaps_init(rg_overlaps *o, const rg_memory *mem, const rg_cells 
         s = one_pair(o, &w, p->facet[i], i + 1);
         o->start[i + 1] = o->loops;
     }
-    rg_mem_free(mem, w.start);
-    rg_mem_free(mem, w.cell);
-    rg_mem_free(mem, w.in);
-    rg_mem_free(mem, w.seen);
+    RG_MEM_FREE(mem, w.start, w.cell, w.in, w.seen);
     return s;
 }

@@ -10,8 +10,8 @@ void rg_pairs_free(rg_pairs *p)
 {
     if (!p->mem.resize) return;
     const rg_memory mem = p->mem;
-    void *block[] = {p->bit, p->of_bit, p->facet, p->row, p->before, p->start, p->number, p->common_start, p->common_word, p->common};
-    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&mem, block[i]);
+    RG_MEM_FREE(&mem, p->bit, p->of_bit, p->facet, p->row, p->before, p->start, p->number, p->common_start,
+                p->common_word, p->common);
     memset(p, 0, sizeof *p);
 }
 
@@ -61,9 +61,8 @@ static rg_status number_pairs(rg_pairs *p)
         twice += __builtin_popcountll(p->row[i]);
         if (twice > INT32_MAX) return RG_EFORMAT;
     }
-    p->facet = rg_mem_array(&p->mem, (size_t)twice / 2, sizeof *p->facet);
-    p->number = rg_mem_array(&p->mem, (size_t)twice, sizeof *p->number);
-    if (!p->facet || !p->number) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&p->mem, RG_ARRAY(p->facet, (size_t)twice / 2),
+                      RG_ARRAY(p->number, (size_t)twice)) != RG_OK) return RG_ENOMEM;
     /* Rising by the lower facet, then by the bit of the other. */
     int32_t at = 0;
     for (int32_t f = 0; f < p->nf; f++) {
@@ -131,10 +130,7 @@ static rg_status find_common(rg_pairs *p, const stack *s, int32_t stacks, const 
             if (n > MOST_WORDS) status = RG_EFORMAT;
         }
     }
-    rg_mem_free(&p->mem, start);
-    rg_mem_free(&p->mem, of);
-    rg_mem_free(&p->mem, bits);
-    rg_mem_free(&p->mem, sum);
+    RG_MEM_FREE(&p->mem, start, of, bits, sum);
     return status;
 }
 
@@ -145,13 +141,10 @@ rg_status rg_pairs_init(rg_pairs *p, const rg_memory *mem, const rg_cells *c, in
     p->nf = nf;
     p->words = (nf + 63) / 64;
     const size_t size = (size_t)nf * (size_t)p->words;
-    stack *s = rg_mem_array(mem, (size_t)c->faces.count, sizeof *s);
-    p->bit = rg_mem_array(mem, (size_t)nf, sizeof *p->bit);
-    p->of_bit = rg_mem_array(mem, (size_t)nf, sizeof *p->of_bit);
-    p->row = rg_mem_array(mem, size, sizeof *p->row);
-    p->before = rg_mem_array(mem, size, sizeof *p->before);
-    p->start = rg_mem_array(mem, (size_t)nf + 1, sizeof *p->start);
-    rg_status status = s && p->bit && p->of_bit && p->row && p->before && p->start ? RG_OK : RG_ENOMEM;
+    stack *s;
+    rg_status status = RG_MEM_ARRAYS(mem, RG_ARRAY(s, (size_t)c->faces.count), RG_ARRAY(p->bit, (size_t)nf),
+                                     RG_ARRAY(p->of_bit, (size_t)nf), RG_ARRAY(p->row, size), RG_ARRAY(p->before, size),
+                                     RG_ARRAY(p->start, (size_t)nf + 1));
     if (status == RG_OK) stand_together(p, c);
     const int32_t stacks = status == RG_OK ? different_stacks(c, s) : 0;
     for (int32_t i = 0; status == RG_OK && i < stacks; i++) {

@@ -9,19 +9,15 @@ rg_status rg_orders_init(rg_orders *o, const rg_memory *mem, const rg_pairs *p, 
     o->mem = *mem;
     o->pairs = p;
     o->constraints = k;
-    o->value = rg_mem_array(mem, (size_t)p->count, 1);
-    o->trail = rg_mem_array(mem, (size_t)p->count, sizeof *o->trail);
-    o->above = rg_mem_array(mem, size, sizeof *o->above);
-    o->below = rg_mem_array(mem, size, sizeof *o->below);
-    return o->value && o->trail && o->above && o->below ? RG_OK : RG_ENOMEM;
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(o->value, (size_t)p->count), RG_ARRAY(o->trail, (size_t)p->count),
+                         RG_ARRAY(o->above, size), RG_ARRAY(o->below, size));
 }
 
 void rg_orders_free(rg_orders *o)
 {
     if (!o->mem.resize) return;
     const rg_memory mem = o->mem;
-    void *block[] = {o->value, o->trail, o->above, o->below};
-    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&mem, block[i]);
+    RG_MEM_FREE(&mem, o->value, o->trail, o->above, o->below);
     memset(o, 0, sizeof *o);
 }
 

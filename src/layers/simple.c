@@ -12,9 +12,7 @@ void rg_simple_free(rg_simple *q)
 {
     if (!q->mem.resize) return;
     for (int32_t k = 0; k < q->folds; k++) rg_mem_free(&q->mem, q->fold[k].moves);
-    rg_mem_free(&q->mem, q->fold);
-    rg_mem_free(&q->mem, q->stage);
-    rg_mem_free(&q->mem, q->above);
+    RG_MEM_FREE(&q->mem, q->fold, q->stage, q->above);
     memset(q, 0, sizeof *q);
 }
 
@@ -342,18 +340,10 @@ static rg_status begin(search *s, const rg_memory *mem)
     q->mem = *mem;
     q->nf = l->flat.nf, q->ne = m->ne;
     q->up = 1;
-    q->stage = rg_mem_array(mem, (size_t)m->ne, sizeof *q->stage);
-    q->above = rg_mem_array(mem, nf * nf, 1);
-    s->angle = rg_mem_array(mem, (size_t)m->N, sizeof *s->angle);
-    s->off = rg_mem_array(mem, (size_t)m->nv, sizeof *s->off);
-    s->body = rg_mem_array(mem, nf, sizeof *s->body);
-    s->first = rg_mem_array(mem, nf, sizeof *s->first);
-    s->next = rg_mem_array(mem, nf, sizeof *s->next);
-    s->side = rg_mem_array(mem, nf, 1);
-    s->in = rg_mem_array(mem, nf, 1);
-    s->taken = rg_mem_array(mem, nf, 1);
-    s->queue = rg_mem_array(mem, nf, sizeof *s->queue);
-    if (!q->stage || !q->above || !s->angle || !s->off || !s->body || !s->first || !s->next || !s->side || !s->in || !s->taken || !s->queue) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(q->stage, (size_t)m->ne), RG_ARRAY(q->above, nf * nf),
+                      RG_ARRAY(s->angle, (size_t)m->N), RG_ARRAY(s->off, (size_t)m->nv), RG_ARRAY(s->body, nf),
+                      RG_ARRAY(s->first, nf), RG_ARRAY(s->next, nf), RG_ARRAY(s->side, nf), RG_ARRAY(s->in, nf),
+                      RG_ARRAY(s->taken, nf), RG_ARRAY(s->queue, nf)) != RG_OK) return RG_ENOMEM;
     for (int32_t e = 0; e < m->ne; e++) {
         const int32_t *g = l->flat.beside[e];
         int turn = l->flat.turn[e];
@@ -392,7 +382,6 @@ rg_status rg_simple_find(rg_simple *q, const rg_memory *mem, const rg_layers *l)
     rg_status status = begin(&s, mem);
     while (status == RG_OK && more) status = take_apart(&s, &more);
     if (status == RG_OK) turn_round(q);
-    void *block[] = {s.angle, s.off, s.body, s.first, s.next, s.side, s.in, s.taken, s.queue, s.found};
-    for (int i = 0; i < 10; i++) rg_mem_free(mem, block[i]);
+    RG_MEM_FREE(mem, s.angle, s.off, s.body, s.first, s.next, s.side, s.in, s.taken, s.queue, s.found);
     return status;
 }

@@ -20,8 +20,8 @@ void rg_lines_free(rg_lines *l)
 {
     if (!l->mem.resize) return;
     rg_memory mem = l->mem;
-    void *block[] = {l->line, l->title, l->author, l->editor, l->reference, l->memo, l->warning, l->vertex, l->trait, l->face_start, l->face_vertex};
-    for (int i = 0; i < 11; i++) rg_mem_free(&mem, block[i]);
+    RG_MEM_FREE(&mem, l->line, l->title, l->author, l->editor, l->reference, l->memo, l->warning, l->vertex, l->trait,
+                l->face_start, l->face_vertex);
     if (l->frame) l->keeper->free(l->frame);
     memset(l, 0, sizeof *l);
 }

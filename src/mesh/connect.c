@@ -7,9 +7,9 @@ void rg_mesh_free(rg_mesh *m)
 {
     if (!m->mem.resize) return;
     rg_memory mem = m->mem;
-    void *block[] = {m->X, m->edge, m->assignment, m->target, m->still, m->edge_facet, m->facet_start, m->facet_vertex, m->facet_edge,
-                     m->crease_edge, m->edge_crease, m->inner_vertex, m->loop_start, m->loop_crease, m->loop_theta};
-    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&mem, block[i]);
+    RG_MEM_FREE(&mem, m->X, m->edge, m->assignment, m->target, m->still, m->edge_facet, m->facet_start, m->facet_vertex,
+                m->facet_edge, m->crease_edge, m->edge_crease, m->inner_vertex, m->loop_start, m->loop_crease,
+                m->loop_theta);
     memset(m, 0, sizeof *m);
 }
 
@@ -18,28 +18,14 @@ rg_status rg_mesh_copy(const rg_mesh *m, rg_mesh *out)
     rg_mesh copy = *m;
     const size_t nv = (size_t)m->nv, ne = (size_t)m->ne, nf = (size_t)m->nf, N = (size_t)m->N, M = (size_t)m->M;
     const size_t corners = (size_t)m->facet_start[m->nf], spokes = (size_t)m->loop_start[m->M];
-    struct { void **to; size_t n, size; } block[] = {
-        {(void **)&copy.X, nv, sizeof *m->X}, {(void **)&copy.edge, ne, sizeof *m->edge},
-        {(void **)&copy.assignment, ne, 1}, {(void **)&copy.still, ne, 1}, {(void **)&copy.target, ne, sizeof *m->target},
-        {(void **)&copy.edge_facet, ne, sizeof *m->edge_facet}, {(void **)&copy.facet_start, nf + 1, sizeof *m->facet_start},
-        {(void **)&copy.facet_vertex, corners, sizeof *m->facet_vertex},
-        {(void **)&copy.facet_edge, corners, sizeof *m->facet_edge},
-        {(void **)&copy.crease_edge, N, sizeof *m->crease_edge}, {(void **)&copy.edge_crease, ne, sizeof *m->edge_crease},
-        {(void **)&copy.inner_vertex, M, sizeof *m->inner_vertex},
-        {(void **)&copy.loop_start, M + 1, sizeof *m->loop_start},
-        {(void **)&copy.loop_crease, spokes, sizeof *m->loop_crease},
-        {(void **)&copy.loop_theta, spokes, sizeof *m->loop_theta}};
-    int ok = 1;
-    for (size_t i = 0; i < sizeof block / sizeof *block; i++) {
-        void *from = *block[i].to;
-        if (!from) continue;
-        *block[i].to = rg_mem_array(&m->mem, block[i].n, block[i].size);
-        if (*block[i].to) memcpy(*block[i].to, from, block[i].n * block[i].size);
-        else ok = 0;
-    }
-    if (!ok) rg_mesh_free(&copy);
-    *out = copy;
-    return ok ? RG_OK : RG_ENOMEM;
+    const rg_status s = RG_MEM_COPIES(
+        &m->mem, RG_ARRAY(copy.X, nv), RG_ARRAY(copy.edge, ne), RG_ARRAY(copy.assignment, ne), RG_ARRAY(copy.still, ne),
+        RG_ARRAY(copy.target, ne), RG_ARRAY(copy.edge_facet, ne), RG_ARRAY(copy.facet_start, nf + 1),
+        RG_ARRAY(copy.facet_vertex, corners), RG_ARRAY(copy.facet_edge, corners), RG_ARRAY(copy.crease_edge, N),
+        RG_ARRAY(copy.edge_crease, ne), RG_ARRAY(copy.inner_vertex, M), RG_ARRAY(copy.loop_start, M + 1),
+        RG_ARRAY(copy.loop_crease, spokes), RG_ARRAY(copy.loop_theta, spokes));
+    *out = s == RG_OK ? copy : (rg_mesh){0};
+    return s;
 }
 
 void rg_mesh_sectors_at(const rg_mesh *m, int32_t k, const rg_vec2 *X, double *theta)
@@ -61,10 +47,8 @@ void rg_mesh_sectors(const rg_mesh *m, const rg_vec2 *X, double *theta)
 
 static rg_status join_facets(rg_mesh *m)
 {
-    m->edge_facet = rg_mem_array(&m->mem, (size_t)m->ne, sizeof *m->edge_facet);
-    m->edge_crease = rg_mem_array(&m->mem, (size_t)m->ne, sizeof *m->edge_crease);
-    m->crease_edge = rg_mem_array(&m->mem, (size_t)m->ne, sizeof *m->crease_edge);
-    if (!m->edge_facet || !m->edge_crease || !m->crease_edge) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->edge_facet, (size_t)m->ne), RG_ARRAY(m->edge_crease, (size_t)m->ne),
+                      RG_ARRAY(m->crease_edge, (size_t)m->ne)) != RG_OK) return RG_ENOMEM;
     for (int32_t e = 0; e < m->ne; e++) m->edge_facet[e][0] = m->edge_facet[e][1] = -1;
     for (int32_t f = 0; f < m->nf; f++)
         for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) {
@@ -86,9 +70,9 @@ static rg_status join_facets(rg_mesh *m)
 static rg_status walk_loops(rg_mesh *m, const int32_t *inner)
 {
     const int32_t corners = m->facet_start[m->nf];
-    int32_t *leaving = rg_mem_array(&m->mem, (size_t)m->ne, 2 * sizeof *leaving);
-    int32_t *first = rg_mem_array(&m->mem, (size_t)m->nv, sizeof *first), *before = rg_mem_array(&m->mem, (size_t)corners, sizeof *before);
-    rg_status s = leaving && first && before ? RG_OK : RG_ENOMEM;
+    int32_t *leaving, *first, *before;
+    rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(leaving, 2 * (size_t)m->ne), RG_ARRAY(first, (size_t)m->nv),
+                                RG_ARRAY(before, (size_t)corners));
     if (s != RG_OK) goto out;
     for (int32_t v = 0; v < m->nv; v++) first[v] = -1;
     for (int32_t f = 0; f < m->nf; f++)
@@ -112,9 +96,7 @@ static rg_status walk_loops(rg_mesh *m, const int32_t *inner)
     }
     rg_mesh_sectors(m, m->X, m->loop_theta);
 out:
-    rg_mem_free(&m->mem, leaving);
-    rg_mem_free(&m->mem, first);
-    rg_mem_free(&m->mem, before);
+    RG_MEM_FREE(&m->mem, leaving, first, before);
     return s;
 }
 
@@ -129,11 +111,9 @@ rg_status rg_mesh_connect(rg_mesh *m)
         if (m->edge_crease[e] < 0) inner[m->edge[e][0]] = inner[m->edge[e][1]] = 0;
     for (int32_t v = 0; v < m->nv; v++) m->M += inner[v];
     for (int32_t i = 0; i < m->N; i++) spokes += inner[m->edge[m->crease_edge[i]][0]] + inner[m->edge[m->crease_edge[i]][1]];
-    m->inner_vertex = rg_mem_array(&m->mem, (size_t)m->M, sizeof *m->inner_vertex);
-    m->loop_start = rg_mem_array(&m->mem, (size_t)m->M + 1, sizeof *m->loop_start);
-    m->loop_crease = rg_mem_array(&m->mem, (size_t)spokes, sizeof *m->loop_crease);
-    m->loop_theta = rg_mem_array(&m->mem, (size_t)spokes, sizeof *m->loop_theta);
-    s = m->inner_vertex && m->loop_start && m->loop_crease && m->loop_theta ? walk_loops(m, inner) : RG_ENOMEM;
+    s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->inner_vertex, (size_t)m->M), RG_ARRAY(m->loop_start, (size_t)m->M + 1),
+                      RG_ARRAY(m->loop_crease, (size_t)spokes), RG_ARRAY(m->loop_theta, (size_t)spokes));
+    if (s == RG_OK) s = walk_loops(m, inner);
     rg_mem_free(&m->mem, inner);
     return s;
 }

@@ -7,36 +7,30 @@
 
 static rg_status copy_edges(const rg_pattern *p, rg_mesh *m)
 {
+    const size_t ne = (size_t)p->ne;
     m->nv = p->nv;
     m->ne = p->ne;
-    m->X = rg_mem_array(&m->mem, (size_t)p->nv, sizeof *m->X);
-    m->edge = rg_mem_array(&m->mem, (size_t)p->ne, sizeof *m->edge);
-    m->assignment = rg_mem_array(&m->mem, (size_t)p->ne, 1);
-    m->target = rg_mem_array(&m->mem, (size_t)p->ne, sizeof *m->target);
-    m->still = p->still ? rg_mem_array(&m->mem, (size_t)p->ne, 1) : NULL;
-    if (!m->X || !m->edge || !m->assignment || !m->target || (p->still && !m->still)) return RG_ENOMEM;
-    if (m->still) memcpy(m->still, p->still, (size_t)p->ne);
-    memcpy(m->X, p->X, (size_t)p->nv * sizeof *m->X);
-    for (int32_t e = 0; e < p->ne; e++) {
+    m->X = p->X;
+    m->still = p->still;
+    rg_status s = RG_MEM_COPIES(&m->mem, RG_ARRAY(m->X, (size_t)p->nv), RG_ARRAY(m->still, ne));
+    if (s == RG_OK) s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->edge, ne), RG_ARRAY(m->assignment, ne), RG_ARRAY(m->target, ne));
+    for (int32_t e = 0; s == RG_OK && e < p->ne; e++) {
         memcpy(m->edge[e], p->E[e].v, sizeof m->edge[e]);
         m->assignment[e] = p->E[e].assignment;
         m->target[e] = p->E[e].target;
     }
-    return RG_OK;
+    return s;
 }
 
 static rg_status copy_facets(const rg_pattern *p, rg_mesh *m)
 {
     const size_t nf = (size_t)p->plane.facets, corners = (size_t)p->facet_start[nf];
     m->nf = p->plane.facets;
-    m->facet_start = rg_mem_array(&m->mem, nf + 1, sizeof *m->facet_start);
-    m->facet_vertex = rg_mem_array(&m->mem, corners, sizeof *m->facet_vertex);
-    m->facet_edge = rg_mem_array(&m->mem, corners, sizeof *m->facet_edge);
-    if (!m->facet_start || !m->facet_vertex || !m->facet_edge) return RG_ENOMEM;
-    memcpy(m->facet_start, p->facet_start, (nf + 1) * sizeof *m->facet_start);
-    memcpy(m->facet_vertex, p->facet_vertex, corners * sizeof *m->facet_vertex);
-    memcpy(m->facet_edge, p->facet_edge, corners * sizeof *m->facet_edge);
-    return RG_OK;
+    m->facet_start = p->facet_start;
+    m->facet_vertex = p->facet_vertex;
+    m->facet_edge = p->facet_edge;
+    return RG_MEM_COPIES(&m->mem, RG_ARRAY(m->facet_start, nf + 1), RG_ARRAY(m->facet_vertex, corners),
+                         RG_ARRAY(m->facet_edge, corners));
 }
 
 rg_status rg_mesh_from_pattern(const rg_pattern *p, const rg_memory *mem, rg_mesh *m, rg_diag *why)

@@ -16,8 +16,8 @@ void rg_symmetry_free(rg_symmetry *G)
 {
     if (!G->mem.resize) return;
     const rg_memory mem = G->mem;
-    void *block[] = {G->A, G->vertex, G->edge, G->crease, G->facet, G->vertex_orbit, G->edge_orbit, G->crease_orbit, G->facet_orbit};
-    for (int i = 0; i < 9; i++) rg_mem_free(&mem, block[i]);
+    RG_MEM_FREE(&mem, G->A, G->vertex, G->edge, G->crease, G->facet, G->vertex_orbit, G->edge_orbit, G->crease_orbit,
+                G->facet_orbit);
     memset(G, 0, sizeof *G);
 }
 
@@ -235,8 +235,8 @@ static rg_status find_within(rg_symmetry *G, const rg_memory *mem, const rg_mesh
     *found = 0;
     rg_status s = rg_maps_find(&all, mem, m->nv, m->X, m->ne, E, tol);
     if (s != RG_OK) return s;
-    place *turn = rg_mem_array(mem, (size_t)all.count, sizeof *turn), *mirror = rg_mem_array(mem, (size_t)all.count, sizeof *mirror);
-    s = turn && mirror ? RG_OK : RG_ENOMEM;
+    place *turn, *mirror;
+    s = RG_MEM_ARRAYS(mem, RG_ARRAY(turn, (size_t)all.count), RG_ARRAY(mirror, (size_t)all.count));
     if (s == RG_OK) {
         const int32_t turns = sort(&all, 0, turn), mirrors = sort(&all, 1, mirror);
         if (turns > 0 && is_group(&all, turn, turns, mirror, mirrors)) {
@@ -245,8 +245,7 @@ static rg_status find_within(rg_symmetry *G, const rg_memory *mem, const rg_mesh
             if (s == RG_EARG) s = RG_OK;
         }
     }
-    rg_mem_free(mem, turn);
-    rg_mem_free(mem, mirror);
+    RG_MEM_FREE(mem, turn, mirror);
     rg_maps_free(&all);
     return s;
 }

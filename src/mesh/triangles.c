@@ -58,16 +58,11 @@ rg_status rg_triangles_init(const rg_memory *memory, const rg_mesh *m, rg_triang
     rg_status s = rg_triangulate_all(m, &T);
     if (s != RG_OK) return s;
     const size_t nf = (size_t)m->nf, nt = (size_t)T.nf;
-    int32_t *owner = rg_mem_array(&mem, 2 * nt, sizeof *owner);
-    t->start = rg_mem_array(&mem, nf + 1, sizeof *t->start);
-    t->v = rg_mem_array(&mem, nt, sizeof *t->v);
-    t->largest = rg_mem_array(&mem, nf, sizeof *t->largest);
-    if (owner && t->start && t->v && t->largest) {
+    int32_t *owner;
+    s = RG_MEM_ARRAYS(&mem, RG_ARRAY(owner, 2 * nt), RG_ARRAY(t->start, nf + 1), RG_ARRAY(t->v, nt), RG_ARRAY(t->largest, nf));
+    if (s == RG_OK) {
         find_owners(m, &T, owner, owner + nt);
         sort_by_owner(m, &T, owner, t);
-    } else {
-        rg_triangles_free(t);
-        s = RG_ENOMEM;
     }
     rg_mem_free(&mem, owner);
     rg_mesh_free(&T);
@@ -76,8 +71,6 @@ rg_status rg_triangles_init(const rg_memory *memory, const rg_mesh *m, rg_triang
 
 void rg_triangles_free(rg_triangles *t)
 {
-    rg_mem_free(&t->mem, t->start);
-    rg_mem_free(&t->mem, t->v);
-    rg_mem_free(&t->mem, t->largest);
+    RG_MEM_FREE(&t->mem, t->start, t->v, t->largest);
     *t = (rg_triangles){.mem = t->mem};
 }

@@ -335,21 +335,14 @@ static rg_status cut_all(const rg_mesh *m, const rg_symmetry *G, int split, cons
 {
     const size_t n = (size_t)most, table = (size_t)(most < RG_POLYGON_LARGEST ? most : RG_POLYGON_LARGEST);
     cutter c = {.m = m, .G = G, .split = split, .which = which, .out = out, .p.X = out->X};
-    c.inside = rg_mem_array(&m->mem, (size_t)m->facet_start[m->nf], 1);
-    c.of = rg_mem_array(&m->mem, n, sizeof *c.of);
-    c.p.v = rg_mem_array(&m->mem, n, sizeof *c.p.v);
-    c.p.e = rg_mem_array(&m->mem, n, sizeof *c.p.e);
-    c.w.cost = rg_mem_array(&m->mem, table * table, sizeof *c.w.cost);
-    c.w.apex = rg_mem_array(&m->mem, table * table, sizeof *c.w.apex);
-    c.at = rg_mem_array(&m->mem, (size_t)m->nv, sizeof *c.at);
-    c.chord = rg_mem_array(&m->mem, n, 3 * sizeof *c.chord);
-    c.made = rg_mem_array(&m->mem, (size_t)m->nf, sizeof *c.made);
-    rg_status s = c.inside && c.of && c.p.v && c.p.e && c.w.cost && c.w.apex && c.at && c.chord && c.made ? RG_OK : RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(c.inside, (size_t)m->facet_start[m->nf]), RG_ARRAY(c.of, n),
+                                RG_ARRAY(c.p.v, n), RG_ARRAY(c.p.e, n), RG_ARRAY(c.w.cost, table * table),
+                                RG_ARRAY(c.w.apex, table * table), RG_ARRAY(c.at, (size_t)m->nv),
+                                RG_ARRAY(c.chord, 3 * n), RG_ARRAY(c.made, (size_t)m->nf));
     if (s == RG_OK && split) s = rg_inside_find(m, c.inside);
     if (s == RG_OK) cut_facets(&c);
     if (s == RG_OK && next) tell_next(&c, next);
-    void *block[] = {c.inside, c.of, c.p.v, c.p.e, c.w.cost, c.w.apex, c.at, c.chord, c.made};
-    for (int i = 0; i < 9; i++) rg_mem_free(&m->mem, block[i]);
+    RG_MEM_FREE(&m->mem, c.inside, c.of, c.p.v, c.p.e, c.w.cost, c.w.apex, c.at, c.chord, c.made);
     return s;
 }
 
@@ -370,16 +363,11 @@ static rg_status triangulate(const rg_mesh *m, const rg_symmetry *G, int split, 
     out->nv = m->nv;
     out->ne = m->ne;
     out->added = m->added;
-    out->X = rg_mem_array(&m->mem, (size_t)m->nv, sizeof *out->X);
-    out->edge = rg_mem_array(&m->mem, ne, sizeof *out->edge);
-    out->assignment = rg_mem_array(&m->mem, ne, 1);
-    out->target = rg_mem_array(&m->mem, ne, sizeof *out->target);
-    out->still = m->still ? rg_mem_array(&m->mem, ne, 1) : NULL;
-    out->facet_start = rg_mem_array(&m->mem, nf + 1, sizeof *out->facet_start);
-    out->facet_vertex = rg_mem_array(&m->mem, corners, sizeof *out->facet_vertex);
-    out->facet_edge = rg_mem_array(&m->mem, corners, sizeof *out->facet_edge);
-    rg_status s = RG_ENOMEM;
-    if (out->X && out->edge && out->assignment && out->target && (out->still || !m->still) && out->facet_start && out->facet_vertex && out->facet_edge) {
+    rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(out->X, (size_t)m->nv), RG_ARRAY(out->edge, ne), RG_ARRAY(out->assignment, ne),
+                                RG_ARRAY(out->target, ne), RG_ARRAY(out->facet_start, nf + 1),
+                                RG_ARRAY(out->facet_vertex, corners), RG_ARRAY(out->facet_edge, corners));
+    if (s == RG_OK && m->still) s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(out->still, ne));
+    if (s == RG_OK) {
         memcpy(out->X, m->X, (size_t)m->nv * sizeof *out->X);
         memcpy(out->edge, m->edge, (size_t)m->ne * sizeof *out->edge);
         memcpy(out->assignment, m->assignment, (size_t)m->ne);
@@ -405,9 +393,10 @@ rg_status rg_triangulate_orbits(const rg_mesh *m, const rg_symmetry *G, const un
 {
     if (!G || G->order == 1) return rg_triangulate_some(m, which, shorter, out);
     const size_t corners = (size_t)m->facet_start[m->nf];
-    unsigned char *now = rg_mem_array(&m->mem, corners, 1), *next = rg_mem_array(&m->mem, corners, 1);
+    unsigned char *now, *next;
     memset(out, 0, sizeof *out);
-    rg_status s = now && next ? triangulate(m, G, !shorter, which, next, out) : RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(now, corners), RG_ARRAY(next, corners));
+    if (s == RG_OK) s = triangulate(m, G, !shorter, which, next, out);
     /* What was cut across is cut on, as a sheet of its own. */
     while (s == RG_OK && memchr(next, 1, (size_t)out->nf)) {
         rg_mesh before = *out;
@@ -420,8 +409,7 @@ rg_status rg_triangulate_orbits(const rg_mesh *m, const rg_symmetry *G, const un
         rg_symmetry_free(&on);
         rg_mesh_free(&before);
     }
-    rg_mem_free(&m->mem, now);
-    rg_mem_free(&m->mem, next);
+    RG_MEM_FREE(&m->mem, now, next);
     return s;
 }
 

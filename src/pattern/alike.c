@@ -41,9 +41,8 @@ rg_status rg_alike_find(const rg_pattern *p, rg_alike *a)
 {
     rg_maps g;
     memset(a, 0, sizeof *a);
-    int32_t *edge_up = rg_mem_array(&p->mem, (size_t)p->ne, sizeof *edge_up);
-    int32_t *vertex_up = rg_mem_array(&p->mem, (size_t)p->nv, sizeof *vertex_up);
-    rg_status s = edge_up && vertex_up ? RG_OK : RG_ENOMEM;
+    int32_t *edge_up, *vertex_up;
+    rg_status s = RG_MEM_ARRAYS(&p->mem, RG_ARRAY(edge_up, (size_t)p->ne), RG_ARRAY(vertex_up, (size_t)p->nv));
     if (s == RG_OK) s = rg_maps_find(&g, &p->mem, p->nv, p->X, p->ne, p->E, RG_SAME_PLACE * p->info.size);
     if (s == RG_OK) {
         for (int32_t n = 0; n < g.count; n++) note(g.map[n].keeps ? &a->same : &a->exchanged, &g.map[n]);
@@ -51,7 +50,6 @@ rg_status rg_alike_find(const rg_pattern *p, rg_alike *a)
         count_orbits(p, &g, edge_up, vertex_up, a);
         rg_maps_free(&g);
     }
-    rg_mem_free(&p->mem, edge_up);
-    rg_mem_free(&p->mem, vertex_up);
+    RG_MEM_FREE(&p->mem, edge_up, vertex_up);
     return s;
 }

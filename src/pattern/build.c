@@ -17,8 +17,7 @@ void rg_pattern_destroy(rg_pattern *p)
     rg_memory mem = p->mem;
     rg_lines_free(&p->lines);
     rg_source_free(&p->source);
-    void *block[] = {p->X, p->E, p->star_start, p->star, p->rim, p->closed, p->unfoldable, p->piece, p->still};
-    for (int i = 0; i < 9; i++) rg_mem_free(&mem, block[i]);
+    RG_MEM_FREE(&mem, p->X, p->E, p->star_start, p->star, p->rim, p->closed, p->unfoldable, p->piece, p->still);
     rg_plane_free(p);
     rg_mem_free(&mem, p);
 }

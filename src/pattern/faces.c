@@ -40,10 +40,9 @@ rg_status rg_star_init(rg_star *s, const rg_memory *mem, int32_t nv, int32_t ne,
 {
     memset(s, 0, sizeof *s);
     s->mem = *mem;
-    s->start = rg_mem_array(mem, (size_t)nv + 2, sizeof *s->start);
-    s->edge = rg_mem_array(mem, 2 * (size_t)ne, sizeof *s->edge);
-    spoke *spokes = rg_mem_array(mem, 2 * (size_t)ne, sizeof *spokes);
-    if (!s->start || !s->edge || !spokes) {
+    spoke *spokes;
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(s->start, (size_t)nv + 2), RG_ARRAY(s->edge, 2 * (size_t)ne),
+                      RG_ARRAY(spokes, 2 * (size_t)ne)) != RG_OK) {
         rg_mem_free(mem, spokes);
         return RG_ENOMEM;
     }
@@ -66,8 +65,7 @@ rg_status rg_star_init(rg_star *s, const rg_memory *mem, int32_t nv, int32_t ne,
 void rg_star_free(rg_star *s)
 {
     if (!s->mem.resize) return;
-    rg_mem_free(&s->mem, s->start);
-    rg_mem_free(&s->mem, s->edge);
+    RG_MEM_FREE(&s->mem, s->start, s->edge);
     memset(s, 0, sizeof *s);
 }
 
@@ -77,11 +75,8 @@ rg_status rg_faces_init(rg_faces *f, const rg_memory *mem, int32_t nv, int32_t n
     const int32_t halves = 2 * ne;
     memset(f, 0, sizeof *f);
     f->mem = *mem;
-    f->next = rg_mem_array(mem, (size_t)halves, sizeof *f->next);
-    f->face = rg_mem_array(mem, (size_t)halves, sizeof *f->face);
-    f->first = rg_mem_array(mem, (size_t)halves, sizeof *f->first);
-    f->area = rg_mem_array(mem, (size_t)halves, sizeof *f->area);
-    if (!f->next || !f->face || !f->first || !f->area) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(f->next, (size_t)halves), RG_ARRAY(f->face, (size_t)halves),
+                      RG_ARRAY(f->first, (size_t)halves), RG_ARRAY(f->area, (size_t)halves)) != RG_OK) return RG_ENOMEM;
     /* Arriving at v over an edge, the face on the left goes on over the edge before it, counter-clockwise. */
     for (int32_t v = 0; v < nv; v++)
         for (int32_t j = star_start[v]; j < star_start[v + 1]; j++) {
@@ -109,10 +104,7 @@ rg_status rg_faces_init(rg_faces *f, const rg_memory *mem, int32_t nv, int32_t n
 void rg_faces_free(rg_faces *f)
 {
     if (!f->mem.resize) return;
-    rg_mem_free(&f->mem, f->next);
-    rg_mem_free(&f->mem, f->face);
-    rg_mem_free(&f->mem, f->first);
-    rg_mem_free(&f->mem, f->area);
+    RG_MEM_FREE(&f->mem, f->next, f->face, f->first, f->area);
     memset(f, 0, sizeof *f);
 }
 

@@ -28,7 +28,6 @@ rg_status rg_graph_compact(rg_graph *g, const unsigned char *drop)
 void rg_graph_free(rg_graph *g)
 {
     if (!g->mem.resize) return;
-    rg_mem_free(&g->mem, g->X);
-    rg_mem_free(&g->mem, g->E);
+    RG_MEM_FREE(&g->mem, g->X, g->E);
     memset(g, 0, sizeof *g);
 }

@@ -79,10 +79,11 @@ static rg_status warn_of_all_loose(const rg_graph *g, rg_lines *lines, loose *to
  * edges at v, so that the last one of a vertex is known without a list. */
 rg_status rg_loose_drop(rg_graph *g, rg_lines *lines)
 {
-    int32_t *degree = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *degree);
-    int64_t *sum = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *sum);
-    unsigned char *drop = rg_mem_array(&g->mem, (size_t)g->ne, 1);
-    rg_status s = degree && sum && drop ? RG_OK : RG_ENOMEM;
+    int32_t *degree;
+    int64_t *sum;
+    unsigned char *drop;
+    rg_status s = RG_MEM_ARRAYS(&g->mem, RG_ARRAY(degree, (size_t)g->nv), RG_ARRAY(sum, (size_t)g->nv),
+                                RG_ARRAY(drop, (size_t)g->ne));
     for (int32_t e = 0; s == RG_OK && e < g->ne; e++)
         for (int i = 0; i < 2; i++) {
             degree[g->E[e].v[i]]++;
@@ -104,8 +105,6 @@ rg_status rg_loose_drop(rg_graph *g, rg_lines *lines)
         }
     if (s == RG_OK) s = warn_of_all_loose(g, lines, told, count);
     if (s == RG_OK && count + lone > 0) s = rg_graph_compact(g, drop);
-    rg_mem_free(&g->mem, degree);
-    rg_mem_free(&g->mem, sum);
-    rg_mem_free(&g->mem, drop);
+    RG_MEM_FREE(&g->mem, degree, sum, drop);
     return s;
 }

@@ -217,19 +217,15 @@ rg_status rg_maps_find(rg_maps *g, const rg_memory *mem, int32_t nv, const rg_ve
     memset(g, 0, sizeof *g);
     g->mem = *mem;
     g->nv = nv, g->ne = ne;
-    s.spots = rg_mem_array(mem, (size_t)nv, sizeof *s.spots);
-    s.edges = rg_mem_array(mem, (size_t)ne, sizeof *s.edges);
-    s.vertex_to = rg_mem_array(mem, (size_t)nv, sizeof *s.vertex_to);
-    s.edge_to = rg_mem_array(mem, (size_t)ne, sizeof *s.edge_to);
-    s.taken = rg_mem_array(mem, (size_t)nv, sizeof *s.taken);
-    rg_status status = s.spots && s.edges && s.vertex_to && s.edge_to && s.taken ? RG_OK : RG_ENOMEM;
+    rg_status status = RG_MEM_ARRAYS(mem, RG_ARRAY(s.spots, (size_t)nv), RG_ARRAY(s.edges, (size_t)ne),
+                                     RG_ARRAY(s.vertex_to, (size_t)nv), RG_ARRAY(s.edge_to, (size_t)ne),
+                                     RG_ARRAY(s.taken, (size_t)nv));
     if (status == RG_OK && nv > 0) {
         fill(&s);
         g->middle = s.middle;
         status = try_all(g, &s);
     }
-    void *block[] = {s.spots, s.edges, s.vertex_to, s.edge_to, s.taken};
-    for (int i = 0; i < 5; i++) rg_mem_free(mem, block[i]);
+    RG_MEM_FREE(mem, s.spots, s.edges, s.vertex_to, s.edge_to, s.taken);
     if (status != RG_OK) rg_maps_free(g);
     return status;
 }
@@ -237,8 +233,6 @@ rg_status rg_maps_find(rg_maps *g, const rg_memory *mem, int32_t nv, const rg_ve
 void rg_maps_free(rg_maps *g)
 {
     if (!g->mem.resize) return;
-    rg_mem_free(&g->mem, g->map);
-    rg_mem_free(&g->mem, g->vertex);
-    rg_mem_free(&g->mem, g->edge);
+    RG_MEM_FREE(&g->mem, g->map, g->vertex, g->edge);
     memset(g, 0, sizeof *g);
 }

@@ -252,11 +252,8 @@ rg_status rg_overlap_resolve(rg_lines *lines, const rg_vec2 *X, double tol, doub
     const rg_memory *mem = &lines->mem;
     const size_t n = (size_t)*ne;
     sweep s = {.lines = lines, .X = X, .E = *E, .ne = *ne, .tol = tol};
-    s.items = rg_mem_array(mem, n, sizeof *s.items);
-    s.events = rg_mem_array(mem, n, 2 * sizeof *s.events);
-    s.pieces = rg_mem_array(mem, n, 2 * sizeof *s.pieces);
-    s.state = rg_mem_array(mem, n, 1);
-    rg_status status = s.items && s.events && s.pieces && s.state ? RG_OK : RG_ENOMEM;
+    rg_status status = RG_MEM_ARRAYS(mem, RG_ARRAY(s.items, n), RG_ARRAY(s.events, 2 * n), RG_ARRAY(s.pieces, 2 * n),
+                                     RG_ARRAY(s.state, n));
     for (int k = 0; k < HEAPS; k++) {
         s.heaps[k].e = rg_mem_array(mem, n, sizeof *s.heaps[k].e);
         if (!s.heaps[k].e) status = RG_ENOMEM;
@@ -267,7 +264,6 @@ rg_status rg_overlap_resolve(rg_lines *lines, const rg_vec2 *X, double tol, doub
     }
     if (status == RG_OK) status = rg_overlap_warn_more(lines, s.told);
     if (status == RG_OK && s.piece_count > 0) status = put_together(&s, E, ne, room);
-    void *block[] = {s.items, s.events, s.pieces, s.state, s.heaps[0].e, s.heaps[1].e, s.heaps[2].e, s.heaps[3].e};
-    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(mem, block[i]);
+    RG_MEM_FREE(mem, s.items, s.events, s.pieces, s.state, s.heaps[0].e, s.heaps[1].e, s.heaps[2].e, s.heaps[3].e);
     return status;
 }

@@ -117,9 +117,7 @@ rg_status rg_pieces_find(rg_graph *g, const rg_lines *lines, int32_t take, rg_wa
     drawing d = {.g = g, .faces = &walk->faces};
     *piece = NULL;
     *pieces = 0;
-    d.of = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *d.of);
-    d.part = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *d.part);
-    rg_status s = d.of && d.part ? RG_OK : RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(&g->mem, RG_ARRAY(d.of, (size_t)g->nv), RG_ARRAY(d.part, (size_t)g->nv));
     if (s == RG_OK) s = rg_walk_make(walk, &g->mem, g->nv, g->ne, g->X, g->E);
     if (s == RG_OK) {
         find_parts(&d);
@@ -131,7 +129,6 @@ rg_status rg_pieces_find(rg_graph *g, const rg_lines *lines, int32_t take, rg_wa
         rg_walk_free(walk);
         s = take_one(&d, g, take - 1);
     }
-    rg_mem_free(&g->mem, d.of);
-    rg_mem_free(&g->mem, d.part);
+    RG_MEM_FREE(&g->mem, d.of, d.part);
     return s;
 }

@@ -159,8 +159,7 @@ static rg_status count_near(splitter *s, int32_t *list, int32_t *n)
         if (register_edge(s, e, COUNT)) list[(*n)++] = e;
         status = done(s, 1);
     }
-    rg_mem_free(&s->mem, at);
-    rg_mem_free(&s->mem, near);
+    RG_MEM_FREE(&s->mem, at, near);
     return status;
 }
 
@@ -175,13 +174,9 @@ static rg_status build_grid(splitter *s, rg_vec2 low, rg_vec2 high)
     s->side[0] = clamp(ceil(w / s->cell), (int32_t)side) + 1;
     s->side[1] = clamp(ceil(h / s->cell), (int32_t)side) + 1;
     const size_t cells = (size_t)s->side[0] * (size_t)s->side[1];
-    rg_mem_free(&s->mem, s->start);
-    rg_mem_free(&s->mem, s->in);
-    rg_mem_free(&s->mem, s->wanted);
+    RG_MEM_FREE(&s->mem, s->start, s->in, s->wanted);
     s->in = NULL;
-    s->start = rg_mem_array(&s->mem, cells + 2, sizeof *s->start);
-    s->wanted = rg_mem_array(&s->mem, cells, 1);
-    if (!s->start || !s->wanted) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&s->mem, RG_ARRAY(s->start, cells + 2), RG_ARRAY(s->wanted, cells)) != RG_OK) return RG_ENOMEM;
     for (int32_t e = 0; e < s->ne; e++)
         if (s->fresh[e]) register_edge(s, e, MARK);
     for (int32_t v = s->looked_at; v < s->points.count; v++) s->wanted[cell_of(s, s->points.X[v])] = 1;
@@ -380,14 +375,13 @@ static rg_status apply_cuts(splitter *s)
     rg_edge *E = NULL;
     size_t room = 0;
     int32_t n = 0, *start = NULL, fresh_count = 0;
-    unsigned char *fresh = rg_mem_array(&s->mem, (size_t)s->ne + s->cut_count, 1);
-    unsigned char *touched = rg_mem_array(&s->mem, (size_t)s->points.count, 1);
-    rg_status status = fresh && touched ? sort_cuts(s, &start) : RG_ENOMEM;
+    unsigned char *fresh, *touched;
+    rg_status status = RG_MEM_ARRAYS(&s->mem, RG_ARRAY(fresh, (size_t)s->ne + s->cut_count),
+                                     RG_ARRAY(touched, (size_t)s->points.count));
+    if (status == RG_OK) status = sort_cuts(s, &start);
     if (status == RG_OK) status = rg_mem_grow(&s->mem, (void **)&E, &room, (size_t)s->ne + s->cut_count, sizeof *E);
     if (status != RG_OK) {
-        rg_mem_free(&s->mem, fresh);
-        rg_mem_free(&s->mem, touched);
-        rg_mem_free(&s->mem, start);
+        RG_MEM_FREE(&s->mem, fresh, touched, start);
         return status;
     }
     for (int32_t e = 0; e < s->ne; e++) {
@@ -409,10 +403,7 @@ static rg_status apply_cuts(splitter *s)
         fresh_count += fresh[n] = (unsigned char)bent;
         E[n++] = rest;
     }
-    rg_mem_free(&s->mem, start);
-    rg_mem_free(&s->mem, s->E);
-    rg_mem_free(&s->mem, s->fresh);
-    rg_mem_free(&s->mem, s->touched);
+    RG_MEM_FREE(&s->mem, start, s->E, s->fresh, s->touched);
     s->E = E;
     s->fresh = fresh;
     s->touched = touched;
@@ -460,10 +451,11 @@ static void sort_edges(const splitter *s, int32_t *start, keyed *key)
 static rg_status merge_doubles(splitter *s, rg_lines *lines)
 {
     const int32_t nv = s->points.count;
-    keyed *key = rg_mem_array(&s->mem, (size_t)s->ne, sizeof *key);
-    int32_t *start = rg_mem_array(&s->mem, (size_t)nv + 2, sizeof *start);
-    unsigned char *drop = rg_mem_array(&s->mem, (size_t)s->ne, 1);
-    rg_status status = key && start && drop ? RG_OK : RG_ENOMEM;
+    keyed *key;
+    int32_t *start;
+    unsigned char *drop;
+    rg_status status = RG_MEM_ARRAYS(&s->mem, RG_ARRAY(key, (size_t)s->ne), RG_ARRAY(start, (size_t)nv + 2),
+                                     RG_ARRAY(drop, (size_t)s->ne));
     if (status == RG_OK) sort_edges(s, start, key);
     int told = 0;
     for (int32_t v = 0; status == RG_OK && v < nv; v++)
@@ -482,9 +474,7 @@ static rg_status merge_doubles(splitter *s, rg_lines *lines)
             if (!drop[e]) s->fresh[n] = s->fresh[e], s->E[n++] = s->E[e];
         s->ne = n;
     }
-    rg_mem_free(&s->mem, key);
-    rg_mem_free(&s->mem, start);
-    rg_mem_free(&s->mem, drop);
+    RG_MEM_FREE(&s->mem, key, start, drop);
     return status;
 }
 
@@ -649,14 +639,7 @@ static rg_status graph(rg_lines *lines, const rg_reading *settings, double merge
     }
     if (status == RG_ECANCELLED) rg_fail(status, why, 0, "%s", rg_status_text(status));
     rg_points_free(&s.points);
-    rg_mem_free(&s.mem, s.E);
-    rg_mem_free(&s.mem, s.cuts);
-    rg_mem_free(&s.mem, s.start);
-    rg_mem_free(&s.mem, s.in);
-    rg_mem_free(&s.mem, s.wanted);
-    rg_mem_free(&s.mem, s.fresh);
-    rg_mem_free(&s.mem, s.touched);
-    rg_mem_free(&s.mem, s.parent);
+    RG_MEM_FREE(&s.mem, s.E, s.cuts, s.start, s.in, s.wanted, s.fresh, s.touched, s.parent);
     return status;
 }
 

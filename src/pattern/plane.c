@@ -12,10 +12,9 @@ static const double ON_EDGE = 0.01;
 
 static rg_status find_facets(struct rg_pattern *p, const rg_faces *faces)
 {
-    p->facet_start = rg_mem_array(&p->mem, (size_t)faces->count + 1, sizeof *p->facet_start);
-    p->facet_vertex = rg_mem_array(&p->mem, 2 * (size_t)p->ne, sizeof *p->facet_vertex);
-    p->facet_edge = rg_mem_array(&p->mem, 2 * (size_t)p->ne, sizeof *p->facet_edge);
-    if (!p->facet_start || !p->facet_vertex || !p->facet_edge) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&p->mem, RG_ARRAY(p->facet_start, (size_t)faces->count + 1),
+                      RG_ARRAY(p->facet_vertex, 2 * (size_t)p->ne),
+                      RG_ARRAY(p->facet_edge, 2 * (size_t)p->ne)) != RG_OK) return RG_ENOMEM;
     int32_t at = 0;
     for (int32_t f = 0; f < faces->count; f++) {
         if (faces->area[f] < 0) continue;
@@ -45,11 +44,11 @@ static rg_status sort_facets(struct rg_pattern *p)
 {
     if (p->plane.facets == 0 || p->source.faces == 0) return RG_OK;
     const size_t corners = (size_t)p->facet_start[p->plane.facets];
-    int32_t *was = rg_mem_array(&p->mem, (size_t)p->plane.facets, sizeof *was), *old[3] = {p->facet_start, p->facet_vertex, p->facet_edge};
-    place *at = rg_mem_array(&p->mem, (size_t)p->plane.facets, sizeof *at);
-    int32_t *start = rg_mem_array(&p->mem, (size_t)p->plane.facets + 1, sizeof *start);
-    int32_t *vertex = rg_mem_array(&p->mem, corners, sizeof *vertex), *edge = rg_mem_array(&p->mem, corners, sizeof *edge);
-    rg_status s = was && at && start && vertex && edge ? RG_OK : RG_ENOMEM;
+    const size_t facets = (size_t)p->plane.facets;
+    int32_t *was, *start, *vertex, *edge, *old[3] = {p->facet_start, p->facet_vertex, p->facet_edge};
+    place *at;
+    rg_status s = RG_MEM_ARRAYS(&p->mem, RG_ARRAY(was, facets), RG_ARRAY(at, facets), RG_ARRAY(start, facets + 1),
+                                RG_ARRAY(vertex, corners), RG_ARRAY(edge, corners));
     if (s == RG_OK) s = rg_source_faces(&p->source, p->plane.facets, p->facet_start, p->facet_vertex, was);
     if (s == RG_OK) {
         for (int32_t f = 0; f < p->plane.facets; f++) at[f] = (place){was[f], f};
@@ -62,10 +61,9 @@ static rg_status sort_facets(struct rg_pattern *p)
         }
         p->facet_start = start, p->facet_vertex = vertex, p->facet_edge = edge;
     }
-    int32_t *const gone[3] = {s == RG_OK ? old[0] : start, s == RG_OK ? old[1] : vertex, s == RG_OK ? old[2] : edge};
-    for (int i = 0; i < 3; i++) rg_mem_free(&p->mem, gone[i]);
-    rg_mem_free(&p->mem, was);
-    rg_mem_free(&p->mem, at);
+    if (s == RG_OK) RG_MEM_FREE(&p->mem, old[0], old[1], old[2]);
+    else RG_MEM_FREE(&p->mem, start, vertex, edge);
+    RG_MEM_FREE(&p->mem, was, at);
     return s;
 }
 
@@ -74,11 +72,8 @@ static rg_status sort_facets(struct rg_pattern *p)
 static rg_status lend_edges(struct rg_pattern *p)
 {
     const size_t ne = (size_t)p->ne;
-    p->ends = rg_mem_array(&p->mem, ne, sizeof *p->ends);
-    p->letter = rg_mem_array(&p->mem, ne + 1, 1);
-    p->target = rg_mem_array(&p->mem, ne, sizeof *p->target);
-    p->where = rg_mem_array(&p->mem, ne, sizeof *p->where);
-    if (!p->ends || !p->letter || !p->target || !p->where) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&p->mem, RG_ARRAY(p->ends, ne), RG_ARRAY(p->letter, ne + 1), RG_ARRAY(p->target, ne),
+                      RG_ARRAY(p->where, ne)) != RG_OK) return RG_ENOMEM;
     for (int32_t e = 0; e < p->ne; e++) {
         memcpy(p->ends[e], p->E[e].v, sizeof p->ends[e]);
         p->letter[e] = p->E[e].assignment;
@@ -106,8 +101,7 @@ rg_status rg_plane_lend(struct rg_pattern *p)
 
 void rg_plane_free(struct rg_pattern *p)
 {
-    void *block[] = {p->ends, p->letter, p->target, p->where, p->facet_start, p->facet_vertex, p->facet_edge};
-    for (int i = 0; i < 7; i++) rg_mem_free(&p->mem, block[i]);
+    RG_MEM_FREE(&p->mem, p->ends, p->letter, p->target, p->where, p->facet_start, p->facet_vertex, p->facet_edge);
 }
 
 const rg_plane *rg_pattern_get_plane(const rg_pattern *p) { return &p->plane; }

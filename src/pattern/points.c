@@ -27,10 +27,7 @@ rg_status rg_points_init(rg_points *p, const rg_memory *mem, rg_vec2 origin, dou
 void rg_points_free(rg_points *p)
 {
     if (!p->mem.resize) return;
-    rg_mem_free(&p->mem, p->X);
-    rg_mem_free(&p->mem, p->next);
-    rg_mem_free(&p->mem, p->head);
-    rg_mem_free(&p->mem, p->spread);
+    RG_MEM_FREE(&p->mem, p->X, p->next, p->head, p->spread);
     memset(p, 0, sizeof *p);
 }
 

@@ -129,10 +129,11 @@ static int join(const rg_graph *g, int32_t v, const rg_edge *e, const rg_edge *f
  * hardly off its neighbours' line, do not become one chord. */
 static rg_status dissolve(rg_graph *g, double tol)
 {
-    double *swell = rg_mem_array(&g->mem, (size_t)g->ne, sizeof *swell);
-    int32_t *at = rg_mem_array(&g->mem, (size_t)g->nv, 2 * sizeof *at), *degree = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *degree);
-    unsigned char *drop = rg_mem_array(&g->mem, (size_t)g->ne, 1);
-    rg_status s = at && degree && drop && swell ? RG_OK : RG_ENOMEM;
+    double *swell;
+    int32_t *at, *degree;
+    unsigned char *drop;
+    rg_status s = RG_MEM_ARRAYS(&g->mem, RG_ARRAY(swell, (size_t)g->ne), RG_ARRAY(at, 2 * (size_t)g->nv),
+                                RG_ARRAY(degree, (size_t)g->nv), RG_ARRAY(drop, (size_t)g->ne));
     for (int32_t e = 0; s == RG_OK && e < g->ne; e++)
         for (int i = 0; i < 2; i++) {
             const int32_t v = g->E[e].v[i];
@@ -153,10 +154,7 @@ static rg_status dissolve(rg_graph *g, double tol)
             if (at[2 * w + i] == f && degree[w] == 2) at[2 * w + i] = e;
     }
     if (s == RG_OK) s = rg_graph_compact(g, drop);
-    rg_mem_free(&g->mem, at);
-    rg_mem_free(&g->mem, degree);
-    rg_mem_free(&g->mem, drop);
-    rg_mem_free(&g->mem, swell);
+    RG_MEM_FREE(&g->mem, at, degree, drop, swell);
     return s;
 }
 
@@ -186,8 +184,8 @@ static rg_status assign_border(rg_graph *g, const unsigned char *outer, rg_lines
 rg_status rg_sheet_from_graph(rg_graph *g, rg_walk *walk, double tol, rg_lines *lines, rg_pattern_info *info, unsigned char **rim_out)
 {
     const rg_faces *faces = &walk->faces;
-    unsigned char *rim = rg_mem_array(&g->mem, (size_t)g->nv, 1), *outer = rg_mem_array(&g->mem, (size_t)g->ne, 1);
-    rg_status s = rim && outer ? RG_OK : RG_ENOMEM;
+    unsigned char *rim, *outer;
+    rg_status s = RG_MEM_ARRAYS(&g->mem, RG_ARRAY(rim, (size_t)g->nv), RG_ARRAY(outer, (size_t)g->ne));
     info->is_disk = 1;
     info->not_disk[0] = 0;
     if (s == RG_OK) s = rg_walk_make(walk, &g->mem, g->nv, g->ne, g->X, g->E);
@@ -204,8 +202,7 @@ rg_status rg_sheet_from_graph(rg_graph *g, rg_walk *walk, double tol, rg_lines *
     if (s == RG_OK) s = check_inside(g, faces, outer, lines, info);
     if (s == RG_OK) s = assign_border(g, outer, lines, info);
     if (s == RG_OK) s = dissolve(g, tol);
-    rg_mem_free(&g->mem, rim);
-    rg_mem_free(&g->mem, outer);
+    RG_MEM_FREE(&g->mem, rim, outer);
     if (s != RG_OK) return s;
     *rim_out = rim = rg_mem_array(&g->mem, (size_t)g->nv, 1);
     if (!rim) return RG_ENOMEM;

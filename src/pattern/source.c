@@ -36,10 +36,11 @@ static int by_number(const void *a, const void *b)
 rg_status rg_source_sort(rg_graph *g, const rg_lines *lines)
 {
     if (!lines->vertex || g->nv == 0) return RG_OK;
-    int32_t *of = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *of);
-    place *at = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *at);
-    rg_vec2 *X = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *X);
-    const rg_status s = of && at && X ? RG_OK : RG_ENOMEM;
+    int32_t *of;
+    place *at;
+    rg_vec2 *X;
+    const rg_status s = RG_MEM_ARRAYS(&g->mem, RG_ARRAY(of, (size_t)g->nv), RG_ARRAY(at, (size_t)g->nv),
+                                      RG_ARRAY(X, (size_t)g->nv));
     if (s == RG_OK) {
         rg_source_vertices(g, lines, of);
         for (int32_t v = 0; v < g->nv; v++) at[v] = (place){of[v], v};
@@ -49,19 +50,15 @@ rg_status rg_source_sort(rg_graph *g, const rg_lines *lines)
         for (int32_t e = 0; e < g->ne; e++)
             for (int i = 0; i < 2; i++) g->E[e].v[i] = of[g->E[e].v[i]];
     }
-    rg_mem_free(&g->mem, of);
-    rg_mem_free(&g->mem, at);
-    rg_mem_free(&g->mem, X);
+    RG_MEM_FREE(&g->mem, of, at, X);
     return s;
 }
 
 rg_status rg_source_init(rg_source *s, const rg_graph *g, rg_lines *lines)
 {
     *s = (rg_source){.mem = g->mem, .nv = g->nv, .ne = g->ne};
-    s->vertex = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *s->vertex);
-    s->edge = rg_mem_array(&g->mem, (size_t)g->ne, sizeof *s->edge);
-    s->where = rg_mem_array(&g->mem, (size_t)g->ne, sizeof *s->where);
-    if (!s->vertex || !s->edge || !s->where) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&g->mem, RG_ARRAY(s->vertex, (size_t)g->nv), RG_ARRAY(s->edge, (size_t)g->ne),
+                      RG_ARRAY(s->where, (size_t)g->ne)) != RG_OK) return RG_ENOMEM;
     rg_source_vertices(g, lines, s->vertex);
     for (int32_t e = 0; e < g->ne; e++) s->edge[e] = g->E[e].line, s->where[e] = g->E[e].where;
     s->lines = lines->count;
@@ -104,12 +101,7 @@ rg_status rg_source_copy(const rg_source *s, const rg_memory *mem, rg_source *ou
 void rg_source_free(rg_source *s)
 {
     if (s->mem.resize) {
-        rg_mem_free(&s->mem, s->vertex);
-        rg_mem_free(&s->mem, s->edge);
-        rg_mem_free(&s->mem, s->where);
-        rg_mem_free(&s->mem, s->face_start);
-        rg_mem_free(&s->mem, s->face_vertex);
-        rg_mem_free(&s->mem, s->memo);
+        RG_MEM_FREE(&s->mem, s->vertex, s->edge, s->where, s->face_start, s->face_vertex, s->memo);
     }
     if (s->frame) s->keeper->free(s->frame);
     memset(s, 0, sizeof *s);
@@ -121,8 +113,7 @@ rg_status rg_source_follow(rg_source *s, int32_t nv, const int32_t *vertex, int3
     int32_t *of_edge = s->edge ? rg_mem_array(&s->mem, (size_t)ne, sizeof *of_edge) : NULL;
     int32_t *where = s->where ? rg_mem_array(&s->mem, (size_t)ne, sizeof *where) : NULL;
     if ((s->vertex && !of_vertex) || (s->edge && !of_edge) || (s->where && !where)) {
-        void *block[] = {of_vertex, of_edge, where};
-        for (int i = 0; i < 3; i++) rg_mem_free(&s->mem, block[i]);
+        RG_MEM_FREE(&s->mem, of_vertex, of_edge, where);
         return RG_ENOMEM;
     }
     for (int32_t v = 0; of_vertex && v < nv; v++) of_vertex[v] = vertex[v] >= 0 && vertex[v] < s->nv ? s->vertex[vertex[v]] : -1;

@@ -54,16 +54,12 @@ rg_status rg_tree_init(const rg_mesh *m, int32_t fixed_facet, rg_tree *t)
     if (fixed_facet < -1 || fixed_facet >= m->nf) return RG_EARG;
     t->mem = m->mem;
     t->nf = m->nf;
-    t->order = rg_mem_array(&m->mem, (size_t)m->nf, sizeof *t->order);
-    t->via = rg_mem_array(&m->mem, (size_t)m->nf, sizeof *t->via);
-    t->hinge = rg_mem_array(&m->mem, (size_t)m->nf, sizeof *t->hinge);
     t->nv = m->nv;
-    t->corner_start = rg_mem_array(&m->mem, (size_t)m->nv + 2, sizeof *t->corner_start);
-    t->corner_facet = rg_mem_array(&m->mem, (size_t)m->facet_start[m->nf], sizeof *t->corner_facet);
-    if (!t->order || !t->via || !t->hinge || !t->corner_start || !t->corner_facet) {
-        rg_tree_free(t);
-        return RG_ENOMEM;
-    }
+    const size_t nf = (size_t)m->nf;
+    const rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(t->order, nf), RG_ARRAY(t->via, nf), RG_ARRAY(t->hinge, nf),
+                                      RG_ARRAY(t->corner_start, (size_t)m->nv + 2),
+                                      RG_ARRAY(t->corner_facet, (size_t)m->facet_start[m->nf]));
+    if (s != RG_OK) return s;
     const int32_t unseen = -2;
     for (int32_t f = 0; f < m->nf; f++) t->via[f] = unseen;
     int32_t first = fixed_facet < 0 ? facet_nearest_centre(m) : fixed_facet, count = 1;
@@ -87,11 +83,7 @@ rg_status rg_tree_init(const rg_mesh *m, int32_t fixed_facet, rg_tree *t)
 void rg_tree_free(rg_tree *t)
 {
     if (!t->mem.resize) return;
-    rg_mem_free(&t->mem, t->order);
-    rg_mem_free(&t->mem, t->via);
-    rg_mem_free(&t->mem, t->hinge);
-    rg_mem_free(&t->mem, t->corner_start);
-    rg_mem_free(&t->mem, t->corner_facet);
+    RG_MEM_FREE(&t->mem, t->order, t->via, t->hinge, t->corner_start, t->corner_facet);
     memset(t, 0, sizeof *t);
 }
 

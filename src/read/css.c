@@ -14,8 +14,7 @@ void rg_css_free(rg_css *css)
 {
     if (!css->mem.resize) return;
     for (int32_t i = 0; i < css->sheets; i++) rg_mem_free(&css->mem, css->sheet[i]);
-    rg_mem_free(&css->mem, css->sheet);
-    rg_mem_free(&css->mem, css->rule);
+    RG_MEM_FREE(&css->mem, css->sheet, css->rule);
     memset(css, 0, sizeof *css);
 }
 

@@ -98,8 +98,7 @@ static void find_line(const reader *r, rg_diag *d)
 
 static void forget(reader *r)
 {
-    void *block[] = {r->space, r->X, r->E, r->letter, r->angle, r->face_start, r->face_vertex, r->side};
-    for (int i = 0; i < 8; i++) rg_mem_free(&r->out->mem, block[i]);
+    RG_MEM_FREE(&r->out->mem, r->space, r->X, r->E, r->letter, r->angle, r->face_start, r->face_vertex, r->side);
     rg_value_free(r->frame);
     *r = (reader){.out = r->out, .why = r->why, .s = r->s, .text = r->text, .size = r->size, .root = r->root};
 }
@@ -183,10 +182,8 @@ static rg_status faces(reader *r)
     if (s != RG_OK || !v) return s;
     if (sides > MOST_ELEMENTS) return bad(r, "faces_vertices: too many");
     r->sides = (int32_t)sides;
-    r->face_start = rg_mem_array(&r->out->mem, (size_t)r->nf + 1, sizeof *r->face_start);
-    r->face_vertex = rg_mem_array(&r->out->mem, sides, sizeof *r->face_vertex);
-    r->side = rg_mem_array(&r->out->mem, sides, sizeof *r->side);
-    if (!r->face_start || !r->face_vertex || !r->side) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&r->out->mem, RG_ARRAY(r->face_start, (size_t)r->nf + 1), RG_ARRAY(r->face_vertex, sides),
+                      RG_ARRAY(r->side, sides)) != RG_OK) return RG_ENOMEM;
     for (int32_t f = 0; f < r->nf; f++) {
         const rg_value *row = rg_value_at(v, (size_t)f);
         const size_t n = rg_value_count(row);

@@ -67,8 +67,7 @@ rg_status rg_space_side(rg_space *q, rg_lines *lines, int32_t i)
 
 void rg_space_free(rg_space *q, const rg_memory *mem)
 {
-    rg_mem_free(mem, q->ends);
-    rg_mem_free(mem, q->side);
+    RG_MEM_FREE(mem, q->ends, q->side);
 }
 
 typedef struct ends { rg_vec2 low, high; int32_t line; } ends;

@@ -100,6 +100,5 @@ rg_status rg_tables_read_blocks(rg_tables *t, rg_pairs *p, const rg_memory *mem)
 
 void rg_tables_free(rg_tables *t, const rg_memory *mem)
 {
-    rg_mem_free(mem, t->layer);
-    rg_mem_free(mem, t->block);
+    RG_MEM_FREE(mem, t->layer, t->block);
 }

@@ -151,10 +151,7 @@ rg_status rg_canvas_init(const rg_memory *mem, int32_t width, int32_t height, si
             c->shared = 0;
         }
     }
-    c->vertex = rg_mem_array(mem, vertices, sizeof *c->vertex);
-    c->corner = rg_mem_array(mem, corners, sizeof *c->corner);
-    c->mark = rg_mem_array(mem, samples, sizeof *c->mark);
-    return c->vertex && c->corner && c->mark ? RG_OK : RG_ENOMEM;
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(c->vertex, vertices), RG_ARRAY(c->corner, corners), RG_ARRAY(c->mark, samples));
 }
 
 void rg_canvas_free(rg_canvas *c)
@@ -165,9 +162,7 @@ void rg_canvas_free(rg_canvas *c)
     if (c->shared) {
         munmap(c->vertex, c->shared);
     } else {
-        rg_mem_free(&c->mem, c->vertex);
-        rg_mem_free(&c->mem, c->corner);
-        rg_mem_free(&c->mem, c->mark);
+        RG_MEM_FREE(&c->mem, c->vertex, c->corner, c->mark);
     }
     memset(c, 0, sizeof *c);
     c->socket = -1;

@@ -51,19 +51,16 @@ rg_status rg_coplanar_init(rg_coplanar *c, const rg_memory *mem, const rg_mesh *
     const size_t nf = (size_t)m->nf;
     *c = (rg_coplanar){.mem = *mem, .mesh = m, .heads = 16};
     while (c->heads < 2 * nf) c->heads *= 2;
-    int32_t **array[] = {&c->by_area, &c->next, &c->group, &c->first, &c->member};
-    for (int i = 0; i < 5; i++)
-        if (!(*array[i] = rg_mem_array(mem, nf, sizeof **array[i]))) return RG_ENOMEM;
-    c->head = rg_mem_array(mem, c->heads, sizeof *c->head);
-    c->start = rg_mem_array(mem, nf + 1, sizeof *c->start);
-    return c->head && c->start ? sort_by_area(c) : RG_ENOMEM;
+    const rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(c->by_area, nf), RG_ARRAY(c->next, nf), RG_ARRAY(c->group, nf),
+                                      RG_ARRAY(c->first, nf), RG_ARRAY(c->member, nf), RG_ARRAY(c->head, c->heads),
+                                      RG_ARRAY(c->start, nf + 1));
+    return s == RG_OK ? sort_by_area(c) : s;
 }
 
 void rg_coplanar_free(rg_coplanar *c)
 {
     if (!c->mem.resize) return;
-    void *block[] = {c->by_area, c->head, c->next, c->group, c->first, c->start, c->member};
-    for (int i = 0; i < 7; i++) rg_mem_free(&c->mem, block[i]);
+    RG_MEM_FREE(&c->mem, c->by_area, c->head, c->next, c->group, c->first, c->start, c->member);
     memset(c, 0, sizeof *c);
 }
 

@@ -156,17 +156,14 @@ static rg_status painter_init(painter *p, studio *s)
 {
     const rg_picture *picture = &s->wish->picture;
     *p = (painter){.studio = s};
-    const rg_status status =
+    rg_status status =
         rg_render_create(&s->mem, &s->motion->mesh, &s->triangles, picture, s->wish->print, &p->render, s->why);
     if (status != RG_OK) return status;
-    p->x = rg_mem_array(&s->mem, (size_t)s->motion->mesh.nv, sizeof *p->x);
-    p->lift = rg_mem_array(&s->mem, (size_t)s->motion->mesh.nf, sizeof *p->lift);
-    p->rgb = rg_mem_array(&s->mem, (size_t)picture->width * (size_t)picture->height, 3);
-    const int tinted = s->tint.by != RG_COLOUR_PAPER;
-    if (tinted) p->tint = rg_mem_array(&s->mem, (size_t)s->motion->mesh.nf, sizeof *p->tint);
-    return p->x && p->lift && p->rgb && (p->tint || !tinted)
-               ? RG_OK
-               : rg_fail(RG_ENOMEM, s->why, 0, "out of memory for the picture");
+    const size_t nf = (size_t)s->motion->mesh.nf;
+    status = RG_MEM_ARRAYS(&s->mem, RG_ARRAY(p->x, (size_t)s->motion->mesh.nv), RG_ARRAY(p->lift, nf),
+                           RG_ARRAY(p->rgb, 3 * (size_t)picture->width * (size_t)picture->height));
+    if (status == RG_OK && s->tint.by != RG_COLOUR_PAPER) status = RG_MEM_ARRAYS(&s->mem, RG_ARRAY(p->tint, nf));
+    return status == RG_OK ? status : rg_fail(status, s->why, 0, "out of memory for the picture");
 }
 
 static void painter_free(painter *p)
@@ -174,10 +171,7 @@ static void painter_free(painter *p)
     if (!p->studio) return;
     const rg_memory *mem = &p->studio->mem;
     rg_render_destroy(p->render);
-    rg_mem_free(mem, p->x);
-    rg_mem_free(mem, p->lift);
-    rg_mem_free(mem, p->rgb);
-    rg_mem_free(mem, p->tint);
+    RG_MEM_FREE(mem, p->x, p->lift, p->rgb, p->tint);
     *p = (painter){0};
 }
 

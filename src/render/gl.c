@@ -268,8 +268,7 @@ void rg_gl_destroy(rg_gl *g)
 {
     if (!g) return;
     context_close(&g->context);
-    rg_mem_free(&g->mem, g->mark);
-    rg_mem_free(&g->mem, g);
+    RG_MEM_FREE(&g->mem, g->mark, g);
 }
 
 #else

@@ -27,13 +27,8 @@ rg_status rg_lift_create(const rg_memory *mem, const rg_motion *m, const rg_tria
     rg_lift *l = rg_mem_array(mem, 1, sizeof *l);
     if (!l) return RG_ENOMEM;
     *l = (rg_lift){.mem = *mem, .motion = m};
-    l->place = rg_mem_array(mem, nf, sizeof *l->place);
-    l->was = rg_mem_array(mem, nf, sizeof *l->was);
-    l->back = rg_mem_array(mem, nf, sizeof *l->back);
-    l->rho = rg_mem_array(mem, (size_t)m->mesh.N, sizeof *l->rho);
-    l->lift = rg_mem_array(mem, nf, sizeof *l->lift);
-    l->level = rg_mem_array(mem, nf, sizeof *l->level);
-    rg_status s = l->place && l->was && l->back && l->rho && l->lift && l->level ? RG_OK : RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(l->place, nf), RG_ARRAY(l->was, nf), RG_ARRAY(l->back, nf),
+                                RG_ARRAY(l->rho, (size_t)m->mesh.N), RG_ARRAY(l->lift, nf), RG_ARRAY(l->level, nf));
     if (s == RG_OK) s = rg_coplanar_init(&l->coplanar, mem, &m->mesh);
     if (s == RG_OK) s = rg_stack_init(&l->stack, mem, &m->mesh, t);
     if (s != RG_OK) {
@@ -49,8 +44,7 @@ void rg_lift_destroy(rg_lift *l)
     if (!l) return;
     rg_coplanar_free(&l->coplanar);
     rg_stack_free(&l->stack);
-    void *block[] = {l->place, l->was, l->back, l->rho, l->lift, l->level, l};
-    for (int i = 0; i < 7; i++) rg_mem_free(&l->mem, block[i]);
+    RG_MEM_FREE(&l->mem, l->place, l->was, l->back, l->rho, l->lift, l->level, l);
 }
 
 /* Where the facets lay a little before, each with its lift: those that lie on each other already stay in order. Before

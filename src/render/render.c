@@ -55,12 +55,11 @@ static rg_status allocate(rg_render *r)
     const size_t samples = (size_t)r->canvas.width * (size_t)r->canvas.height;
     if (p->see_through > 0 && !(r->count = rg_mem_array(&r->mem, samples, sizeof *r->count))) return RG_ENOMEM;
     if ((r->count || r->print) && !(r->colour = rg_mem_array(&r->mem, samples, sizeof *r->colour))) return RG_ENOMEM;
-    r->triangle = rg_mem_array(&r->mem, corners, sizeof *r->triangle);
-    uint32_t *corner_of = rg_mem_array(&r->mem, (size_t)m->nv, sizeof *corner_of);
-    const int all = r->triangle && corner_of;
-    if (all) plan(r, corner_of);
+    uint32_t *corner_of;
+    s = RG_MEM_ARRAYS(&r->mem, RG_ARRAY(r->triangle, corners), RG_ARRAY(corner_of, (size_t)m->nv));
+    if (s == RG_OK) plan(r, corner_of);
     rg_mem_free(&r->mem, corner_of);
-    return all ? RG_OK : RG_ENOMEM;
+    return s;
 }
 
 rg_status rg_render_create(const rg_memory *memory, const rg_mesh *m, const rg_triangles *t, const rg_picture *p,
@@ -89,8 +88,7 @@ void rg_render_destroy(rg_render *r)
     rg_seen_free(&r->seen);
     rg_shadow_free(&r->shadow);
     rg_canvas_free(&r->canvas);
-    void *block[] = {r->triangle, r->colour, r->count, r};
-    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&r->mem, block[i]);
+    RG_MEM_FREE(&r->mem, r->triangle, r->colour, r->count, r);
 }
 
 typedef struct area { /* pixels */

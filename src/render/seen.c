@@ -8,21 +8,16 @@ rg_status rg_seen_init(const rg_memory *mem, const rg_mesh *m, rg_gl_vertex *cor
 {
     const size_t nf = (size_t)m->nf;
     *s = (rg_seen){.mem = *mem, .mesh = m, .corner = corner};
-    s->box = rg_mem_array(mem, nf, sizeof *s->box);
-    s->front = rg_mem_array(mem, nf, 1);
-    s->wide = rg_mem_array(mem, nf, sizeof *s->wide);
-    s->light = rg_mem_array(mem, nf, sizeof *s->light);
-    s->paper = rg_mem_array(mem, nf + 1, sizeof *s->paper);
     for (int32_t f = 0; f < m->nf; f++)
         for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) corner[j].mark = 1 + (uint32_t)f;
-    return s->box && s->front && s->wide && s->light && s->paper ? RG_OK : RG_ENOMEM;
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(s->box, nf), RG_ARRAY(s->front, nf), RG_ARRAY(s->wide, nf), RG_ARRAY(s->light, nf),
+                         RG_ARRAY(s->paper, nf + 1));
 }
 
 void rg_seen_free(rg_seen *s)
 {
     if (!s->mem.resize) return;
-    void *block[] = {s->box, s->front, s->wide, s->light, s->paper};
-    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&s->mem, block[i]);
+    RG_MEM_FREE(&s->mem, s->box, s->front, s->wide, s->light, s->paper);
     memset(s, 0, sizeof *s);
 }
 

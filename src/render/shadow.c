@@ -15,16 +15,13 @@ static const double FLATTEST = 0.05;
 rg_status rg_shadow_init(const rg_memory *mem, rg_shadow *s)
 {
     *s = (rg_shadow){.mem = *mem};
-    s->dark = rg_mem_array(mem, SIDE * SIDE, sizeof *s->dark);
-    s->work = rg_mem_array(mem, SIDE, sizeof *s->work);
-    return s->dark && s->work ? RG_OK : RG_ENOMEM;
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(s->dark, SIDE * SIDE), RG_ARRAY(s->work, SIDE));
 }
 
 void rg_shadow_free(rg_shadow *s)
 {
     if (!s->mem.resize) return;
-    rg_mem_free(&s->mem, s->dark);
-    rg_mem_free(&s->mem, s->work);
+    RG_MEM_FREE(&s->mem, s->dark, s->work);
     memset(s, 0, sizeof *s);
 }
 

@@ -22,19 +22,15 @@ rg_status rg_stack_init(rg_stack *s, const rg_memory *mem, const rg_mesh *m, con
     for (int32_t i = 0; i < t->start[m->nf]; i++)
         area += 0.5 * rg_vec2_turn(m->X[t->v[i][0]], m->X[t->v[i][1]], m->X[t->v[i][2]]);
     s->spacing = sqrt(area / (POINTS + POINTS_A_FACET * m->nf));
-    int32_t **array[] = {&s->below, &s->rank, &s->start, &s->queue, &s->count};
-    for (int i = 0; i < 5; i++)
-        if (!(*array[i] = rg_mem_array(mem, nf + 1, sizeof **array[i]))) return RG_ENOMEM;
-    s->height = rg_mem_array(mem, nf, sizeof *s->height);
-    return s->height ? RG_OK : RG_ENOMEM;
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(s->below, nf + 1), RG_ARRAY(s->rank, nf + 1), RG_ARRAY(s->start, nf + 1),
+                         RG_ARRAY(s->queue, nf + 1), RG_ARRAY(s->count, nf + 1), RG_ARRAY(s->height, nf));
 }
 
 void rg_stack_free(rg_stack *s)
 {
     if (!s->mem.resize) return;
-    void *block[] = {s->sample, s->sorted, s->place, s->pair, s->below, s->rank,
-                     s->start, s->upper, s->queue, s->height, s->count};
-    for (int i = 0; i < 11; i++) rg_mem_free(&s->mem, block[i]);
+    RG_MEM_FREE(&s->mem, s->sample, s->sorted, s->place, s->pair, s->below, s->rank, s->start, s->upper, s->queue,
+                s->height, s->count);
     memset(s, 0, sizeof *s);
 }
 

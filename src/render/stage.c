@@ -262,17 +262,16 @@ rg_status rg_stage_init(const rg_memory *mem, const rg_motion *m, const rg_pictu
     const size_t nv = (size_t)m->mesh.nv;
     show seen = {.wide = p->width, .high = p->height};
     *s = (rg_stage){.mem = *mem, .motion = m, .azimuth = p->azimuth, .elevation = p->elevation};
-    s->place = rg_mem_array(mem, (size_t)m->report.frame_count, sizeof *s->place);
-    double *weight = rg_mem_array(mem, nv, sizeof *weight);
-    rg_vec3 *x = rg_mem_array(mem, 3 * nv, sizeof *x);
-    rg_status status = s->place && weight && x ? RG_OK : RG_ENOMEM;
+    double *weight;
+    rg_vec3 *x;
+    rg_status status = RG_MEM_ARRAYS(mem, RG_ARRAY(s->place, (size_t)m->report.frame_count), RG_ARRAY(weight, nv),
+                                     RG_ARRAY(x, 3 * nv));
     if (status == RG_OK) {
         weigh(&m->mesh, weight);
         status = put_all(s, weight, x, x + nv, x + 2 * nv, &seen);
     }
     if (status == RG_OK && !p->aimed) status = choose_view(s, &seen, x);
-    rg_mem_free(mem, weight);
-    rg_mem_free(mem, x);
+    RG_MEM_FREE(mem, weight, x);
     return status;
 }
 

@@ -455,12 +455,9 @@ rg_status rg_end_init(rg_end *e, const rg_memory *mem, rg_linkage *P, const doub
     memset(e, 0, sizeof *e);
     e->mem = *mem;
     e->keep = rules->keep;
-    e->z = rg_mem_array(mem, (size_t)P->n, sizeof *e->z);
-    e->x = rg_mem_array(mem, (size_t)m->nv, sizeof *e->x);
-    w.triangle = rg_mem_array(mem, (size_t)m->nf, sizeof *w.triangle);
-    w.corner = rg_mem_array(mem, (size_t)m->nf, sizeof *w.corner);
-    w.line = rg_mem_array(mem, (size_t)m->ne, sizeof *w.line);
-    rg_status s = e->z && e->x && w.triangle && w.corner && w.line ? RG_OK : RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(e->z, (size_t)P->n), RG_ARRAY(e->x, (size_t)m->nv),
+                                RG_ARRAY(w.triangle, (size_t)m->nf), RG_ARRAY(w.corner, (size_t)m->nf),
+                                RG_ARRAY(w.line, (size_t)m->ne));
     if (s == RG_OK) s = rg_sides_init(&e->sides, mem, m);
     if (s == RG_OK) {
         memcpy(e->z, z, (size_t)P->n * sizeof *z);
@@ -474,9 +471,7 @@ rg_status rg_end_init(rg_end *e, const rg_memory *mem, rg_linkage *P, const doub
         find_behind(&w);
         rg_sides_finish(&e->sides, e->x);
     }
-    rg_mem_free(mem, w.triangle);
-    rg_mem_free(mem, w.corner);
-    rg_mem_free(mem, w.line);
+    RG_MEM_FREE(mem, w.triangle, w.corner, w.line);
     return s;
 }
 
@@ -484,8 +479,7 @@ void rg_end_free(rg_end *e)
 {
     if (!e->mem.resize) return;
     rg_sides_free(&e->sides);
-    void *block[] = {e->z, e->row, e->x};
-    for (int i = 0; i < 3; i++) rg_mem_free(&e->mem, block[i]);
+    RG_MEM_FREE(&e->mem, e->z, e->row, e->x);
     memset(e, 0, sizeof *e);
 }
 

@@ -32,10 +32,9 @@ rg_status rg_interior_init(rg_interior *q, const rg_memory *mem, int32_t n)
     memset(q, 0, sizeof *q);
     q->mem = *mem;
     q->n = n;
-    double **vector[] = {&q->g, &q->v, &q->off, &q->dv};
-    int ok = 1;
-    for (int i = 0; i < 4; i++) ok &= (*vector[i] = rg_mem_array(mem, (size_t)n, sizeof(double))) != NULL;
-    rg_status s = ok ? rg_rows_init(&q->J, mem) : RG_ENOMEM;
+    const size_t all = (size_t)n;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(q->g, all), RG_ARRAY(q->v, all), RG_ARRAY(q->off, all), RG_ARRAY(q->dv, all));
+    if (s == RG_OK) s = rg_rows_init(&q->J, mem);
     if (s == RG_OK) s = rg_rows_init(&q->E, mem);
     if (s == RG_OK) s = rg_rows_init(&q->R, mem);
     if (s == RG_OK) s = rg_normal_init(&q->few, mem, n);
@@ -53,9 +52,9 @@ void rg_interior_free(rg_interior *q)
     rg_rows_free(&q->R);
     rg_normal_free(&q->few);
     rg_normal_free(&q->many);
-    void *block[] = {q->g,  q->c,  q->d,      q->of,     q->x,        q->slack, q->v,  q->base, q->many_base, q->Z,  q->M,  q->L,
-                     q->dx, q->dy, q->update, q->dslack, q->residual, q->both, q->before, q->off,  q->dv,        q->y,  q->Ev, q->weight, q->at, q->sum, q->inverse};
-    for (int i = 0; i < 27; i++) rg_mem_free(&q->mem, block[i]);
+    RG_MEM_FREE(&q->mem, q->g, q->c, q->d, q->of, q->x, q->slack, q->v, q->base, q->many_base, q->Z, q->M, q->L, q->dx,
+                q->dy, q->update, q->dslack, q->residual, q->both, q->before, q->off, q->dv, q->y, q->Ev, q->weight,
+                q->at, q->sum, q->inverse);
     memset(q, 0, sizeof *q);
 }
 

@@ -26,21 +26,10 @@ rg_status rg_linkage_init(rg_linkage *P, const rg_memory *mem, const rg_mesh *m)
     P->mem = *mem;
     P->mesh = m;
     const size_t nf = (size_t)m->nf, nv = (size_t)m->nv;
-    P->parent = rg_mem_array(mem, nf, sizeof *P->parent);
-    P->crease = rg_mem_array(mem, nf, sizeof *P->crease);
-    P->ends = rg_mem_array(mem, nf, sizeof *P->ends);
-    P->own = rg_mem_array(mem, nv, sizeof *P->own);
-    P->X = rg_mem_array(mem, nv, sizeof *P->X);
-    P->place = rg_mem_array(mem, nf, sizeof *P->place);
-    P->p = rg_mem_array(mem, nv, sizeof *P->p);
-    P->axis = rg_mem_array(mem, nf, sizeof *P->axis);
-    P->hinge = rg_mem_array(mem, nf, sizeof *P->hinge);
-    P->trial_X = rg_mem_array(mem, nv, sizeof *P->trial_X);
-    P->trial_place = rg_mem_array(mem, nf, sizeof *P->trial_place);
-    P->turn = rg_mem_array(mem, nf, sizeof *P->turn);
-    P->slip = rg_mem_array(mem, nf, sizeof *P->slip);
-    rg_status s = P->parent && P->crease && P->ends && P->own && P->X && P->place && P->p && P->axis && P->hinge && P->trial_X &&
-                          P->trial_place && P->turn && P->slip ? RG_OK : RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(P->parent, nf), RG_ARRAY(P->crease, nf), RG_ARRAY(P->ends, nf),
+                                RG_ARRAY(P->own, nv), RG_ARRAY(P->X, nv), RG_ARRAY(P->place, nf), RG_ARRAY(P->p, nv),
+                                RG_ARRAY(P->axis, nf), RG_ARRAY(P->hinge, nf), RG_ARRAY(P->trial_X, nv),
+                                RG_ARRAY(P->trial_place, nf), RG_ARRAY(P->turn, nf), RG_ARRAY(P->slip, nf));
     if (s == RG_OK) s = rg_freedom_init(&P->freedom, mem, m, 1);
     if (s == RG_OK) s = rg_coupled_init(&P->J, mem, m, &P->freedom, 0);
     if (s == RG_OK) s = rg_tree_init(m, -1, &P->tree);
@@ -61,9 +50,8 @@ void rg_linkage_free(rg_linkage *P)
     rg_tree_free(&P->tree);
     rg_coupled_free(&P->J);
     rg_freedom_free(&P->freedom);
-    void *block[] = {P->parent, P->crease, P->ends, P->own, P->X, P->place, P->p, P->axis, P->hinge, P->trial_X,
-                     P->trial_place, P->turn, P->slip};
-    for (int i = 0; i < 13; i++) rg_mem_free(&P->mem, block[i]);
+    RG_MEM_FREE(&P->mem, P->parent, P->crease, P->ends, P->own, P->X, P->place, P->p, P->axis, P->hinge, P->trial_X,
+                P->trial_place, P->turn, P->slip);
     memset(P, 0, sizeof *P);
 }
 

@@ -15,15 +15,12 @@ rg_status rg_nearest_init(rg_nearest *q, const rg_memory *mem, rg_linkage *P)
     memset(q, 0, sizeof *q);
     q->mem = *mem;
     q->P = P;
-    double **vector[] = {&q->scale, &q->y0, &q->y, &q->dz, &q->scratch, &q->wish};
-    int ok = 1;
-    for (int i = 0; i < 6; i++) ok &= (*vector[i] = rg_mem_array(mem, (size_t)P->n, sizeof(double))) != NULL;
-    q->right = rg_mem_array(mem, (size_t)P->J.A.rows, sizeof *q->right);
-    q->dp = rg_mem_array(mem, (size_t)P->mesh->nv, sizeof *q->dp);
-    const size_t features = (size_t)P->mesh->nv + (size_t)P->mesh->ne;
-    q->head = rg_mem_array(mem, features, sizeof *q->head);
-    for (size_t i = 0; q->head && i < features; i++) q->head[i] = -1;
-    const rg_status s = ok && q->right && q->dp && q->head ? rg_interior_init(&q->q, mem, rg_places_count(P)) : RG_ENOMEM;
+    const size_t n = (size_t)P->n, nv = (size_t)P->mesh->nv, features = nv + (size_t)P->mesh->ne;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(q->scale, n), RG_ARRAY(q->y0, n), RG_ARRAY(q->y, n), RG_ARRAY(q->dz, n),
+                                RG_ARRAY(q->scratch, n), RG_ARRAY(q->wish, n), RG_ARRAY(q->right, (size_t)P->J.A.rows),
+                                RG_ARRAY(q->dp, nv), RG_ARRAY(q->head, features));
+    for (size_t i = 0; s == RG_OK && i < features; i++) q->head[i] = -1;
+    if (s == RG_OK) s = rg_interior_init(&q->q, mem, rg_places_count(P));
     if (s != RG_OK) rg_nearest_free(q);
     return s;
 }
@@ -32,8 +29,7 @@ void rg_nearest_free(rg_nearest *q)
 {
     if (!q->mem.resize) return;
     rg_interior_free(&q->q);
-    void *block[] = {q->scale, q->row, q->active, q->y0, q->y, q->dz, q->scratch, q->wish, q->right, q->dp, q->head};
-    for (int i = 0; i < 11; i++) rg_mem_free(&q->mem, block[i]);
+    RG_MEM_FREE(&q->mem, q->scale, q->row, q->active, q->y0, q->y, q->dz, q->scratch, q->wish, q->right, q->dp, q->head);
     memset(q, 0, sizeof *q);
 }
 

@@ -227,10 +227,11 @@ static rg_status choose_as_seen(rg_passage *w)
     const int32_t N = w->P.N, count = w->track.count < SEEN ? w->track.count : SEEN;
     const size_t nv = (size_t)w->mesh.nv, n = (size_t)w->P.n;
     rg_tree tree = {0};
-    double *wish = rg_mem_array(&w->mem, (size_t)w->layers->pairs.count, sizeof *wish);
-    double *rho = rg_mem_array(&w->mem, ((size_t)count + 1) * (size_t)N, sizeof *rho);
-    rg_vec2 *X = rg_mem_array(&w->mem, ((size_t)count + 1) * nv, sizeof *X);
-    rg_status s = wish && rho && X ? rg_tree_init(&w->mesh, -1, &tree) : RG_ENOMEM;
+    double *wish, *rho;
+    rg_vec2 *X;
+    rg_status s = RG_MEM_ARRAYS(&w->mem, RG_ARRAY(wish, (size_t)w->layers->pairs.count),
+                                RG_ARRAY(rho, ((size_t)count + 1) * (size_t)N), RG_ARRAY(X, ((size_t)count + 1) * nv));
+    if (s == RG_OK) s = rg_tree_init(&w->mesh, -1, &tree);
     if (s == RG_OK) {
         for (int32_t k = 0; k <= count; k++) {
             const double *z = k < count ? w->track.z + (size_t)(w->track.count - count + k) * n : w->track.end;
@@ -243,9 +244,7 @@ static rg_status choose_as_seen(rg_passage *w)
     if (s == RG_OK) s = rg_layers_choose_near(w->layers, wish);
     if (s == RG_OK) find_end(w);
     if (tree.mem.resize) rg_tree_free(&tree);
-    rg_mem_free(&w->mem, wish);
-    rg_mem_free(&w->mem, rho);
-    rg_mem_free(&w->mem, X);
+    RG_MEM_FREE(&w->mem, wish, rho, X);
     return s;
 }
 
@@ -267,8 +266,8 @@ static rg_status land(rg_passage *w, const rg_end *end, const double *z, const d
 static rg_status land_as_seen(rg_passage *w, int32_t at, int *through)
 {
     const size_t n = (size_t)w->P.n;
-    double *z = rg_mem_array(&w->mem, n, sizeof *z), *target = rg_mem_array(&w->mem, n, sizeof *target);
-    rg_status s = z && target ? RG_OK : RG_ENOMEM;
+    double *z, *target;
+    rg_status s = RG_MEM_ARRAYS(&w->mem, RG_ARRAY(z, n), RG_ARRAY(target, n));
     *through = 0;
     if (s == RG_OK) {
         w->track.count = at + 1;
@@ -287,8 +286,7 @@ static rg_status land_as_seen(rg_passage *w, int32_t at, int *through)
         if (s == RG_OK && !upset) s = is_good(w, &end, through);
         rg_end_free(&end);
     }
-    rg_mem_free(&w->mem, z);
-    rg_mem_free(&w->mem, target);
+    RG_MEM_FREE(&w->mem, z, target);
     return s;
 }
 
@@ -376,8 +374,7 @@ rg_status rg_passage_from_end(rg_passage *w, const rg_passage_way *way, double b
         s = walk(w, &end, z, target, way->open.grow, through);
     count(w);
     rg_end_free(&end);
-    rg_mem_free(&w->mem, z);
-    rg_mem_free(&w->mem, target);
+    RG_MEM_FREE(&w->mem, z, target);
     return s;
 }
 
@@ -424,9 +421,8 @@ static rg_status fold(rg_passage *w, const double *z, const double *target, int 
 rg_status rg_passage_from_flat(rg_passage *w, double budget, int *through)
 {
     rg_track *p = &w->track;
-    double *z = rg_mem_array(&w->mem, (size_t)w->P.n, sizeof *z);
-    double *target = rg_mem_array(&w->mem, (size_t)w->P.N, sizeof *target);
-    rg_status status = z && target ? RG_OK : RG_ENOMEM;
+    double *z, *target;
+    rg_status status = RG_MEM_ARRAYS(&w->mem, RG_ARRAY(z, (size_t)w->P.n), RG_ARRAY(target, (size_t)w->P.N));
     *through = 0;
     begin(w, budget);
     if (status == RG_OK) {
@@ -446,7 +442,6 @@ rg_status rg_passage_from_flat(rg_passage *w, double budget, int *through)
     }
     if (status == RG_OK && nearly && !*through) status = land_as_seen(w, folded - 1, through);
     count(w);
-    rg_mem_free(&w->mem, z);
-    rg_mem_free(&w->mem, target);
+    RG_MEM_FREE(&w->mem, z, target);
     return status;
 }

@@ -61,9 +61,8 @@ rg_status rg_proximity_init(rg_proximity *n, const rg_memory *mem, const rg_mesh
     n->mem = *mem;
     n->mesh = m;
     const size_t nf = (size_t)m->nf, ne = (size_t)m->ne;
-    n->corner = rg_mem_array(mem, (size_t)m->nv * nf, 1);
-    n->edge = rg_mem_array(mem, ne * ne, 1);
-    rg_status s = n->corner && n->edge ? rg_plates_init(m, &n->plates) : RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(n->corner, (size_t)m->nv * nf), RG_ARRAY(n->edge, ne * ne));
+    if (s == RG_OK) s = rg_plates_init(m, &n->plates);
     if (s == RG_OK) s = rg_near_work_init(&n->plates, &n->work);
     if (s == RG_OK) leave_out(n);
     else rg_proximity_free(n);
@@ -75,8 +74,7 @@ void rg_proximity_free(rg_proximity *n)
     if (!n->mem.resize) return;
     rg_near_work_free(&n->work);
     rg_plates_free(&n->plates);
-    void *block[] = {n->corner, n->edge, n->pair};
-    for (int i = 0; i < 3; i++) rg_mem_free(&n->mem, block[i]);
+    RG_MEM_FREE(&n->mem, n->corner, n->edge, n->pair);
     memset(n, 0, sizeof *n);
 }
 

@@ -61,10 +61,12 @@ rg_status rg_seen_order(const rg_layers *l, const rg_seen_frames *m, double *wis
 {
     const size_t pairs = (size_t)l->pairs.count;
     int32_t unknown = l->pairs.count;
-    rg_place *place = rg_mem_array(&l->mem, (size_t)m->mesh->nf, sizeof *place);
-    rg_vec3 *at = rg_mem_array(&l->mem, 2 * (size_t)l->flat.nf, sizeof *at);
-    double *rho = rg_mem_array(&l->mem, (size_t)m->mesh->N, sizeof *rho), *height = rg_mem_array(&l->mem, pairs, sizeof *height);
-    const rg_status s = place && at && rho && height ? RG_OK : RG_ENOMEM;
+    rg_place *place;
+    rg_vec3 *at;
+    double *rho, *height;
+    const rg_status s = RG_MEM_ARRAYS(&l->mem, RG_ARRAY(place, (size_t)m->mesh->nf),
+                                      RG_ARRAY(at, 2 * (size_t)l->flat.nf), RG_ARRAY(rho, (size_t)m->mesh->N),
+                                      RG_ARRAY(height, pairs));
     memset(wish, 0, pairs * sizeof *wish);
     for (int pass = 0; pass < 2; pass++)
         for (int32_t k = m->count - 1; s == RG_OK && k > 0 && unknown > 0; k--) {
@@ -76,7 +78,6 @@ rg_status rg_seen_order(const rg_layers *l, const rg_seen_frames *m, double *wis
                 unknown--;
             }
         }
-    void *block[] = {place, at, rho, height};
-    for (int i = 0; i < 4; i++) rg_mem_free(&l->mem, block[i]);
+    RG_MEM_FREE(&l->mem, place, at, rho, height);
     return s;
 }

@@ -15,23 +15,15 @@ rg_status rg_sides_init(rg_sides *s, const rg_memory *mem, const rg_mesh *m)
     memset(s, 0, sizeof *s);
     s->mem = *mem;
     s->mesh = m;
-    const size_t nf = (size_t)m->nf, ne = (size_t)m->ne;
-    s->up = rg_mem_array(mem, nf, 1);
-    s->over = rg_mem_array(mem, nf * nf, 1);
-    s->corner = rg_mem_array(mem, (size_t)m->nv * nf, 1);
-    s->edge = rg_mem_array(mem, ne * ne, 1);
-    s->corner_behind = rg_mem_array(mem, (size_t)m->nv * nf, 1);
-    s->edge_behind = rg_mem_array(mem, ne * ne, 1);
-    if (s->up && s->over && s->corner && s->edge && s->corner_behind && s->edge_behind) return RG_OK;
-    rg_sides_free(s);
-    return RG_ENOMEM;
+    const size_t nf = (size_t)m->nf, nv = (size_t)m->nv, ne = (size_t)m->ne;
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(s->up, nf), RG_ARRAY(s->over, nf * nf), RG_ARRAY(s->corner, nv * nf),
+                         RG_ARRAY(s->edge, ne * ne), RG_ARRAY(s->corner_behind, nv * nf), RG_ARRAY(s->edge_behind, ne * ne));
 }
 
 void rg_sides_free(rg_sides *s)
 {
     if (!s->mem.resize) return;
-    void *block[] = {s->up, s->over, s->corner, s->edge, s->corner_behind, s->edge_behind};
-    for (int i = 0; i < 6; i++) rg_mem_free(&s->mem, block[i]);
+    RG_MEM_FREE(&s->mem, s->up, s->over, s->corner, s->edge, s->corner_behind, s->edge_behind);
     memset(s, 0, sizeof *s);
 }
 

@@ -202,15 +202,11 @@ rg_status rg_stride_init(rg_stride *s, const rg_memory *mem, rg_linkage *P, cons
     s->sides = sides;
     s->end = end;
     s->target = target;
-    s->z = rg_mem_array(mem, (size_t)P->n, sizeof *s->z);
-    s->z1 = rg_mem_array(mem, (size_t)P->n, sizeof *s->z1);
-    s->wish = rg_mem_array(mem, (size_t)P->n, sizeof *s->wish);
-    s->p1 = rg_mem_array(mem, (size_t)P->mesh->nv, sizeof *s->p1);
-    s->middle = rg_mem_array(mem, (size_t)P->n, sizeof *s->middle);
-    s->merit = rg_mem_array(mem, RG_STRIDE_MOST + 1, sizeof *s->merit);
-    s->went = rg_mem_array(mem, RG_STRIDE_MOST + 1, sizeof *s->went);
-    s->pushed = rg_mem_array(mem, (size_t)P->N + (size_t)(end ? end->count : 0), sizeof *s->pushed);
-    rg_status status = s->z && s->z1 && s->wish && s->p1 && s->middle && s->pushed && s->merit && s->went ? RG_OK : RG_ENOMEM;
+    rg_status status = RG_MEM_ARRAYS(mem, RG_ARRAY(s->z, (size_t)P->n), RG_ARRAY(s->z1, (size_t)P->n),
+                                     RG_ARRAY(s->wish, (size_t)P->n), RG_ARRAY(s->p1, (size_t)P->mesh->nv),
+                                     RG_ARRAY(s->middle, (size_t)P->n), RG_ARRAY(s->merit, RG_STRIDE_MOST + 1),
+                                     RG_ARRAY(s->went, RG_STRIDE_MOST + 1),
+                                     RG_ARRAY(s->pushed, (size_t)P->N + (size_t)(end ? end->count : 0)));
     if (status == RG_OK) status = rg_proximity_init(&s->near, mem, P->mesh);
     if (status == RG_OK) status = rg_nearest_init(&s->q, mem, P);
     if (status != RG_OK) return status;
@@ -230,8 +226,7 @@ void rg_stride_free(rg_stride *s)
     if (!s->mem.resize) return;
     rg_proximity_free(&s->near);
     rg_nearest_free(&s->q);
-    void *block[] = {s->z, s->z1, s->wish, s->p1, s->middle, s->pushed, s->merit, s->went};
-    for (int i = 0; i < 8; i++) rg_mem_free(&s->mem, block[i]);
+    RG_MEM_FREE(&s->mem, s->z, s->z1, s->wish, s->p1, s->middle, s->pushed, s->merit, s->went);
     memset(s, 0, sizeof *s);
 }
 

@@ -22,11 +22,9 @@ rg_status rg_track_init(rg_track *p, const rg_memory *mem, rg_linkage *P, rg_nea
     p->mem = *mem;
     p->P = P;
     p->q = q;
-    p->end = rg_mem_array(mem, (size_t)P->n, sizeof *p->end);
-    p->scratch = rg_mem_array(mem, (size_t)P->n, sizeof *p->scratch);
-    p->best = rg_mem_array(mem, (size_t)P->n, sizeof *p->best);
-    p->x = rg_mem_array(mem, 2 * (size_t)P->mesh->nv, sizeof *p->x);
-    rg_status s = p->end && p->scratch && p->best && p->x ? rg_plates_init(P->mesh, &p->plates) : RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(p->end, (size_t)P->n), RG_ARRAY(p->scratch, (size_t)P->n),
+                                RG_ARRAY(p->best, (size_t)P->n), RG_ARRAY(p->x, 2 * (size_t)P->mesh->nv));
+    if (s == RG_OK) s = rg_plates_init(P->mesh, &p->plates);
     if (s == RG_OK) s = rg_contact_work_init(&p->plates, &p->look);
     if (s != RG_OK) rg_track_free(p);
     return s;
@@ -37,8 +35,7 @@ void rg_track_free(rg_track *p)
     if (!p->mem.resize) return;
     rg_contact_work_free(&p->look);
     rg_plates_free(&p->plates);
-    void *block[] = {p->end, p->z, p->progress, p->scratch, p->best, p->x};
-    for (int i = 0; i < 6; i++) rg_mem_free(&p->mem, block[i]);
+    RG_MEM_FREE(&p->mem, p->end, p->z, p->progress, p->scratch, p->best, p->x);
     memset(p, 0, sizeof *p);
 }
 

@@ -13,8 +13,7 @@ void rg_certificate_destroy(rg_certificate *c)
 {
     if (!c) return;
     const rg_memory mem = c->mem;
-    rg_mem_free(&mem, c->percent);
-    rg_mem_free(&mem, c);
+    RG_MEM_FREE(&mem, c->percent, c);
 }
 
 const rg_certificate_info *rg_certificate_get_info(const rg_certificate *c) { return &c->info; }

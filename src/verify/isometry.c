@@ -1,4 +1,5 @@
 #include "verify/isometry.h"
+#include "base/classes.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -106,26 +107,23 @@ static int32_t find_ring(const rg_record *r, int32_t *next, int32_t *ring)
 /* One piece: facets reached over creases, and Euler's number of a disk. */
 static rg_status check_piece(const rg_record *r, rg_faults *all)
 {
-    int32_t *part = rg_mem_array(&r->mem, (size_t)r->nf, sizeof *part);
-    unsigned char *used = rg_mem_array(&r->mem, (size_t)r->nv, 1);
-    if (part && used) {
-        int32_t vertices = 0, parts = r->nf;
-        for (int32_t f = 0; f < r->nf; f++) part[f] = f;
-        for (int32_t e = 0; e < r->ne; e++) {
-            used[r->edge[e][0]] = used[r->edge[e][1]] = 1;
-            int32_t a = r->side[e][0], b = r->side[e][1];
-            if (a < 0 || b < 0) continue;
-            while (part[a] != a) a = part[a] = part[part[a]];
-            while (part[b] != b) b = part[b] = part[part[b]];
-            if (a != b) part[a] = b, parts--;
-        }
-        for (int32_t v = 0; v < r->nv; v++) vertices += used[v];
-        if (parts != 1 || vertices != r->nv || r->nv - r->ne + r->nf != 1)
-            rg_faults_add(all, -1, -1, -1, "the pattern is not one sheet without holes");
+    int32_t *part, vertices = 0, parts = r->nf;
+    unsigned char *used;
+    const rg_status s = RG_MEM_ARRAYS(&r->mem, RG_ARRAY(part, (size_t)r->nf), RG_ARRAY(used, (size_t)r->nv));
+    if (s != RG_OK) return s;
+    for (int32_t f = 0; f < r->nf; f++) part[f] = f;
+    for (int32_t e = 0; e < r->ne; e++) {
+        used[r->edge[e][0]] = used[r->edge[e][1]] = 1;
+        int32_t a = r->side[e][0], b = r->side[e][1];
+        if (a < 0 || b < 0) continue;
+        a = rg_class_of(part, a), b = rg_class_of(part, b);
+        if (a != b) part[a] = b, parts--;
     }
-    rg_mem_free(&r->mem, part);
-    rg_mem_free(&r->mem, used);
-    return part && used ? RG_OK : RG_ENOMEM;
+    for (int32_t v = 0; v < r->nv; v++) vertices += used[v];
+    if (parts != 1 || vertices != r->nv || r->nv - r->ne + r->nf != 1)
+        rg_faults_add(all, -1, -1, -1, "the pattern is not one sheet without holes");
+    RG_MEM_FREE(&r->mem, part, used);
+    return RG_OK;
 }
 
 rg_status rg_isometry_pattern(rg_record *r, rg_faults *all, int *whole)
@@ -157,10 +155,8 @@ static double ring_area(const border *b, const rg_vec2 *X)
 static rg_status find_border(const rg_record *r, border *b)
 {
     memset(b, 0, sizeof *b);
-    b->ring = rg_mem_array(&r->mem, (size_t)r->ne, sizeof *b->ring);
-    b->next = rg_mem_array(&r->mem, (size_t)r->nv, sizeof *b->next);
-    b->corner = rg_mem_array(&r->mem, (size_t)r->ne, 1);
-    if (!b->ring || !b->next || !b->corner) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&r->mem, RG_ARRAY(b->ring, (size_t)r->ne), RG_ARRAY(b->next, (size_t)r->nv),
+                      RG_ARRAY(b->corner, (size_t)r->ne)) != RG_OK) return RG_ENOMEM;
     b->n = find_ring(r, b->next, b->ring);
     for (int32_t i = 0; i < b->n; i++) {
         const rg_vec2 p = r->X[b->ring[(i + b->n - 1) % b->n]], q = r->X[b->ring[i]], s = r->X[b->ring[(i + 1) % b->n]];
@@ -265,11 +261,8 @@ typedef struct wheels { int32_t *start, *edge; spoke *spoke; unsigned char *rim;
 static rg_status find_wheels(const rg_record *r, wheels *w)
 {
     memset(w, 0, sizeof *w);
-    w->start = rg_mem_array(&r->mem, (size_t)r->nv + 2, sizeof *w->start);
-    w->edge = rg_mem_array(&r->mem, 2 * (size_t)r->ne, sizeof *w->edge);
-    w->spoke = rg_mem_array(&r->mem, (size_t)r->ne, sizeof *w->spoke);
-    w->rim = rg_mem_array(&r->mem, (size_t)r->nv, 1);
-    if (!w->start || !w->edge || !w->spoke || !w->rim) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&r->mem, RG_ARRAY(w->start, (size_t)r->nv + 2), RG_ARRAY(w->edge, 2 * (size_t)r->ne),
+                      RG_ARRAY(w->spoke, (size_t)r->ne), RG_ARRAY(w->rim, (size_t)r->nv)) != RG_OK) return RG_ENOMEM;
     for (int32_t e = 0; e < r->ne; e++)
         for (int end = 0; end < 2; end++) {
             w->start[r->edge[e][end] + 2]++;
@@ -402,7 +395,6 @@ rg_status rg_isometry_frames(const rg_record *r, rg_faults *all, rg_isometry *fo
         check_path(r, all, found);
         check_assignments(r, all, found);
     }
-    void *block[] = {b.ring, b.next, b.corner, w.start, w.edge, w.spoke, w.rim, place};
-    for (int i = 0; i < 8; i++) rg_mem_free(&r->mem, block[i]);
+    RG_MEM_FREE(&r->mem, b.ring, b.next, b.corner, w.start, w.edge, w.spoke, w.rim, place);
     return s;
 }

@@ -57,32 +57,26 @@ rg_status rg_pieces_init(const rg_record *r, rg_pieces *p)
     const size_t corners = (size_t)r->start[r->nf];
     memset(p, 0, sizeof *p);
     p->mem = r->mem;
-    p->facet = rg_mem_array(&r->mem, corners, sizeof *p->facet);
-    p->first = rg_mem_array(&r->mem, (size_t)r->nf + 1, sizeof *p->first);
-    p->start = rg_mem_array(&r->mem, corners + 1, sizeof *p->start);
-    p->corner = rg_mem_array(&r->mem, 3 * corners, sizeof *p->corner);
-    int32_t *c = rg_mem_array(&r->mem, corners, sizeof *c);
-    const int ok = p->facet && p->first && p->start && p->corner && c;
-    for (int32_t f = 0; ok && f < r->nf; f++) {
+    int32_t *c;
+    const rg_status s = RG_MEM_ARRAYS(&r->mem, RG_ARRAY(p->facet, corners), RG_ARRAY(p->first, (size_t)r->nf + 1),
+                                      RG_ARRAY(p->start, corners + 1), RG_ARRAY(p->corner, 3 * corners), RG_ARRAY(c, corners));
+    if (s != RG_OK) return s;
+    for (int32_t f = 0; f < r->nf; f++) {
         const int32_t n = r->start[f + 1] - r->start[f];
         memcpy(c, r->corner + r->start[f], (size_t)n * sizeof *c);
         p->first[f] = p->n;
         if (all_outwards(r->flat, c, n)) add(p, f, c, n);
         else cut(p, r->flat, f, c, n);
     }
-    if (ok) p->first[r->nf] = p->n;
+    p->first[r->nf] = p->n;
     rg_mem_free(&r->mem, c);
-    if (!ok) rg_pieces_free(p);
-    return ok ? RG_OK : RG_ENOMEM;
+    return RG_OK;
 }
 
 void rg_pieces_free(rg_pieces *p)
 {
     if (!p->mem.resize) return;
-    rg_mem_free(&p->mem, p->facet);
-    rg_mem_free(&p->mem, p->first);
-    rg_mem_free(&p->mem, p->start);
-    rg_mem_free(&p->mem, p->corner);
+    RG_MEM_FREE(&p->mem, p->facet, p->first, p->start, p->corner);
     memset(p, 0, sizeof *p);
 }
 

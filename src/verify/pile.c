@@ -317,18 +317,12 @@ rg_status rg_pile_check(const rg_record *r, const rg_pieces *p, const rg_aparts 
     const size_t nf = (size_t)r->nf;
     pile q = {.r = r, .p = p, .all = all, .found = found, .last = r->frames - 1};
     *found = (rg_pile){0};
-    int32_t *under = rg_mem_array(&r->mem, nf, sizeof *under), *left = rg_mem_array(&r->mem, nf, sizeof *left);
-    q.at = rg_mem_array(&r->mem, (size_t)r->nv, sizeof *q.at);
-    q.up = rg_mem_array(&r->mem, nf, 1);
-    q.crease = rg_mem_array(&r->mem, (size_t)r->ne, sizeof *q.crease);
-    int ok = under && left && q.at && q.up && q.crease;
-    if (ok && lies_flat(&q)) {
-        found->is_flat = 1;
-        q.above = rg_mem_array(&r->mem, nf * nf, 1);
-        q.over = rg_mem_array(&r->mem, nf * nf, 1);
-        ok = q.above && q.over;
-    }
-    if (ok && found->is_flat) {
+    int32_t *under, *left;
+    rg_status s = RG_MEM_ARRAYS(&r->mem, RG_ARRAY(under, nf), RG_ARRAY(left, nf), RG_ARRAY(q.at, (size_t)r->nv),
+                                RG_ARRAY(q.up, nf), RG_ARRAY(q.crease, (size_t)r->ne));
+    found->is_flat = s == RG_OK && lies_flat(&q);
+    if (found->is_flat) s = RG_MEM_ARRAYS(&r->mem, RG_ARRAY(q.above, nf * nf), RG_ARRAY(q.over, nf * nf));
+    if (s == RG_OK && found->is_flat) {
         take_orders(&q);
         check_pairs(&q);
         check_sides(&q, sides);
@@ -337,7 +331,6 @@ rg_status rg_pile_check(const rg_record *r, const rg_pieces *p, const rg_aparts 
         check_across(&q);
         check_lines(&q);
     }
-    void *block[] = {under, left, q.at, q.up, q.crease, q.above, q.over};
-    for (int i = 0; i < 7; i++) rg_mem_free(&r->mem, block[i]);
-    return ok ? RG_OK : RG_ENOMEM;
+    RG_MEM_FREE(&r->mem, under, left, q.at, q.up, q.crease, q.above, q.over);
+    return s;
 }

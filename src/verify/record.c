@@ -258,10 +258,8 @@ rg_status rg_record_parse(const char *bytes, size_t size, const rg_memory *mem, 
 void rg_record_free(rg_record *r)
 {
     if (!r->mem.resize) return;
-    void *block[] = {r->X, r->edge, r->assignment, r->target, r->added, r->start, r->corner, r->turned, r->side,
-                     r->number, r->percent, r->x, r->rho,
-                     r->flat, r->order};
-    for (int i = 0; i < 15; i++) rg_mem_free(&r->mem, block[i]);
+    RG_MEM_FREE(&r->mem, r->X, r->edge, r->assignment, r->target, r->added, r->start, r->corner, r->turned, r->side,
+                r->number, r->percent, r->x, r->rho, r->flat, r->order);
     memset(r, 0, sizeof *r);
 }
 

@@ -529,24 +529,13 @@ static double bend_at(const rg_record *r, int32_t k)
     return most / r->size;
 }
 
-static int make_room(look *l)
-{
-    const rg_memory *mem = &l->r->mem;
-    const size_t n = (size_t)l->p->n;
-    for (int k = 0; k < 2; k++) l->place[k] = rg_mem_array(mem, (size_t)l->r->nf, sizeof *l->place[k]);
-    l->low = rg_mem_array(mem, n, sizeof *l->low);
-    l->high = rg_mem_array(mem, n, sizeof *l->high);
-    l->arm = rg_mem_array(mem, n, sizeof *l->arm);
-    l->middle = rg_mem_array(mem, n, sizeof *l->middle);
-    l->axis = rg_mem_array(mem, 2 * MOST_AXES, sizeof *l->axis);
-    return l->place[0] && l->place[1] && l->low && l->high && l->arm && l->middle && l->axis;
-}
-
 rg_status rg_through_frames(const rg_record *r, const rg_pieces *p, rg_faults *all, rg_through *found)
 {
     look l = {.r = r, .p = p, .all = all, .found = found};
     *found = (rg_through){.allowed = RG_THROUGH_LEAST, .sides = {.mem = r->mem}};
-    rg_status s = make_room(&l) ? RG_OK : RG_ENOMEM;
+    const size_t nf = (size_t)r->nf, n = (size_t)p->n;
+    rg_status s = RG_MEM_ARRAYS(&r->mem, RG_ARRAY(l.place[0], nf), RG_ARRAY(l.place[1], nf), RG_ARRAY(l.low, n),
+                                RG_ARRAY(l.high, n), RG_ARRAY(l.arm, n), RG_ARRAY(l.middle, n), RG_ARRAY(l.axis, 2 * MOST_AXES));
     for (int32_t k = 0; s == RG_OK && k < r->frames; k++) s = check_frame(&l, k);
     for (int32_t k = 0; s == RG_OK && k + 1 < r->frames; k++) {
         for (int end = 0; end < 2; end++)
@@ -555,7 +544,6 @@ rg_status rg_through_frames(const rg_record *r, const rg_pieces *p, rg_faults *a
         const double allowed = fmin(RG_THROUGH_MOST, RG_THROUGH_LEAST + 2 * bend / 8);
         s = check_way(&l, k, allowed);
     }
-    void *block[] = {l.place[0], l.place[1], l.low, l.high, l.arm, l.middle, l.axis};
-    for (int i = 0; i < 7; i++) rg_mem_free(&r->mem, block[i]);
+    RG_MEM_FREE(&r->mem, l.place[0], l.place[1], l.low, l.high, l.arm, l.middle, l.axis);
     return s;
 }

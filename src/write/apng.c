@@ -147,8 +147,5 @@ rg_status rg_apng_finish(rg_apng *a, rg_diag *why) { return put_chunk(a, "IEND",
 void rg_apng_destroy(rg_apng *a)
 {
     if (!a) return;
-    rg_mem_free(&a->mem, a->before);
-    rg_mem_free(&a->mem, a->rows);
-    rg_mem_free(&a->mem, a->packed);
-    rg_mem_free(&a->mem, a);
+    RG_MEM_FREE(&a->mem, a->before, a->rows, a->packed, a);
 }

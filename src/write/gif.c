@@ -60,10 +60,8 @@ rg_status rg_gif_create(const rg_memory *mem, FILE *file, int32_t width, int32_t
     rg_gif *g = rg_mem_array(mem, 1, sizeof *g);
     if (!g) return rg_fail(RG_ENOMEM, why, 0, "out of memory for the GIF");
     *g = (rg_gif){.mem = *mem, .file = file, .palette = p, .width = width, .height = height, .fps = fps};
-    g->now = rg_mem_array(mem, pixels, 1);
-    g->before = rg_mem_array(mem, pixels, 1);
-    g->row = rg_mem_array(mem, (size_t)width, 1);
-    g->gif = g->now && g->before && g->row ? EGifOpen(g, put, NULL) : NULL;
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(g->now, pixels), RG_ARRAY(g->before, pixels), RG_ARRAY(g->row, (size_t)width)) == RG_OK)
+        g->gif = EGifOpen(g, put, NULL);
     rg_status s = g->gif ? RG_OK : rg_fail(RG_ENOMEM, why, 0, "out of memory for the GIF");
     errno = 0;
     if (s == RG_OK && put_head(g, for_ever) != GIF_OK) s = failed(g, why);
@@ -130,8 +128,5 @@ void rg_gif_destroy(rg_gif *g)
 {
     if (!g) return;
     if (g->gif) EGifCloseFile(g->gif, NULL);
-    rg_mem_free(&g->mem, g->now);
-    rg_mem_free(&g->mem, g->before);
-    rg_mem_free(&g->mem, g->row);
-    rg_mem_free(&g->mem, g);
+    RG_MEM_FREE(&g->mem, g->now, g->before, g->row, g);
 }

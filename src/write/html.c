@@ -238,16 +238,12 @@ static rg_status book_init(book *b, const rg_motion *m, const rg_picture *p)
     if (s == RG_OK) s = rg_stage_init(mem, m, p, &b->stage);
     if (s == RG_OK) s = rg_lift_create(mem, m, &b->t, &b->layers);
     if (s != RG_OK) return s;
-    b->x = rg_mem_array(mem, nv, sizeof *b->x);
-    b->lift = rg_mem_array(mem, nf, sizeof *b->lift);
-    b->bytes = rg_mem_array(mem, 12 * nf + 12 * nv, 1);
-    return b->x && b->lift && b->bytes ? RG_OK : RG_ENOMEM;
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(b->x, nv), RG_ARRAY(b->lift, nf), RG_ARRAY(b->bytes, 12 * nf + 12 * nv));
 }
 
 static void book_free(book *b)
 {
-    void *block[] = {b->x, b->lift, b->bytes};
-    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(&b->m->mem, block[i]);
+    RG_MEM_FREE(&b->m->mem, b->x, b->lift, b->bytes);
     rg_lift_destroy(b->layers);
     rg_stage_free(&b->stage);
     rg_triangles_free(&b->t);

@@ -27,16 +27,13 @@ typedef struct box { /* swatches first ... last - 1, to be shown in one colour *
 rg_status rg_palette_init(rg_palette *p, const rg_memory *mem)
 {
     *p = (rg_palette){.mem = *mem};
-    p->tint = rg_mem_array(mem, TINTS, sizeof *p->tint);
-    p->nearest = rg_mem_array(mem, TINTS, sizeof *p->nearest);
-    return p->tint && p->nearest ? RG_OK : RG_ENOMEM;
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(p->tint, TINTS), RG_ARRAY(p->nearest, TINTS));
 }
 
 void rg_palette_free(rg_palette *p)
 {
     if (!p->mem.resize) return;
-    rg_mem_free(&p->mem, p->tint);
-    rg_mem_free(&p->mem, p->nearest);
+    RG_MEM_FREE(&p->mem, p->tint, p->nearest);
     memset(p, 0, sizeof *p);
 }
 

@@ -31,7 +31,6 @@ void rg_reel_show(const rg_reel *r, int32_t i, unsigned char *rgb)
 
 void rg_reel_free(rg_reel *r, const rg_memory *mem)
 {
-    rg_mem_free(mem, r->bytes);
-    rg_mem_free(mem, r->start);
+    RG_MEM_FREE(mem, r->bytes, r->start);
     memset(r, 0, sizeof *r);
 }

@@ -191,9 +191,7 @@ static rg_status fill(rg_scene *g)
 void rg_scene_free(rg_scene *g)
 {
     const rg_memory *mem = &g->m->mem;
-    void *block[] = {g->bytes,     g->centre,     g->place,      g->x,    g->last,
-                     g->last_turn, g->last_shift, g->normals_of, g->image};
-    for (size_t i = 0; i < sizeof block / sizeof *block; i++) rg_mem_free(mem, block[i]);
+    RG_MEM_FREE(mem, g->bytes, g->centre, g->place, g->x, g->last, g->last_turn, g->last_shift, g->normals_of, g->image);
     rg_triangles_free(&g->t);
 }
 
@@ -213,15 +211,8 @@ rg_status rg_scene_init(rg_scene *g, const rg_motion *m, const rg_picture *p)
     if (s != RG_OK) return s;
     lay_out(g);
     if (g->start[RG_PARTS] > UINT32_MAX / 2) return RG_EARG;
-    g->bytes = rg_mem_array(mem, g->start[RG_PARTS], 1);
-    g->centre = rg_mem_array(mem, nf, sizeof *g->centre);
-    g->place = rg_mem_array(mem, nf, sizeof *g->place);
-    g->x = rg_mem_array(mem, nv, sizeof *g->x);
-    g->last = rg_mem_array(mem, nv, sizeof *g->last);
-    g->last_turn = rg_mem_array(mem, nf, sizeof *g->last_turn);
-    g->last_shift = rg_mem_array(mem, nf, sizeof *g->last_shift);
-    g->normals_of = rg_mem_array(mem, (size_t)g->most + 1, sizeof *g->normals_of);
-    if (!g->bytes || !g->centre || !g->place || !g->x || !g->last || !g->last_turn || !g->last_shift || !g->normals_of)
-        return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(g->bytes, g->start[RG_PARTS]), RG_ARRAY(g->centre, nf), RG_ARRAY(g->place, nf),
+                      RG_ARRAY(g->x, nv), RG_ARRAY(g->last, nv), RG_ARRAY(g->last_turn, nf), RG_ARRAY(g->last_shift, nf),
+                      RG_ARRAY(g->normals_of, (size_t)g->most + 1)) != RG_OK) return RG_ENOMEM;
     return fill(g);
 }

@@ -237,17 +237,9 @@ rg_status rg_solid_make(const rg_memory *mem, const rg_mesh *m, const rg_triangl
 {
     const size_t corners = (size_t)m->facet_start[m->nf];
     solid s = {.m = m, .take = take, .ctx = ctx};
-    void *block[7];
-    block[0] = s.place[UPPER] = rg_mem_array(mem, corners, sizeof *s.place[UPPER]);
-    block[1] = s.place[LOWER] = rg_mem_array(mem, corners, sizeof *s.place[LOWER]);
-    block[2] = s.same[UPPER] = rg_mem_array(mem, corners, sizeof *s.same[UPPER]);
-    block[3] = s.same[LOWER] = rg_mem_array(mem, corners, sizeof *s.same[LOWER]);
-    block[4] = s.facet = rg_mem_array(mem, corners, sizeof *s.facet);
-    block[5] = s.at = rg_mem_array(mem, (size_t)m->nv, sizeof *s.at);
-    block[6] = s.ring = rg_mem_array(mem, (size_t)m->nf, sizeof *s.ring);
-    rg_status status = RG_OK;
-    for (int i = 0; i < 7; i++)
-        if (!block[i]) status = RG_ENOMEM;
+    rg_status status = RG_MEM_ARRAYS(mem, RG_ARRAY(s.place[UPPER], corners), RG_ARRAY(s.place[LOWER], corners),
+                                     RG_ARRAY(s.same[UPPER], corners), RG_ARRAY(s.same[LOWER], corners),
+                                     RG_ARRAY(s.facet, corners), RG_ARRAY(s.at, (size_t)m->nv), RG_ARRAY(s.ring, (size_t)m->nf));
     if (status == RG_OK) {
         place(&s, x, thickness);
         status = move_apart(&s, mem);
@@ -257,6 +249,6 @@ rg_status rg_solid_make(const rg_memory *mem, const rg_mesh *m, const rg_triangl
         edges(&s);
         vertices(&s);
     }
-    for (int i = 0; i < 7; i++) rg_mem_free(mem, block[i]);
+    RG_MEM_FREE(mem, s.place[UPPER], s.place[LOWER], s.same[UPPER], s.same[LOWER], s.facet, s.at, s.ring);
     return status;
 }

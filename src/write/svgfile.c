@@ -51,9 +51,7 @@ static rg_status find_closed(const rg_motion *m, unsigned char *closed)
     const rg_mesh *mesh = &m->mesh;
     rg_star star = {.mem = m->mem};
     struct rg_pattern p = {.mem = m->mem, .nv = mesh->nv, .X = mesh->X};
-    p.E = rg_mem_array(&m->mem, (size_t)mesh->ne, sizeof *p.E);
-    p.rim = rg_mem_array(&m->mem, (size_t)mesh->nv, 1);
-    rg_status s = p.E && p.rim ? RG_OK : RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(p.E, (size_t)mesh->ne), RG_ARRAY(p.rim, (size_t)mesh->nv));
     for (int32_t e = 0; s == RG_OK && e < mesh->ne; e++) {
         if (mesh->edge_crease[e] >= mesh->N - mesh->added) continue;
         rg_edge *E = &p.E[p.ne++];
@@ -66,9 +64,7 @@ static rg_status find_closed(const rg_motion *m, unsigned char *closed)
     if (s == RG_OK) s = rg_closed_find(&p);
     for (int32_t k = 0; s == RG_OK && k < p.closed_triples; k++) closed[p.closed[k].vertex] = 1;
     rg_star_free(&star);
-    rg_mem_free(&m->mem, p.E);
-    rg_mem_free(&m->mem, p.rim);
-    rg_mem_free(&m->mem, p.closed);
+    RG_MEM_FREE(&m->mem, p.E, p.rim, p.closed);
     return s;
 }
 
