@@ -27,6 +27,9 @@ enum {
 /* Seconds, and part of the time allowed, that folding may take to find out that it is over: more is a solve that cannot
  * be asked. */
 static const double TO_FIND_OUT = 2, PART_TO_FIND_OUT = 0.1;
+/* Seconds that writing what there is has after that, if it is less than the time allowed: a film of sixty frames takes some three. What takes
+ * longer may be a pipe that nobody reads. */
+static const double TO_WRITE = 30;
 
 static atomic_int signals;              /* that came */
 static int wake[2] = {-1, -1};          /* a byte a signal */
@@ -60,7 +63,8 @@ static void say_last(const char *why)
                            what ? " is not written" : "");
     for (char *c = line; *c && c[1]; c++)
         if ((unsigned char)*c < 32 || *c == 127) *c = '?';
-    if (poll(&err, 1, 0) > 0 && write(STDERR_FILENO, line, (size_t)n) < 0) return;
+    const size_t length = n < (int)sizeof line ? (size_t)n : sizeof line - 1;
+    if (poll(&err, 1, 0) > 0 && write(STDERR_FILENO, line, length) < 0) return;
 }
 
 static void end(const char *why)
@@ -99,10 +103,12 @@ static void end_in_time(void)
     snprintf(why, sizeof why, "not done within %g seconds", time_allowed);
     end_at = 0;
     if (phase == READING) end(why);
-    if (phase == WRITING) return;
-    time_is_up = 1;
-    if (wait_for_signal(seconds_now() + fmax(TO_FIND_OUT, PART_TO_FIND_OUT * time_allowed))) end("interrupted");
-    if (phase == HELD) end(why); /* else what there is is being written */
+    if (phase == HELD) {
+        time_is_up = 1;
+        if (wait_for_signal(seconds_now() + fmax(TO_FIND_OUT, PART_TO_FIND_OUT * time_allowed))) end("interrupted");
+        if (phase == HELD) end(why); /* else what there is is being written */
+    }
+    end(wait_for_signal(seconds_now() + fmax(TO_WRITE, time_allowed)) ? "interrupted" : why);
 }
 
 static sem_t is_up;
@@ -112,7 +118,8 @@ static void *watch(void *unused)
     (void)unused;
     int what;
     sem_post(&is_up);
-    while ((what = wait_for_signal(end_at)) == NOTHING) end_in_time();
+    what = wait_for_signal(end_at);
+    if (what == NOTHING) end_in_time();
     if (what == WITH_GRACE) wait_for_signal(seconds_now() + grace);
     end("interrupted");
     return NULL;
@@ -154,11 +161,14 @@ static int make_watcher(void)
 
 void interrupt_init(void)
 {
-    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+    /* Whatever asks a program to end: a person, the system, a batch system before its time is over, a limit or a clock that whoever
+     * started it has set. SIGQUIT is for who wants to see where it is. */
+    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2};
+    enum { NUMBERS = sizeof numbers / sizeof *numbers };
     struct sigaction act, was;
     sigset_t ours, before;
     sigemptyset(&ours);
-    for (int i = 0; i < 3; i++) sigaddset(&ours, numbers[i]);
+    for (int i = 0; i < NUMBERS; i++) sigaddset(&ours, numbers[i]);
     pthread_sigmask(SIG_BLOCK, &ours, &before);
     for (int k = 0; k < 2; k++)
         if (wake[k] >= 0) close(wake[k]);
@@ -175,7 +185,7 @@ void interrupt_init(void)
     sigaction(SIGXFSZ, &act, NULL);
     act.sa_handler = on_signal;
     act.sa_flags = SA_RESTART; /* so that what is being written is written */
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < NUMBERS; i++)
         if (sigaction(numbers[i], NULL, &was) == 0 && was.sa_handler != SIG_IGN) sigaction(numbers[i], &act, NULL);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
 }

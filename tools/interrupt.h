@@ -1,8 +1,8 @@
 /* interrupt.h -- signals and time limits: what ends the program does so within a second, and leaves nothing half done.
  * Uses  options.h say.h        Used by  rigami.c progress.c, the commands that fold
  *
- * SIGINT, SIGTERM and SIGHUP, unless the caller has them ignored, end the program with status 1. A thread of its own
- * sees to it: it removes what outputs have left of temporary files, says what was not done, and ends the process,
+ * SIGINT, SIGTERM, SIGHUP and what limits and batch systems send, unless the caller has them ignored, end the program with
+ * status 1. A thread of its own sees to it: it removes what outputs have left of temporary files, says what was not done, and ends the process,
  * whatever the others are at. */
 #ifndef INTERRUPT_H
 #define INTERRUPT_H
@@ -21,7 +21,8 @@ void interrupt_hold(double seconds);
 void interrupt_release(void);
 /* What the program is at, borrowed, for the message; NULL: nothing in particular. */
 void interrupt_doing(const char *what);
-/* That many seconds from now it is as if a signal came, but for writing, which takes the time that it takes. */
+/* That many seconds from now it is as if a signal came, but for writing, which has as long again, and half a minute at
+ * the least. */
 void interrupt_after(double seconds);
 /* Non-zero: stop. */
 int interrupt_came(void);

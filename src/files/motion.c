@@ -239,7 +239,7 @@ rg_status rg_motion_read(const char *path, const rg_reading *reading, rg_motion 
     size_t size = 0;
     with.aux_creases = 1; /* what was added to bend is drawn flat */
     with.format = RG_FORMAT_FOLD;
-    s = rg_read_whole(path, &mem, &bytes, &size, why);
+    s = rg_read_motion(path, &mem, &bytes, &size, why);
     if (s == RG_OK) s = rg_pattern_parse(bytes, size, &with, &p, why);
     if (s == RG_OK) s = rg_value_parse(bytes, size, NULL, &root, why);
     if (s == RG_OK && !(m = rg_mem_array(&mem, 1, sizeof *m))) s = RG_ENOMEM;

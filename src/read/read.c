@@ -11,8 +11,10 @@
 #include "read/svg.h"
 
 #include <errno.h>
+#include <poll.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 typedef struct text { const char *s, *end; } text;
 
@@ -242,28 +244,50 @@ rg_status rg_read_bytes(const void *bytes, size_t size, const char *path, const 
     return status;
 }
 
-static rg_status slurp(FILE *f, const rg_memory *mem, char **bytes, size_t *size, rg_diag *why)
+/* Whoever started us may have made standard input one that does not wait: then it is waited for here. */
+static int wait_for_more(FILE *f)
+{
+    struct pollfd in = {.fd = fileno(f), .events = POLLIN};
+    if (!ferror(f) || errno != EAGAIN) return 0;
+    clearerr(f);
+    return poll(&in, 1, -1) > 0 || errno == EINTR;
+}
+
+static rg_status slurp(FILE *f, size_t most, const rg_memory *mem, char **bytes, size_t *size, rg_diag *why)
 {
     size_t room = 0, got;
     do {
         if (rg_mem_grow(mem, (void **)bytes, &room, *size + 65536, 1) != RG_OK)
             return rg_fail(RG_ENOMEM, why, 0, "out of memory");
-        const size_t left = RG_MOST_BYTES + 1 - *size; /* the one more tells that there is more */
-        got = fread(*bytes + *size, 1, room - *size < left ? room - *size : left, f);
+        const size_t left = most - *size, free = room - *size;
+        errno = 0;
+        got = fread(*bytes + *size, 1, free <= left ? free : left + 1, f); /* the one more tells that there is more */
         *size += got;
-        if (*size > RG_MOST_BYTES) return rg_fail(RG_EFORMAT, why, 0, "more than %zu MB: this is no crease pattern", RG_MOST_BYTES >> 20);
-    } while (got > 0);
-    return ferror(f) ? rg_fail(RG_EREAD, why, 0, "%s", strerror(errno)) : RG_OK;
+        if (*size > most) return rg_fail(RG_EFORMAT, why, 0, "more than %zu MB: this is no crease pattern", most >> 20);
+    } while (got > 0 || wait_for_more(f));
+    return ferror(f) ? rg_fail(RG_EREAD, why, 0, "%s", errno ? strerror(errno) : "cannot be read") : RG_OK;
+}
+
+static rg_status read_file(const char *path, int is_bounded, const rg_memory *mem, char **bytes, size_t *size, rg_diag *why)
+{
+    const int is_standard = strcmp(path, "-") == 0;
+    FILE *f = is_standard ? stdin : fopen(path, "rb");
+    struct stat is;
+    if (!f) return rg_fail(RG_EREAD, why, 0, "%s", strerror(errno));
+    const int has_end = fstat(fileno(f), &is) == 0 && S_ISREG(is.st_mode);
+    const rg_status status = slurp(f, is_bounded || !has_end ? RG_MOST_BYTES : SIZE_MAX / 4, mem, bytes, size, why);
+    if (!is_standard) fclose(f);
+    return status;
 }
 
 rg_status rg_read_whole(const char *path, const rg_memory *mem, char **bytes, size_t *size, rg_diag *why)
 {
-    const int is_standard = strcmp(path, "-") == 0;
-    FILE *f = is_standard ? stdin : fopen(path, "rb");
-    if (!f) return rg_fail(RG_EREAD, why, 0, "%s", strerror(errno));
-    const rg_status status = slurp(f, mem, bytes, size, why);
-    if (!is_standard) fclose(f);
-    return status;
+    return read_file(path, 1, mem, bytes, size, why);
+}
+
+rg_status rg_read_motion(const char *path, const rg_memory *mem, char **bytes, size_t *size, rg_diag *why)
+{
+    return read_file(path, 0, mem, bytes, size, why);
 }
 
 rg_status rg_read_file(const char *path, const rg_reading *s, int keep, rg_lines *out, rg_diag *why)

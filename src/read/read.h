@@ -19,11 +19,14 @@ rg_status rg_read_bytes(const void *bytes, size_t size, const char *path, const 
 /* The same from a file; "-" is standard input. RG_EREAD: why->text. */
 rg_status rg_read_file(const char *path, const rg_reading *s, int keep, rg_lines *out, rg_diag *why);
 
-/* No more of a file is read: a drawing of four million lines as ORIPA writes them. */
+/* No more is read of a drawing: four million lines as ORIPA writes them; nor of what is no regular file, which may have
+ * no end. A motion on a disk may be as long as it is. */
 #define RG_MOST_BYTES ((size_t)1 << 30)
 
 /* All bytes of a file, "-" being standard input; *bytes: the caller's, also after a failure. RG_EREAD, RG_ENOMEM,
  * RG_EFORMAT (too large): why->text. */
 rg_status rg_read_whole(const char *path, const rg_memory *mem, char **bytes, size_t *size, rg_diag *why);
+/* The same of a motion. */
+rg_status rg_read_motion(const char *path, const rg_memory *mem, char **bytes, size_t *size, rg_diag *why);
 
 #endif

@@ -3,9 +3,9 @@
 #include "base/json.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "read/read.h"
 #include "verify/given.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -22,23 +22,6 @@ int32_t rg_certificate_faults(const rg_certificate *c, const rg_fault **list)
 {
     *list = c->faults.list;
     return c->faults.count < RG_FAULTS_KEPT ? c->faults.count : RG_FAULTS_KEPT;
-}
-
-static rg_status read_whole(const char *path, const rg_memory *mem, char **bytes, size_t *size, rg_diag *why)
-{
-    FILE *f = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
-    size_t room = 0;
-    rg_status s = RG_OK;
-    if (!f) return rg_fail(RG_EREAD, why, 0, "%s", strerror(errno));
-    errno = 0;
-    for (size_t got = 1; s == RG_OK && got > 0; *size += got) {
-        s = rg_mem_grow(mem, (void **)bytes, &room, *size + 65536, 1);
-        got = s == RG_OK ? fread(*bytes + *size, 1, room - *size, f) : 0;
-    }
-    if (s == RG_OK && ferror(f)) s = rg_fail(RG_EREAD, why, 0, "%s", errno ? strerror(errno) : "cannot be read");
-    else if (s != RG_OK) rg_fail(s, why, 0, "out of memory");
-    if (f != stdin) fclose(f);
-    return s;
 }
 
 /* Places first; what they are not good for is not asked of them. */
@@ -115,7 +98,7 @@ rg_status rg_certificate_create(const char *path, const rg_pattern *given, const
     const rg_memory mem = rg_mem_default(memory);
     char *bytes = NULL;
     size_t size = 0;
-    rg_status s = read_whole(path, &mem, &bytes, &size, why);
+    rg_status s = rg_read_motion(path, &mem, &bytes, &size, why);
     if (s == RG_OK) s = rg_certificate_parse(bytes, size, given, &mem, certificate, why);
     rg_mem_free(&mem, bytes);
     return s;

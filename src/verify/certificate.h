@@ -1,5 +1,5 @@
 /* certificate.h -- is a written motion one that paper can make? All that is found, and how it is said.
- * Uses  record.h pieces.h isometry.h through.h pile.h given.h        Used by  rigami.h's callers */
+ * Uses  read/read.h record.h pieces.h isometry.h through.h pile.h given.h        Used by  rigami.h's callers */
 #ifndef RG_CERTIFICATE_H
 #define RG_CERTIFICATE_H
 
