@@ -1,4 +1,5 @@
-/* clock.h -- seconds on the wall, for reports; nothing is decided by them but when to stop trying. */
+/* clock.h -- seconds that pass, whatever the clock on the wall is set to: for reports; nothing is decided by them but
+ * when to stop trying. */
 #ifndef RG_CLOCK_H
 #define RG_CLOCK_H
 
@@ -7,7 +8,7 @@
 static inline double rg_seconds(void)
 {
     struct timespec t;
-    timespec_get(&t, TIME_UTC);
+    clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 

@@ -3,6 +3,16 @@
 #include <pthread.h>
 #include <signal.h>
 #include <time.h>
+#include <unistd.h>
+
+/* What the waiting thread waits by: a clock that nobody sets, where the system can wait by it. */
+#if defined(_POSIX_CLOCK_SELECTION) && _POSIX_CLOCK_SELECTION > 0
+static const clockid_t BY = CLOCK_MONOTONIC;
+static int set_clock(pthread_condattr_t *a) { return pthread_condattr_setclock(a, BY); }
+#else
+static const clockid_t BY = CLOCK_REALTIME;
+static int set_clock(pthread_condattr_t *a) { return (void)a, 0; }
+#endif
 
 /* How often the waiting thread looks up, nanoseconds. */
 static const long LOOK_UP = 20000000;
@@ -61,7 +71,7 @@ static void wait_for_others(rg_race *r)
     pthread_mutex_lock(&r->lock);
     while (r->running > 0) {
         struct timespec until;
-        timespec_get(&until, TIME_UTC);
+        clock_gettime(BY, &until);
         until.tv_nsec += LOOK_UP;
         if (until.tv_nsec >= 1000000000) until.tv_sec++, until.tv_nsec -= 1000000000;
         pthread_cond_timedwait(&r->changed, &r->lock, &until);
@@ -78,7 +88,11 @@ int32_t rg_race_run(const rg_race_rules *rules, int32_t *done)
     atomic_init(&r.winner, rules->jobs);
     atomic_init(&r.ended, 0);
     pthread_mutex_init(&r.lock, NULL);
-    pthread_cond_init(&r.changed, NULL);
+    pthread_condattr_t by;
+    pthread_condattr_init(&by);
+    set_clock(&by);
+    pthread_cond_init(&r.changed, &by);
+    pthread_condattr_destroy(&by);
     if (rules->workers > 1 && rules->jobs > 1) has_other = make_thread(&other, &r);
     work(&r, 1);
     wait_for_others(&r);
