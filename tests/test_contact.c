@@ -747,6 +747,60 @@ static void what_a_way_may_bend_is_not_held_against_it(void **state)
     }
 }
 
+/* Two flaps that close through each other, and open again: how many frames cross, and which is the deepest, state by state.
+ * What lies between frames counts for what crosses first alone. */
+static void the_deepest_of_all_frames(void **state)
+{
+    (void)state;
+    rg_lines l = drawing();
+    draw_box(&l, 0, 0, 3, 1);
+    draw(&l, RG_VALLEY, 1, 0, 1, 1);
+    draw(&l, RG_VALLEY, 2, 0, 2, 1);
+    rg_pattern *d = pattern_of(&l);
+    rg_mesh m = mesh_of(d);
+    for (int every = 1; every <= 3; every++) {
+        rg_tree t;
+        rg_course c;
+        rg_plates p;
+        rg_contact_work w;
+        posed s;
+        int crossing = 0, deepest_state = -1, first = -1, pairs = 0;
+        double depth = 0;
+        assert_int_equal(rg_tree_init(&m, 0, &t), RG_OK);
+        assert_int_equal(rg_course_init(&m, &c), RG_OK);
+        assert_int_equal(rg_plates_init(&m, &p), RG_OK);
+        assert_int_equal(rg_contact_work_init(&p, &w), RG_OK);
+        for (int k = 0; k <= 40; k++) {
+            const double a = 1.5 + 1.4 * sin(RG_PI * k / 40);
+            rg_contact_hit hit;
+            pose(&m, &t, (const double[]){a, 0.9 * a}, &s);
+            const int is_frame = k % every == 0, crosses = rg_contact_deepest(&p, s.x, RG_CONTACT_TOLERANCE, &w, &hit);
+            assert_int_equal(rg_course_add(&c, &(rg_plates_state){m.X, s.place, s.x}, is_frame), RG_OK);
+            if (crosses && first < 0) first = k;
+            if (!is_frame || !crosses) continue;
+            crossing++;
+            if (!(hit.depth > depth)) continue;
+            depth = hit.depth;
+            deepest_state = k;
+            pairs = rg_contact_pairs(&p, s.x, RG_CONTACT_TOLERANCE, &w, NULL, 0, NULL);
+        }
+        assert_int_equal(rg_course_end(&c), RG_OK);
+        assert_true(crossing > 5 && depth > 0.01 && deepest_state != first);
+        assert_int_equal(c.found.crossing, crossing);
+        assert_int_equal(c.found.deepest_state, deepest_state);
+        near(c.found.deepest.depth, depth, 1e-12);
+        assert_int_equal(c.found.deepest.facet[0] + c.found.deepest.facet[1], 2); /* the flaps, 0 and 2 */
+        assert_int_equal(c.found.pairs, pairs);
+        assert_true(c.found.first >= 0 && c.found.first <= first);
+        rg_contact_work_free(&w);
+        rg_plates_free(&p);
+        rg_course_free(&c);
+        rg_tree_free(&t);
+    }
+    rg_mesh_free(&m);
+    rg_pattern_destroy(d);
+}
+
 /* One flap down, the other over it, and both flat; then one of them is lifted. If it is the lower one, it goes through
  * the upper one, of which no state and no depth shows anything. */
 static void layers_change_places(void **state)
@@ -1029,7 +1083,7 @@ int main(void)
         cmocka_unit_test(a_narrow_flap_is_not_deep),
         cmocka_unit_test(boxes_fit),
         cmocka_unit_test(a_hair_before_half_a_turn),
-        cmocka_unit_test(layers_change_places),
+        cmocka_unit_test(the_deepest_of_all_frames), cmocka_unit_test(layers_change_places),
         cmocka_unit_test(the_first_crossing_of_a_motion),
         cmocka_unit_test(what_a_way_may_bend_is_not_held_against_it),
         cmocka_unit_test(nearest_points),
