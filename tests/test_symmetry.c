@@ -381,6 +381,30 @@ static void cuts_by_hand(void **state)
     assert_int_equal(cuts_whole(&m, 4e-3), 5);
 }
 
+/* Elements of one mesh on another with the same vertices, which they do not take to itself. */
+static void elements_of_another_mesh(void **state)
+{
+    (void)state;
+    rg_mesh m[2];
+    for (int k = 0; k < 2; k++) {
+        rg_lines l = drawing();
+        draw_box(&l, -1, -1, 1, 1);
+        for (int spoke = 0; spoke < (k ? 3 : 4); spoke++)
+            draw(&l, RG_VALLEY, 0, 0, spoke % 3 ? 1 : -1, spoke / 2 ? 1 : -1);
+        m[k] = mesh_of(&l);
+        assert_int_equal(m[k].nv, 5);
+        assert_memory_equal(m[k].X, m[0].X, 5 * sizeof *m[k].X);
+    }
+    rg_symmetry G = of(&m[0]), other;
+    assert_int_equal(G.order, 8);
+    assert_int_equal(rg_symmetry_on(&other, &G, &m[0]), RG_OK);
+    rg_symmetry_free(&other);
+    assert_int_equal(rg_symmetry_on(&other, &G, &m[1]), RG_EARG);
+    assert_int_equal(other.order, 0);
+    rg_symmetry_free(&G);
+    for (int k = 0; k < 2; k++) rg_mesh_free(&m[k]);
+}
+
 /* ------------------------------------------------------------------------------------------------------ means ---- */
 
 static void means(void **state)
@@ -488,7 +512,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(groups),          cmocka_unit_test(by_hand),        cmocka_unit_test(parts),
         cmocka_unit_test(rings),           cmocka_unit_test(rings_by_parts), cmocka_unit_test(across_a_mirror),
-        cmocka_unit_test(generated_ones),  cmocka_unit_test(without),        cmocka_unit_test(cuts_by_hand),
+        cmocka_unit_test(generated_ones),  cmocka_unit_test(without),        cmocka_unit_test(cuts_by_hand),  cmocka_unit_test(elements_of_another_mesh),
         cmocka_unit_test(means),           cmocka_unit_test(means_keep_what_is_alike),
         cmocka_unit_test(memory_runs_short),
     };
