@@ -256,12 +256,12 @@ rg_status rg_file_commit(rg_file *f, rg_diag *why)
 {
     if (f->pile) return commit_sink(f, why);
     const char *path = f->path ? f->path : "standard output";
-    const int is_regular = f->nameless || f->temporary;
+    const int is_regular = f->path && (f->nameless || f->temporary);
     rg_status s = RG_OK;
     errno = 0;
     if (fflush(f->stream) != 0 || ferror(f->stream)) s = fail_again(f, why, path);
     if (s == RG_OK && is_regular && bring_to_disk(fileno(f->stream)) != 0) s = fail(why, path);
-    if (s == RG_OK && f->nameless) s = name_it(f, why);
+    if (s == RG_OK && is_regular && f->nameless) s = name_it(f, why);
     const int lock = f->temporary ? dup(fileno(f->stream)) : -1; /* kept until it has its place */
     if (f->stream != stdout && fclose(f->stream) != 0 && s == RG_OK) s = fail(why, path);
     f->stream = NULL;
