@@ -198,6 +198,34 @@ static void more_than_can_be_counted(void **state)
     rg_pattern_destroy(p);
 }
 
+/* malloc, and the most that it was asked for at once. */
+static void *watched_resize(void *most, void *block, size_t bytes)
+{
+    if (bytes > *(size_t *)most) *(size_t *)most = bytes;
+    if (bytes > 0) return realloc(block, bytes);
+    free(block);
+    return NULL;
+}
+
+/* A pile too high to say who lies on whom: it is told before memory is taken for all its pairs, which are 34 million. */
+static void more_than_there_is_room_for(void **state)
+{
+    (void)state;
+    enum { PLEATS = 8300 };
+    size_t most = 0;
+    const rg_memory memory = {watched_resize, &most};
+    rg_lines lines = drawing();
+    draw_box(&lines, 0, 0, PLEATS, PLEATS);
+    for (int i = 1; i < PLEATS; i++) draw(&lines, i % 2 ? RG_VALLEY : RG_MOUNTAIN, i, 0, i, PLEATS);
+    rg_pattern *p = pattern_of(&lines);
+    rg_layers *l = NULL;
+    assert_int_equal(rg_layers_create(p, &memory, &l, NULL), RG_OK);
+    assert_int_equal(rg_layers_get_info(l)->state, RG_LAYERS_UNSOLVED);
+    assert_true(most < 200000000);
+    rg_layers_destroy(l);
+    rg_pattern_destroy(p);
+}
+
 /* ------------------------------------------------------------------------------------- all orders one by one ---- */
 
 typedef struct guess { const rg_layers *l; const signed char *value; } guess;
@@ -754,7 +782,7 @@ static void real_patterns(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(own_patterns),   cmocka_unit_test(map_folding), cmocka_unit_test(more_than_can_be_counted),       cmocka_unit_test(brute_force),
+        cmocka_unit_test(own_patterns),   cmocka_unit_test(map_folding), cmocka_unit_test(more_than_can_be_counted), cmocka_unit_test(more_than_there_is_room_for),       cmocka_unit_test(brute_force),
         cmocka_unit_test(reasons), cmocka_unit_test(every_index_is_another_order), cmocka_unit_test(wishes),
         cmocka_unit_test(one_crease), cmocka_unit_test(no_crease),
         cmocka_unit_test(flat_creases_are_paper), cmocka_unit_test(undriven_creases), cmocka_unit_test(ends_that_are_not_flat),

@@ -5,6 +5,9 @@
 
 /* Words of common places: half a gigabyte. */
 static const int64_t MOST_WORDS = (int64_t)1 << 25;
+/* Pairs, and words of the bits that tell who lies over whom: asked for before memory is taken for them, so that it is three gigabytes at the
+ * most. A Miura-ori of 256 by 256 has 25 million pairs, and half of the words. */
+static const int64_t MOST_PAIRS = (int64_t)1 << 25, MOST_ROW_WORDS = (int64_t)1 << 27;
 
 void rg_pairs_free(rg_pairs *p)
 {
@@ -59,7 +62,7 @@ static rg_status number_pairs(rg_pairs *p)
     for (size_t i = 0; i < (size_t)p->nf * (size_t)p->words; i++) {
         p->before[i] = (int32_t)twice;
         twice += __builtin_popcountll(p->row[i]);
-        if (twice > INT32_MAX) return RG_EFORMAT;
+        if (twice > 2 * MOST_PAIRS) return RG_EFORMAT;
     }
     if (RG_MEM_ARRAYS(&p->mem, RG_ARRAY(p->facet, (size_t)twice / 2),
                       RG_ARRAY(p->number, (size_t)twice)) != RG_OK) return RG_ENOMEM;
@@ -142,6 +145,7 @@ rg_status rg_pairs_init(rg_pairs *p, const rg_memory *mem, const rg_cells *c, in
     p->words = (nf + 63) / 64;
     const size_t size = (size_t)nf * (size_t)p->words;
     stack *s;
+    if (size > (size_t)MOST_ROW_WORDS) return RG_EFORMAT;
     rg_status status = RG_MEM_ARRAYS(mem, RG_ARRAY(s, (size_t)c->faces.count), RG_ARRAY(p->bit, (size_t)nf),
                                      RG_ARRAY(p->of_bit, (size_t)nf), RG_ARRAY(p->row, size), RG_ARRAY(p->before, size),
                                      RG_ARRAY(p->start, (size_t)nf + 1));
