@@ -233,6 +233,35 @@ static void no_interior_vertex(void **state)
     rg_pattern_destroy(p);
 }
 
+/* Creases that stay as they are have no say: their blocks are zero, the others as before, and they are counted. */
+static void still_creases(void **state)
+{
+    (void)state;
+    rg_pattern *p = draw_miura(4, 1.1);
+    rg_mesh m = mesh_of(p);
+    rg_constraint K = constraint_of(&m), all = constraint_of(&m);
+    double rho[100];
+    miura_angles(&m, 1.1, 0.8, rho);
+    rg_constraint_assemble(&all, rho);
+    for (int every = 1; every <= 5; every++) {
+        int32_t stills = 0;
+        for (int32_t i = 0; i < m.N; i++) stills += K.still[i] = i % every == 0;
+        rg_constraint_set_still(&K);
+        assert_int_equal(K.stills, stills);
+        rg_constraint_assemble(&K, rho);
+        for (int32_t j = 0; j < K.C.start[K.C.M]; j++) {
+            const int is_still = K.C.col[j] % every == 0;
+            near(K.C.x[j].x, is_still ? 0 : all.C.x[j].x, 0);
+            near(K.C.x[j].y, is_still ? 0 : all.C.x[j].y, 0);
+            near(K.C.x[j].z, is_still ? 0 : all.C.x[j].z, 0);
+        }
+    }
+    rg_constraint_free(&K);
+    rg_constraint_free(&all);
+    rg_mesh_free(&m);
+    rg_pattern_destroy(p);
+}
+
 static void memory(void **state)
 {
     (void)state;
@@ -270,6 +299,7 @@ int main(void)
         cmocka_unit_test(half_turns_are_seen),
         cmocka_unit_test(nan_is_not_lost),
         cmocka_unit_test(no_interior_vertex),
+        cmocka_unit_test(still_creases),
         cmocka_unit_test(memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -171,11 +171,38 @@ static void want_of_memory_is_told(void **state)
     rg_motion_destroy(m);
 }
 
+/* At another pattern of the same mesh it is that one's creases which count: where they all lie in one line, flat paper bends about it in
+ * one way less than it has creases. */
+static void another_pattern(void **state)
+{
+    (void)state;
+    rg_lines l = drawing();
+    draw_box(&l, -1, -1, 1, 1);
+    for (int k = 0; k < 4; k++) draw(&l, k % 2 ? RG_VALLEY : RG_MOUNTAIN, 0, 0, k < 2 ? -1 : 1, k % 3 ? 1 : -1);
+    rg_pattern *p = pattern_of(&l);
+    rg_mesh m = mesh_of(p);
+    rg_vec2 X[5];
+    int32_t ways;
+    const double rho[4] = {0};
+    assert_int_equal(m.nv, 5);
+    assert_int_equal(rg_mobility(&m, NULL, rho, &ways), RG_OK);
+    assert_int_equal(ways, 2);
+    memcpy(X, m.X, sizeof X);
+    assert_int_equal(rg_mobility(&m, X, rho, &ways), RG_OK);
+    assert_int_equal(ways, 2);
+    for (int v = 0; v < 5; v++) X[v].y = 0;
+    assert_int_equal(rg_mobility(&m, X, rho, &ways), RG_OK);
+    assert_int_equal(ways, 3);
+    rg_mesh_free(&m);
+    rg_pattern_destroy(p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(agrees_with_singular_values),
         cmocka_unit_test(tessellations_go_the_ways_they_are_known_to),
+        cmocka_unit_test(another_pattern),
         cmocka_unit_test(there_is_no_other_frame),
         cmocka_unit_test(nothing_constrains_a_single_crease),
         cmocka_unit_test(want_of_memory_is_told),
