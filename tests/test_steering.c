@@ -625,9 +625,80 @@ static void steps_ask_for_nothing(void **state)
     rg_pattern_destroy(p);
 }
 
+/* ------------------------------------------------------------------------------------------------- landing, blame ---- */
+
+/* Aimed at a state that closes, it ends there to the bit; aimed beside one, where angles as they are asked for do not close, at what does. */
+static void it_lands_only_where_the_sheet_closes(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("miura", 4);
+    const int32_t c = 0;
+    for (int beside = 0; beside < 2; beside++) {
+        rg_fold *f = flat_fold(p, 11), *there = flat_fold(p, 11);
+        const double sign = letter(f, c) == 'V' ? 1 : -1, from = sign * 30 * RG_DEG, to = sign * 50 * RG_DEG;
+        int32_t N;
+        double target[100];
+        assert_int_equal(rg_fold_drive(there, 1, &c, &to), RG_OK);
+        while (rg_fold_step(there)->outcome == RG_RUNNING) {}
+        assert_int_equal(rg_fold_drive(f, 1, &c, &from), RG_OK);
+        while (rg_fold_step(f)->outcome == RG_RUNNING) {}
+        const double *rho = rg_fold_angles(there, &N);
+        assert_true(N <= 100);
+        for (int32_t i = 0; i < N; i++) {
+            target[i] = beside ? 1e-5 * round(1e5 * rho[i]) : rho[i];
+            assert_int_equal(rg_fold_set_target(f, i, target[i]), RG_OK);
+        }
+        const rg_step_info *now = rg_fold_step(f);
+        for (int k = 0; now->outcome == RG_RUNNING && k < 100; k++) now = rg_fold_step(f);
+        rho = rg_fold_angles(f, NULL);
+        for (int32_t i = 0; i < N; i++) near(rho[i], target[i], beside ? 1e-4 : 0);
+        below(now->closure, 1e-9);
+        rg_fold_destroy(there);
+        rg_fold_destroy(f);
+        if (!beside) assert_int_equal(now->outcome == RG_RUNNING, 0);
+    }
+    rg_pattern_destroy(p);
+}
+
+/* Of two vertices that have nothing to do with each other, the one whose creases are driven against each other is to blame. */
+static void who_resists_is_to_blame(void **state)
+{
+    (void)state;
+    for (int at = 0; at < 2; at++) {
+        rg_lines l = drawing();
+        draw_box(&l, 0, 0, 4, 2);
+        for (int v = 0; v < 2; v++) {
+            const double x = 1 + 2 * v;
+            draw(&l, RG_VALLEY, x, 1, x - 0.4, 0);
+            draw(&l, RG_VALLEY, x, 1, x + 0.6, 0);
+            draw(&l, RG_VALLEY, x, 1, x + 0.5, 2);
+            draw(&l, RG_MOUNTAIN, x, 1, x - 0.3, 2);
+        }
+        rg_pattern *p = pattern_of(&l);
+        rg_fold *f = flat_fold(p, 31);
+        const rg_sheet *sheet = rg_motion_get_sheet(rg_fold_motion(f));
+        const double middle = 1 + 2 * at;
+        const double ends[2][2] = {{middle - 0.2, 0.5}, {middle + 0.3, 0.5}};
+        int32_t driven[2];
+        for (int k = 0; k < 2; k++) driven[k] = rg_motion_crease_at(rg_fold_motion(f), ends[k]);
+        assert_true(driven[0] >= 0 && driven[1] >= 0 && driven[0] != driven[1]);
+        const double to[2] = {170 * RG_DEG, 170 * RG_DEG}; /* more than two neighbours can */
+        assert_int_equal(rg_fold_drive(f, 2, driven, to), RG_OK);
+        const rg_step_info *now = rg_fold_step(f);
+        while (now->outcome == RG_RUNNING) now = rg_fold_step(f);
+        assert_int_equal(now->outcome, RG_STOPPED);
+        assert_true(now->blocking_vertex_count >= 1);
+        near(sheet->flat[now->blocking_vertices[0]][0], middle, 1e-12);
+        near(sheet->flat[now->blocking_vertices[0]][1], 1, 1e-12);
+        rg_fold_destroy(f);
+        rg_pattern_destroy(p);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(it_lands_only_where_the_sheet_closes), cmocka_unit_test(who_resists_is_to_blame),
         cmocka_unit_test(one_crease_of_a_miura_ori), cmocka_unit_test(back_through_flat), cmocka_unit_test(targets_pins_and_free_creases),
         cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames), cmocka_unit_test(frames_do_not_matter), cmocka_unit_test(to_and_fro), cmocka_unit_test(forgotten_on_the_way),
         cmocka_unit_test(kept_states), cmocka_unit_test(positions_and_transforms), cmocka_unit_test(recorded),
