@@ -34,7 +34,7 @@ static rg_status take(const rg_example *given, rg_example *out, rg_diag *why)
 rg_status rg_example_write(const char *kind, const rg_example *given, const char *path, rg_diag *why)
 {
     rg_reading r = rg_reading_default();
-    rg_example e;
+    rg_example e = {0};
     rg_lines lines;
     rg_status s = take(given, &e, why);
     if (s != RG_OK) return s;
