@@ -794,7 +794,7 @@ RG_API rg_status rg_convert_to(const void *bytes, size_t size, rg_format to, con
 /* Writes an example crease pattern as .opx. `kind`: one of rg_generate_kinds(), a NULL-ended list of names. n, m:
  * its size (0: the kind's default; m = 0: the same as n; `random`: m is the seed). angle: radians, 0 for the kind's
  * default. path "-": standard output. RG_EARG: no such kind or size, why->text says so. Memory is malloc's here and
- * in rg_generate_to; rg_generate_pattern and rg_example_write take an allocator. */
+ * in rg_generate_to; the functions of rg_example, which do the same and more, and rg_generate_pattern take an allocator. */
 RG_API const char *const *rg_generate_kinds(void);
 RG_API rg_status rg_generate(const char *kind, int32_t n, int32_t m, double angle, const char *path, rg_diag *why);
 /* The same to a sink; or as a pattern at once. r: as in rg_pattern_create. */
@@ -826,6 +826,8 @@ static inline rg_example rg_example_default(void)
 }
 /* Writes it whole or not at all. RG_EARG: no such kind, size or format; RG_EWRITE, RG_ENOMEM. */
 RG_API rg_status rg_example_write(const char *kind, const rg_example *e, const char *path, rg_diag *why);
+/* The same to a sink; format AUTO: .opx. */
+RG_API rg_status rg_example_write_to(const char *kind, const rg_example *e, const rg_sink *sink, rg_diag *why);
 
 /* ------------------------------------------------------------------------------------- write, render ---- */
 

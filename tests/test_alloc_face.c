@@ -242,8 +242,10 @@ static rg_status examples_written(const rg_memory *mem, counted *c)
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/x.fold", folder);
     const long asked = c->asked;
-    const rg_status status = rg_example_write("miura", &e, path, NULL);
+    rg_status status = rg_example_write("miura", &e, path, NULL);
     assert_true(c->asked > asked);
+    const rg_sink sink = {drop, &(size_t){0}};
+    if (status == RG_OK) status = rg_example_write_to("miura", &e, &sink, NULL);
     unlink(path);
     assert_int_equal(rmdir(folder), 0);
     return status;
@@ -495,7 +497,7 @@ static void each_of_them(void **state)
     (void)state;
     refuse_everywhere(from_arrays, "rg_pattern_create");
     refuse_everywhere(generated_at_once, "rg_generate_pattern");
-    refuse_everywhere(examples_written, "rg_example_write");
+    refuse_everywhere(examples_written, "rg_example_write and _to");
     refuse_everywhere(moved_fold, "rg_fold_create");
     refuse_everywhere(read_off_a_path, "rg_fold_go_to");
     refuse_everywhere(steered_fold, "rg_fold_drive");

@@ -340,6 +340,20 @@ static void every_writer_to_a_sink(void **state)
     }
     rg_pattern_destroy(bird);
     assert_int_equal(rg_convert_to(p.byte, p.n, RG_FORMAT_AUTO, &second, NULL, NULL, NULL, &why), RG_EARG);
+    /* An example is the generated file; in another format and size, it is what its file is. */
+    rg_example e = rg_example_default();
+    assert_int_equal(rg_example_write_to("bird", NULL, &second, &why), RG_OK);
+    assert_int_equal(q.n, p.n);
+    assert_memory_equal(q.byte, p.byte, p.n);
+    empty(&q);
+    e.format = RG_FORMAT_DXF, e.side = 7;
+    assert_int_equal(rg_example_write_to("bird", &e, &second, &why), RG_OK);
+    assert_int_equal(rg_example_write("bird", &e, written_path("e.dxf", path), &why), RG_OK);
+    is_the_file(&q, path);
+    empty(&q);
+    e.format = RG_FORMAT_ORI;
+    assert_int_equal(rg_example_write_to("bird", &e, &second, &why), RG_EARG);
+    assert_int_equal(q.n, 0);
     empty(&p);
     rg_certificate *c = NULL;
     assert_int_equal(rg_motion_write_to(m, ".fold", -1, &sink, NULL, &why), RG_OK);

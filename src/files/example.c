@@ -31,19 +31,35 @@ static rg_status take(const rg_example *given, rg_example *out, rg_diag *why)
     return RG_OK;
 }
 
+/* Where to: to.path or to.sink. */
+static rg_status put(const char *kind, const rg_example *e, const rg_dest *to, rg_diag *why)
+{
+    const rg_memory mem = rg_mem_default(e->memory);
+    rg_reading r = rg_reading_default();
+    rg_lines lines;
+    r.memory = e->memory;
+    const rg_status s = rg_generate_example(kind, e, &mem, &lines, why);
+    return s == RG_OK ? rg_convert_lines(&lines, e->format, &r, to, NULL, NULL, why) : s;
+}
+
 rg_status rg_example_write(const char *kind, const rg_example *given, const char *path, rg_diag *why)
 {
-    rg_reading r = rg_reading_default();
     rg_example e = {0};
-    rg_lines lines;
     rg_status s = take(given, &e, why);
     if (s != RG_OK) return s;
-    const rg_memory mem = rg_mem_default(e.memory);
-    r.memory = e.memory;
     if (e.format == RG_FORMAT_AUTO) e.format = rg_read_extension(path);
     const char *slash = strrchr(path, '/');
     if (e.format == RG_FORMAT_AUTO && !strchr(slash ? slash : path, '.')) e.format = RG_FORMAT_OPX;
     s = rg_convert_check(e.format, path, why);
-    if (s == RG_OK) s = rg_generate_example(kind, &e, &mem, &lines, why);
-    return s == RG_OK ? rg_convert_lines(&lines, e.format, &r, &(rg_dest){path, NULL}, NULL, NULL, why) : s;
+    return s == RG_OK ? put(kind, &e, &(rg_dest){path, NULL}, why) : s;
+}
+
+rg_status rg_example_write_to(const char *kind, const rg_example *given, const rg_sink *sink, rg_diag *why)
+{
+    rg_example e = {0};
+    rg_status s = take(given, &e, why);
+    if (s != RG_OK) return s;
+    if (e.format == RG_FORMAT_AUTO) e.format = RG_FORMAT_OPX;
+    s = rg_convert_check(e.format, "a sink", why);
+    return s == RG_OK ? put(kind, &e, &(rg_dest){NULL, sink}, why) : s;
 }
