@@ -157,6 +157,26 @@ static void to_and_fro(void **state)
     rg_pattern_destroy(p);
 }
 
+/* Nothing was set: what the pattern aims at leads to its end, folded flat, whatever the last step takes past half a turn. */
+static void flat_paper_to_its_end(void **state)
+{
+    (void)state;
+    static const char *const kinds[] = {"miura", "bird", "fish", "yoshimura", "waterbomb-base"};
+    for (int k = 0; k < 5; k++)
+        for (int32_t frames = 11; frames <= 61; frames += 50) {
+            rg_pattern *p = generated(kinds[k], 0);
+            rg_fold *f = flat_fold(p, frames);
+            while (rg_fold_step(f)->outcome == RG_RUNNING) below(rg_fold_get_info(f)->closure, 1e-10);
+            assert_int_equal(rg_fold_get_info(f)->outcome, RG_FOLDED);
+            assert_int_equal(rg_fold_get_info(f)->frames, frames);
+            int32_t N;
+            const double *rho = rg_fold_angles(f, &N);
+            for (int32_t i = 0; i < N; i++) near(rho[i], letter(f, i) == 'V' ? RG_PI : -RG_PI, 1e-12);
+            rg_fold_destroy(f);
+            rg_pattern_destroy(p);
+        }
+}
+
 /* Forgotten on the way, between two states and of a motion that was found: it goes on to what it aimed at. */
 static void forgotten_on_the_way(void **state)
 {
@@ -700,7 +720,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_lands_only_where_the_sheet_closes), cmocka_unit_test(who_resists_is_to_blame),
         cmocka_unit_test(one_crease_of_a_miura_ori), cmocka_unit_test(back_through_flat), cmocka_unit_test(targets_pins_and_free_creases),
-        cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames), cmocka_unit_test(frames_do_not_matter), cmocka_unit_test(to_and_fro), cmocka_unit_test(forgotten_on_the_way),
+        cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames), cmocka_unit_test(frames_do_not_matter), cmocka_unit_test(to_and_fro), cmocka_unit_test(forgotten_on_the_way), cmocka_unit_test(flat_paper_to_its_end),
         cmocka_unit_test(kept_states), cmocka_unit_test(positions_and_transforms), cmocka_unit_test(recorded),
         cmocka_unit_test(records_are_verified),
         cmocka_unit_test(steps_ask_for_nothing)};

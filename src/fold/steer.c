@@ -285,17 +285,20 @@ static void accept(rg_steer *F, double s)
     F->steps++;
 }
 
-/* Where all that wish are near their targets: there, if that closes. */
-static int land(rg_steer *F, double goal)
+/* Where all that wish are near their targets, in `at`: there, if that closes. */
+static int land(rg_steer *F, double goal, const double *at)
 {
+    double *end = F->pull;
     if (F->driven || goal < 1) return 0;
     for (int32_t i = 0; i < F->K.C.N; i++) {
         if (F->role[i] == RG_ROLE_FREE && i < F->mesh.N - F->mesh.added) return 0;
-        if (F->role[i] == RG_ROLE_WISHES && !(fabs(F->target[i] - F->rho[i]) <= LANDING)) return 0;
-        F->trial[i] = F->role[i] == RG_ROLE_WISHES ? F->target[i] : F->role[i] == RG_ROLE_FREE ? 0 : F->rho[i];
+        if (F->role[i] == RG_ROLE_WISHES && !(fabs(F->target[i] - at[i]) <= LANDING)) return 0;
+        end[i] = F->role[i] == RG_ROLE_WISHES ? F->target[i] : F->role[i] == RG_ROLE_FREE ? 0 : F->rho[i];
     }
-    F->closure = rg_constraint_closure(&F->K, F->trial, NULL);
-    if (!(F->closure <= F->tol)) return 0;
+    const double closure = rg_constraint_closure(&F->K, end, NULL);
+    if (!(closure <= F->tol)) return 0;
+    F->closure = closure;
+    memcpy(F->trial, end, (size_t)F->K.C.N * sizeof *end);
     accept(F, 1);
     return 1;
 }
@@ -306,7 +309,7 @@ static void go_on(rg_steer *F, double goal)
     const double left = goal - F->s;
     memset(F->held, 0, (size_t)F->K.C.N);
     hold_still(F);
-    if (land(F, goal)) return;
+    if (land(F, goal, F->rho)) return;
     for (int32_t round = 0; round < HOLDS; round++) {
         if (!tangent(F, F->rho, F->s, F->t)) break;
         const double fastest = largest(F->K.C.N, F->t);
@@ -315,6 +318,7 @@ static void go_on(rg_steer *F, double goal)
         int made = 0;
         for (; !made && ds > fmin(SHORTEST, left / 2); ds /= made ? 1 : 2) made = try_step(F, ds) && is_on_branch(F, ds);
         if (!made) break;
+        if (ds == left && land(F, goal, F->trial)) return; /* the end itself, which a step may be past by its error */
         if (round + 1 < HOLDS && hold_what_overfolds(F)) continue;
         F->h = ds == left ? fmax(F->h, 2 * ds) : 2 * ds;
         accept(F, ds == left ? goal : F->s + ds);
