@@ -9,13 +9,20 @@
  * towards +z. Lengths are those of the input file.
  *
  * Errors: functions return a status, 0 is RG_OK; results go through the last pointers and are untouched on failure,
- * unless said otherwise. The library never prints, never exits and keeps no global state: distinct handles may be used
- * by distinct threads at the same time. Every destroy function takes NULL.
+ * unless said otherwise. No pointer is NULL, unless said otherwise, but for `why`, which always may be. Whatever asks
+ * for memory may return RG_ENOMEM. The library never prints, never exits and keeps no global state.
+ *
+ * Ownership: what a call makes is its caller's, who destroys it; every destroy function takes NULL. A handle needs
+ * none of those that it was made of, so that they may be destroyed in any order.
+ *
+ * Threads: distinct handles may be used by distinct threads at the same time. One and the same rg_pattern, rg_motion
+ * or rg_certificate may be used by several as long as nobody changes it; an rg_fold, rg_layers or rg_tangent by one at
+ * a time.
  *
  * Growth: structs that a caller fills begin with `size` and are made by rg_..._default(), which sets it to what the
  * caller was compiled with; members that it does not know yet are taken at their defaults. Structs that the library
- * fills are lent by pointer and only grow at their ends. Elements of lists, and small structs passed by value (rg_diag,
- * rg_frame, rg_crease, ...), stay as they are.
+ * fills are lent by pointer and only grow at their ends. Elements of lists, and small structs passed by value
+ * (rg_diag, rg_frame, rg_crease, ...), stay as they are.
  *
  * Borrowed: what is lent lives as long as the handle that lends it and, of an rg_fold, until it is next moved. */
 #ifndef RIGAMI_H
@@ -76,7 +83,10 @@ typedef struct rg_diag {
     char text[240]; /* a sentence without full stop; "" where nothing was said */
 } rg_diag;
 
-/* An allocator. resize(ctx, NULL, n) allocates, resize(ctx, p, n) moves, resize(ctx, p, 0) frees and returns NULL. */
+/* An allocator. resize(ctx, NULL, n) allocates, resize(ctx, p, n) moves, resize(ctx, p, 0) frees and returns NULL.
+ * Blocks are aligned as malloc's. It need not be safe for threads as long as the handles that it is given to are not
+ * used by several at a time: a search with it keeps to the calling thread; films ask in threads of theirs, one at a
+ * time. */
 typedef struct rg_memory {
     void *(*resize)(void *ctx, void *block, size_t bytes); /* NULL: there is none; the old block is then as it was */
     void *ctx;                                             /* handed on to it */
@@ -215,8 +225,9 @@ typedef struct rg_settings {
                                    * before; 1 */
     int32_t frames;               /* frames of the motion, both ends included, at least 2; 60 */
     rg_pace pace;                 /* what frames are even in; percent */
-    int32_t threads;              /* that the search may use, at least 1, of which it uses two at the most; 0: as
-                                   * many as there are processors. What comes of it does not depend on them; 0 */
+    int32_t threads;              /* that the search may use, at least 1, of which it uses two at the most, and one with
+                                   * a `memory`; 0: as many as there are processors. What comes of it does not depend
+                                   * on them; 0 */
     int32_t fixed_facet;          /* number of the facet that stays where it is, from 0; -1: the one nearest the
                                    * centre; -1 */
 } rg_settings;
@@ -544,7 +555,10 @@ typedef struct rg_report {
     const rg_folding_stage *stage;   /* [stages] */
 } rg_report;
 
-/* Folds the pattern through all frames. RG_OK also when it stopped short: read rg_motion_report. */
+/* Folds the pattern through all frames. RG_OK also when it stopped short: read rg_motion_report. progress: NULL, or
+ * asked while it searches; ended by it, it is RG_OK as well, with what was found by then, "interrupted". RG_ESHEET:
+ * not one sheet without holes, why->text says where; RG_EARG: settings, or no such facet. Owner: the caller,
+ * rg_motion_destroy. */
 RG_API rg_status rg_motion_create(const rg_pattern *p, const rg_settings *s, rg_progress progress, void *ctx,
                                   rg_motion **motion, rg_diag *why);
 /* A crease that is driven. */
@@ -592,7 +606,8 @@ typedef struct rg_sheet {
     const int32_t *facet_triangle;     /* [facets + 1] into triangle */
 } rg_sheet;
 RG_API const rg_sheet *rg_motion_get_sheet(const rg_motion *m);
-/* xyz[vertices]: out, positions of that frame. RG_EARG: no such frame. */
+/* xyz[vertices]: out, positions of that frame, lengths as in the pattern; the fixed facet lies where it lies there, in
+ * z = 0. RG_EARG: no such frame. */
 RG_API rg_status rg_motion_pose(const rg_motion *m, int32_t frame, double (*xyz)[3]);
 /* Fold angles of a frame, [creases], radians; those of the next frame follow them; borrowed; NULL: no such frame. */
 RG_API const double *rg_motion_angles(const rg_motion *m, int32_t frame);
@@ -642,13 +657,13 @@ typedef struct rg_step_info {
                                                           * resists most, and what is held short */
 } rg_step_info;
 
-/* Looks for a motion, as rg_motion_create does, and stands at its first frame: the search happens here, as what
- * folds a pattern is known only when it has come to its end. A motion that stops short is no error: the last step
- * says so. `progress` may be NULL. RG_ESHEET: not one sheet without holes, why->text says where; RG_ENOMEM. Owner:
- * the caller, rg_fold_destroy. */
+/* Looks for a motion, as rg_motion_create does and with what it says of `progress` and errors, and stands at its first
+ * frame: the search happens here, as what folds a pattern is known only when it has come to its end. A motion that
+ * stops short is no error: the last step says so. Owner: the caller, rg_fold_destroy. */
 RG_API rg_status rg_fold_create(const rg_pattern *p, const rg_settings *s, rg_progress progress, void *ctx,
                                 rg_fold **fold, rg_diag *why);
-/* Stands on flat paper and looks for nothing: to be driven. Facets as drawn, or all cut where s->triangulate is all. */
+/* Stands on flat paper and looks for nothing: to be driven; steps go to what the pattern aims at as long as nothing
+ * else was set. Facets as drawn, or all cut where s->triangulate is all. Errors and owner as above. */
 RG_API rg_status rg_fold_create_flat(const rg_pattern *p, const rg_settings *s, rg_fold **fold, rg_diag *why);
 RG_API void rg_fold_destroy(rg_fold *f);
 /* The motion that was found, with its report; of a flat one, its sheet alone. Borrowed until rg_fold_destroy. */
@@ -675,8 +690,9 @@ RG_API rg_status rg_fold_go_to_angle(rg_fold *f, int32_t crease, double radians)
  * state to the end. The pattern stays as it is in the present state. RG_EARG: no such crease or angle, fold and track
  * are as before; RG_ENOMEM. */
 
-/* Creases are driven: each turns evenly from its present angle to that one, whatever the others do, which follow by
- * the least motion that the facets allow, eq. (9). What cannot follow stops it. */
+/* Creases are driven: each turns evenly from its present angle to that one, radians, -pi ... pi, whatever the others
+ * do, which follow by the least motion that the facets allow, eq. (9). What cannot follow stops it. creases, radians:
+ * [count]; of a crease that is there twice the last angle counts. */
 RG_API rg_status rg_fold_drive(rg_fold *f, int32_t count, const int32_t *creases, const double *radians);
 /* From now on this crease aims at an angle, radians, -pi ... pi, as far as the others let it; RG_FREE: at nothing. */
 RG_API rg_status rg_fold_set_target(rg_fold *f, int32_t crease, double radians);
@@ -690,8 +706,8 @@ RG_API rg_status rg_fold_forget(rg_fold *f);
 
 /* Fold angles, radians, one per crease of rg_motion_get_sheet(rg_fold_motion(f)); creases may be NULL. */
 RG_API const double *rg_fold_angles(const rg_fold *f, int32_t *creases);
-/* Positions of the vertices; the pattern that the state is folded from, which is that of the sheet unless creases
- * were moved. */
+/* Positions of the vertices, as rg_motion_pose has them; the pattern that the state is folded from, which is that of
+ * the sheet unless creases were moved. */
 RG_API const double (*rg_fold_positions(const rg_fold *f, int32_t *vertices))[3];
 RG_API const double (*rg_fold_flat(const rg_fold *f, int32_t *vertices))[2];
 /* Where each facet goes: x -> R x + t with R = (column[0] column[1] column[2]) and t = column[3], for x in the flat
@@ -705,15 +721,17 @@ RG_API const rg_transform *rg_fold_transforms(const rg_fold *f, int32_t *facets)
 
 /* A state with its track and its aims. Restoring allocates nothing where the track fits, and leads to the same bits
  * from there on; it may be done many times. A snapshot belongs to the fold that it was taken of, or to its clones.
- * RG_EARG: another fold's. */
+ * RG_EARG: another fold's. Owner: the caller, rg_snapshot_destroy. */
 typedef struct rg_snapshot rg_snapshot;
 RG_API rg_status rg_fold_snapshot(const rg_fold *f, rg_snapshot **snapshot);
 RG_API rg_status rg_fold_restore(rg_fold *f, const rg_snapshot *snapshot);
 RG_API void rg_snapshot_destroy(rg_snapshot *s);
 /* Another fold in the same state, which moves by itself and may live longer; also in another thread, if the
- * allocator allows that. */
+ * allocator allows that. Owner: the caller, rg_fold_destroy. */
 RG_API rg_status rg_fold_clone(const rg_fold *f, rg_fold **clone);
-/* The track so far as a motion of its own, measured, to be written or drawn. */
+/* The track so far as a motion of its own, measured, with what lies between its states, to be written or drawn. Of a
+ * fold that was steered several times, rg_frame.percent is of the whole way, each leg of it as long as any other, and
+ * nothing is aimed at by all of it. Owner: the caller, rg_motion_destroy. */
 RG_API rg_status rg_fold_record(const rg_fold *f, rg_motion **motion, rg_diag *why);
 
 /* --------------------------------------------------------------------------------------------- tangent ---- */
@@ -791,10 +809,10 @@ RG_API rg_status rg_convert_to(const void *bytes, size_t size, rg_format to, con
 
 /* -------------------------------------------------------------------------------------------- generate ---- */
 
-/* Writes an example crease pattern as .opx. `kind`: one of rg_generate_kinds(), a NULL-ended list of names. n, m:
- * its size (0: the kind's default; m = 0: the same as n; `random`: m is the seed). angle: radians, 0 for the kind's
- * default. path "-": standard output. RG_EARG: no such kind or size, why->text says so. Memory is malloc's here and
- * in rg_generate_to; the functions of rg_example, which do the same and more, and rg_generate_pattern take an allocator. */
+/* Writes an example crease pattern as .opx. `kind`: one of rg_generate_kinds(), a NULL-ended list of names. n, m: its
+ * size (0: the kind's default; m = 0: the same as n; `random`: m is the seed). angle: radians, 0 for the kind's
+ * default. path "-": standard output. RG_EARG: no such kind or size, why->text says so. Memory is malloc's here and in
+ * rg_generate_to; those of rg_example, which do the same and more, and rg_generate_pattern take an allocator. */
 RG_API const char *const *rg_generate_kinds(void);
 RG_API rg_status rg_generate(const char *kind, int32_t n, int32_t m, double angle, const char *path, rg_diag *why);
 /* The same to a sink; or as a pattern at once. r: as in rg_pattern_create. */

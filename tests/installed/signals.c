@@ -86,7 +86,7 @@ int main(void)
     }
     const rg_status s = rg_motion_create(pattern, &settings, NULL, NULL, &motion, &why);
     int32_t ways;
-    if (s == RG_OK) rg_motion_mobility(motion, 1, &ways); /* the core has none */
+    if (s == RG_OK) rg_motion_mobility(motion, 1, &ways); /* which factorises once more */
     close(stop[1]);
     int sent = -1, status;
     if (read(told[0], &sent, sizeof sent) != sizeof sent || waitpid(child, &status, 0) != child) return 3;
