@@ -10,7 +10,6 @@
 #include "corpus.h"
 #include "draw.h"
 #include "layers/layers.h"
-#include "layers/overlap.h"
 #include "stacked.h"
 
 static rg_pattern *read_pattern(const char *path)
@@ -696,59 +695,6 @@ static void levels(void **state)
     }
 }
 
-/* Polygons where two facets lie on each other: each of their corners in both, and their areas what sampling says. */
-static void overlaps(void **state)
-{
-    (void)state;
-    rg_layers_info info;
-    rg_pattern *p = read_pattern("patterns/crane.opx");
-    rg_layers *l = layers_of(p, &info);
-    const rg_memory mem = rg_mem_default(NULL);
-    double *angle = ends(&l->mesh, l);
-    rg_overlaps o;
-    stacked s;
-    unsigned seed = 5;
-    stacked_init(&s, &l->mesh, angle);
-    assert_int_equal(rg_overlaps_init(&o, &mem, &l->cells, &l->pairs), RG_OK);
-    for (int32_t i = 0; i < l->pairs.count; i++) {
-        double twice = 0, piles = 0, in = 0;
-        rg_vec2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
-        assert_int_equal(o.start[i + 1] - o.start[i], 1);
-        const rg_vec2 *x = o.corner + o.loop[o.start[i]];
-        const int32_t n = o.loop[o.start[i] + 1] - o.loop[o.start[i]];
-        assert_true(n >= 3);
-        for (int32_t j = 0; j < n; j++) {
-            twice += rg_vec2_cross(x[j], x[(j + 1) % n]);
-            low = (rg_vec2){fmin(low.x, x[j].x), fmin(low.y, x[j].y)}, high = (rg_vec2){fmax(high.x, x[j].x), fmax(high.y, x[j].y)};
-            for (int side = 0; side < 2; side++) {
-                /* Back in the pattern, the corner is in the facet or on its border. */
-                const int32_t f = l->pairs.facet[i][side];
-                const rg_isometry *q = &l->flat.place[f];
-                const rg_vec2 r = rg_vec2_sub(x[j], q->t), back = {rg_vec2_dot(q->c[0], r), rg_vec2_dot(q->c[1], r)};
-                const int32_t *v = l->mesh.facet_vertex + l->mesh.facet_start[f], m = l->mesh.facet_start[f + 1] - l->mesh.facet_start[f];
-                for (int32_t k = 0; k < m; k++)
-                    assert_true(rg_vec2_turn(l->mesh.X[v[k]], l->mesh.X[v[(k + 1) % m]], back) >= -1e-4 * l->mesh.size * l->mesh.size);
-            }
-        }
-        assert_true(twice > 0);
-        for (int k = 0; k < 400; k++) {
-            const rg_vec2 at = {low.x + (noise(&seed) + 1) / 2 * (high.x - low.x), low.y + (noise(&seed) + 1) / 2 * (high.y - low.y)};
-            /* The other program's plane is that of facet 0. */
-            const rg_isometry *q = &l->flat.place[0];
-            const rg_vec2 r = rg_vec2_sub(at, q->t), there = {rg_vec2_dot(q->c[0], r), rg_vec2_dot(q->c[1], r)};
-            piles += stacked_inside(&s, l->pairs.facet[i][0], there) > 0 && stacked_inside(&s, l->pairs.facet[i][1], there) > 0;
-            in++;
-        }
-        const double box = (high.x - low.x) * (high.y - low.y);
-        near(piles / in, twice / 2 / box, 0.13); /* five standard deviations of 400 samples */
-    }
-    rg_overlaps_free(&o);
-    stacked_free(&s);
-    free(angle);
-    rg_layers_destroy(l);
-    rg_pattern_destroy(p);
-}
-
 /* --------------------------------------------------------------------------------------------- real patterns ---- */
 
 /* Facets, pairs, orders and parts as J. Ku's Flat-Folder finds them, but for those with a remark. Facets and pairs are 0 where vertices
@@ -786,7 +732,7 @@ int main(void)
         cmocka_unit_test(reasons), cmocka_unit_test(every_index_is_another_order), cmocka_unit_test(wishes),
         cmocka_unit_test(one_crease), cmocka_unit_test(no_crease),
         cmocka_unit_test(flat_creases_are_paper), cmocka_unit_test(undriven_creases), cmocka_unit_test(ends_that_are_not_flat),
-        cmocka_unit_test(moved_and_triangulated), cmocka_unit_test(levels), cmocka_unit_test(overlaps),
+        cmocka_unit_test(moved_and_triangulated), cmocka_unit_test(levels),
         cmocka_unit_test(real_patterns)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

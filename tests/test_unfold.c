@@ -339,6 +339,7 @@ static void distances(void **state)
     const rg_memory mem = rg_mem_default(NULL);
     rg_mesh none, m;
     rg_proximity n;
+    rg_close_pair at;
     unsigned seed = 3;
     mesh_of("patterns/waterbomb-base.opx", &none);
     assert_int_equal(rg_triangulate_all(&none, &m), RG_OK);
@@ -355,7 +356,7 @@ static void distances(void **state)
                     const rg_vec3 x = rg_vec3_axpy(a, p[c[0]], rg_vec3_axpy(b, p[c[1]], rg_vec3_scale(1 - a - b, p[c[2]])));
                     least = fmin(least, rg_vec3_length(rg_vec3_sub(x, p[v])));
                 }
-            const double d = rg_proximity_distance(&n, 0, v, f, p, NULL);
+            const double d = rg_proximity_distance(&n, 0, v, f, p, &at);
             assert_true(d <= least + 1e-12);
             near(d, least, 0.05);
         }
@@ -369,7 +370,7 @@ static void distances(void **state)
                     const rg_vec3 y = rg_vec3_axpy(t, p[m.edge[f][1]], rg_vec3_scale(1 - t, p[m.edge[f][0]]));
                     least = fmin(least, rg_vec3_length(rg_vec3_sub(x, y)));
                 }
-            const double d = rg_proximity_distance(&n, 1, e, f, p, NULL);
+            const double d = rg_proximity_distance(&n, 1, e, f, p, &at);
             assert_true(d <= least + 1e-12);
             near(d, least, 0.05);
         }
@@ -405,13 +406,13 @@ static void all_near(void **state)
         for (int kind = 0; kind < 2; kind++)
             for (int32_t i = 0; i < (kind ? m.ne : m.nv); i++)
                 for (int32_t j = 0; j < (kind ? i : m.nf); j++) {
-                    rg_close_pair at;
+                    rg_close_pair at, then;
                     const size_t flag = (size_t)i * (size_t)(kind ? m.ne : m.nf) + (size_t)j;
                     if ((kind ? n.edge : n.corner)[flag] & RG_PROXIMITY_APART) continue;
                     const double d = rg_proximity_distance(&n, kind, i, j, p, &at);
                     for (int step = 1; step <= 20; step++) { /* on the way */
                         for (int k = 0; k < 4; k++) x[at.v[k]] = rg_vec3_axpy(step / 20.0, rg_vec3_sub(q[at.v[k]], p[at.v[k]]), p[at.v[k]]);
-                        if (rg_proximity_distance(&n, kind, i, j, x, NULL) < 0.1 * d) most = fmin(most, step / 20.0);
+                        if (rg_proximity_distance(&n, kind, i, j, x, &then) < 0.1 * d) most = fmin(most, step / 20.0);
                     }
                     if (!(d < reach) || (kind && !(at.weight[0] > 0 && at.weight[1] > 0 && at.weight[2] < 0 && at.weight[3] < 0))) continue;
                     int times = 0;
@@ -422,7 +423,7 @@ static void all_near(void **state)
                 }
         assert_int_equal(found, n.count);
         assert_true(found > 20);
-        assert_true(rg_proximity_meet(&n, p, q, 0.1, NULL) <= most);
+        assert_true(rg_proximity_meet(&n, p, q, 0.1) <= most);
     }
     free(p), free(q), free(x);
     rg_proximity_free(&n);
@@ -437,7 +438,6 @@ static void meetings(void **state)
     rg_mesh none, m;
     rg_proximity n;
     rg_linkage P;
-    rg_close_pair who;
     mesh_of("patterns/preliminary.opx", &none);
     assert_int_equal(rg_triangulate_all(&none, &m), RG_OK);
     assert_int_equal(rg_proximity_init(&n, &mem, &m), RG_OK);
@@ -452,12 +452,11 @@ static void meetings(void **state)
     P.p[v] = rg_vec3_add(middle, (rg_vec3){0, 0, 0.1});
     memcpy(q, P.p, (size_t)m.nv * sizeof *q);
     q[v].z = -0.1;
-    const double part = rg_proximity_meet(&n, P.p, q, 0.1, &who);
+    const double part = rg_proximity_meet(&n, P.p, q, 0.1);
     below(part, 0.5); /* it would be in the facet half way */
-    assert_true(part > 0 && who.kind >= 0);
+    assert_true(part > 0);
     q[v].z = 0.05;
-    near(rg_proximity_meet(&n, P.p, q, 0.1, &who), 1, 0);
-    assert_int_equal(who.kind, -1);
+    near(rg_proximity_meet(&n, P.p, q, 0.1), 1, 0);
     free(z), free(q);
     rg_linkage_free(&P);
     rg_proximity_free(&n);
@@ -623,7 +622,7 @@ static void small_facets(void **state)
     rg_nearest_clear(&q);
     int32_t rows = 0;
     for (int32_t f = 0; f < m.nf; f++) {
-        rg_row *row = rg_nearest_add(&q);
+        rg_row *row = rg_nearest_add(&q, 0, NULL, NULL, (rg_vec3){0, 0, 0});
         assert_non_null(row);
         near(rg_linkage_area(&P, f, P.X), 1, 1e-12);
         rg_stride_area(&P, f, row);

@@ -39,6 +39,9 @@ void rg_mem_free_all(const rg_memory *mem, void **block, size_t count);
  * zeroed. RG_ENOMEM leaves *block and *room as they were. */
 rg_status rg_mem_grow(const rg_memory *mem, void **block, size_t *room, size_t need, size_t size);
 
+/* The same, by name: RG_MEM_GROW(mem, s->x, s->room, n + 1) of an array s->x that has room for s->room elements. */
+#define RG_MEM_GROW(mem, array, room, need) rg_mem_grow(mem, (void **)&(array), &(room), need, sizeof *(array))
+
 /* A copy of a string (NULL gives NULL), or NULL when memory is short. */
 char *rg_mem_string(const rg_memory *mem, const char *text);
 

@@ -140,7 +140,7 @@ static void corners(const candidates *c, int32_t a, int32_t b)
         if (c->w->corner_part[v] != a) continue;
         rg_box at = {c->x[v], c->x[v]};
         if (c->y) rg_box_take_in(&at, c->y[v]);
-        if (are_near(&at, box, c->reach)) c->visit(c->ctx, RG_NEAR_CORNER, v, b, a, b);
+        if (are_near(&at, box, c->reach)) c->visit(c->ctx, RG_NEAR_CORNER, v, b);
     }
 }
 
@@ -166,7 +166,7 @@ static void edges(const candidates *c, int32_t a, int32_t b)
         for (int32_t k = p->start[b]; k < p->start[b + 1]; k++) {
             const int32_t e = c->w->side[k];
             if (e < 0 || c->w->edge_part[e] != b || !are_near(&box, &of_b[k - p->start[b]], c->reach)) continue;
-            c->visit(c->ctx, RG_NEAR_EDGES, d, e, a, b);
+            c->visit(c->ctx, RG_NEAR_EDGES, d, e);
         }
     }
 }
@@ -188,8 +188,7 @@ static void features(void *ctx, int32_t i, int32_t k)
 }
 
 void rg_near_candidates(const rg_plates *p, const rg_vec3 *x, const rg_vec3 *y, double reach, rg_near_work *w,
-                        rg_near_visitor *visit,
-                        void *ctx)
+                        rg_near_visitor *visit, void *ctx)
 {
     candidates c = {p, x, y, w, reach, visit, ctx};
     rg_plates_boxes(p, x, w->box);

@@ -4,8 +4,8 @@
  *
  * Two plates that do not meet are nearest either at a corner of one and a point of the other, or at points of two
  * edges. */
-#ifndef RG_NEAR_PAIRS_H
-#define RG_NEAR_PAIRS_H
+#ifndef RG_CONTACT_NEAR_H
+#define RG_CONTACT_NEAR_H
 
 #include "contact/plates.h"
 
@@ -25,14 +25,13 @@ rg_status rg_near_work_init(const rg_plates *p, rg_near_work *w);
 void rg_near_work_free(rg_near_work *w);
 
 /* Called with each pair of features whose boxes are no farther apart than `reach` at x[nv], or, with y not NULL, on the
- * straight ways from x to y: corner i and part j, or the edges i and j; of parts a and b. Each pair once, in an order
- * that depends on nothing but the sheet; also features that have a corner in common. Allocates nothing. */
-typedef void rg_near_visitor(void *ctx, rg_near_kind kind, int32_t i, int32_t j, int32_t a, int32_t b);
+ * straight ways from x to y: corner i and part j, or the edges i and j. Each pair once, in an order that depends on
+ * nothing but the sheet; also features that have a corner in common. Allocates nothing. */
+typedef void rg_near_visitor(void *ctx, rg_near_kind kind, int32_t i, int32_t j);
 void rg_near_candidates(const rg_plates *p, const rg_vec3 *x, const rg_vec3 *y, double reach, rg_near_work *w,
-                        rg_near_visitor *visit,
-                        void *ctx);
+                        rg_near_visitor *visit, void *ctx);
 
-/* The nearest points of a triangle and of two segments. b[3]: weights of the triangle's corners; s, t: along the
+/* The nearest points of a triangle and of two segments. weight[3]: of the triangle's corners; s, t: along the
  * segments. Returns the distance; *n: out, unit, from the second to the first, or zero. */
 double rg_near_triangle(rg_vec3 p, rg_vec3 a, rg_vec3 b, rg_vec3 c, double weight[3], rg_vec3 *n);
 double rg_near_segments(rg_vec3 a, rg_vec3 b, rg_vec3 c, rg_vec3 d, double *s, double *t, rg_vec3 *n);

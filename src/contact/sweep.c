@@ -359,7 +359,7 @@ static void keep_side(sweep *s, int32_t a, int32_t b, rg_vec3 side)
 {
     rg_sweep_work *w = s->w;
     if (is_none(side) || s->status != RG_OK) return;
-    s->status = rg_mem_grow(&w->mem, (void **)&w->now, &w->room_now, (size_t)w->n_now + 1, sizeof *w->now);
+    s->status = RG_MEM_GROW(&w->mem, w->now, w->room_now, (size_t)w->n_now + 1);
     if (s->status == RG_OK) w->now[w->n_now++] = (rg_sweep_side){{a, b}, side};
 }
 

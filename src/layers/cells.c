@@ -97,7 +97,7 @@ typedef struct list { int32_t *item; size_t count, room; } list;
 static rg_status append(const rg_memory *mem, list *l, int32_t i)
 {
     if (l->count >= INT32_MAX) return RG_ENOMEM;
-    const rg_status s = rg_mem_grow(mem, (void **)&l->item, &l->room, l->count + 1, sizeof *l->item);
+    const rg_status s = RG_MEM_GROW(mem, l->item, l->room, l->count + 1);
     if (s == RG_OK) l->item[l->count++] = i;
     return s;
 }
@@ -222,7 +222,7 @@ rg_status rg_cells_init(rg_cells *c, const rg_memory *mem, const rg_mesh *m, con
         }
     }
     list *lists[] = {&along, &across, &over}; /* arrays, also where nothing is in them */
-    for (int i = 0; s == RG_OK && i < 3; i++) s = rg_mem_grow(mem, (void **)&lists[i]->item, &lists[i]->room, 1, sizeof *along.item);
+    for (int i = 0; s == RG_OK && i < 3; i++) s = RG_MEM_GROW(mem, lists[i]->item, lists[i]->room, 1);
     if (s == RG_OK) s = walk_segments(c, m, f, of_facet, stop, &along, &across);
     if (s == RG_OK) s = walk_cells(c, m, f, of_facet, stop, &over);
     c->along = along.item, c->across = across.item, c->over = over.item;

@@ -40,7 +40,7 @@ static rg_status add(maker *w, rg_constraint_case c, const int32_t (*of)[2], int
         if (!times(w, &c, of[i][0], of[i][1])) return w->k->skipped++, RG_OK;
     const size_t need = (size_t)w->k->count + 1;
     if (need > INT32_MAX / 4) return RG_ENOMEM;
-    const rg_status s = rg_mem_grow(&w->k->mem, (void **)&w->k->item, &w->k->room, need, sizeof *w->k->item);
+    const rg_status s = RG_MEM_GROW(&w->k->mem, w->k->item, w->k->room, need);
     if (s == RG_OK) w->k->item[w->k->count++] = c;
     return s;
 }

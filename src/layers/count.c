@@ -33,7 +33,7 @@ static int goes_on(counter *c)
 
 static void push(counter *c, int32_t i)
 {
-    if (c->status == RG_OK) c->status = rg_mem_grow(&c->o->mem, (void **)&c->list, &c->room, c->used + 1, sizeof *c->list);
+    if (c->status == RG_OK) c->status = RG_MEM_GROW(&c->o->mem, c->list, c->room, c->used + 1);
     if (c->status == RG_OK) c->list[c->used++] = i;
 }
 

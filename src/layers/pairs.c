@@ -121,8 +121,8 @@ static rg_status find_common(rg_pairs *p, const stack *s, int32_t stacks, const 
             if (g == f) continue; /* listed at the lower facet */
             uint64_t *from = row_of(p, sum, g);
             int64_t n = p->common_start[pair];
-            status = rg_mem_grow(&p->mem, (void **)&p->common_word, &word_room, (size_t)n + words, sizeof *p->common_word);
-            if (status == RG_OK) status = rg_mem_grow(&p->mem, (void **)&p->common, &common_room, (size_t)n + words, sizeof *p->common);
+            status = RG_MEM_GROW(&p->mem, p->common_word, word_room, (size_t)n + words);
+            if (status == RG_OK) status = RG_MEM_GROW(&p->mem, p->common, common_room, (size_t)n + words);
             if (status != RG_OK) break;
             clear(from, p->bit[f]), clear(from, p->bit[g]);
             for (size_t w = 0; w < words; w++) {

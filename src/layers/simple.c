@@ -154,7 +154,7 @@ static rg_status keep(search *s, int up)
     const int32_t nf = s->now.flat.nf;
     const rg_mesh *m = &s->l->mesh;
     rg_simple_fold c = {.up = up, .moves = rg_mem_array(&s->q->mem, (size_t)nf, 1)};
-    rg_status status = c.moves ? rg_mem_grow(&s->q->mem, (void **)&s->found, &s->room, (size_t)s->count + 1, sizeof c) : RG_ENOMEM;
+    rg_status status = c.moves ? RG_MEM_GROW(&s->q->mem, s->found, s->room, (size_t)s->count + 1) : RG_ENOMEM;
     if (status != RG_OK) {
         rg_mem_free(&s->q->mem, c.moves);
         return status;
@@ -280,7 +280,7 @@ static rg_status undo(search *s, rg_simple_fold *c)
     rg_simple *q = s->q;
     const rg_mesh *m = &s->l->mesh;
     const size_t nf = (size_t)q->nf;
-    const rg_status status = rg_mem_grow(&q->mem, (void **)&q->fold, &q->room, (size_t)q->folds + 1, sizeof *c);
+    const rg_status status = RG_MEM_GROW(&q->mem, q->fold, q->room, (size_t)q->folds + 1);
     if (status != RG_OK) return status;
     c->stage = q->stages;
     c->over = c->up * q->up;

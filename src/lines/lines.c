@@ -33,7 +33,7 @@ rg_status rg_lines_add(rg_lines *l, rg_vec2 a, rg_vec2 b, char assignment, int32
         if (rg_stop_asked(l->stop)) return RG_ECANCELLED;
     }
     if (l->count >= INT32_MAX / 8) return RG_ENOMEM; /* indices of what is made of the lines stay in 32 bits */
-    rg_status s = rg_mem_grow(&l->mem, (void **)&l->line, &l->room, (size_t)l->count + 1, sizeof *l->line);
+    rg_status s = RG_MEM_GROW(&l->mem, l->line, l->room, (size_t)l->count + 1);
     if (s != RG_OK) return s;
     l->line[l->count++] = (rg_line){a, b, NAN, assignment, where};
     return RG_OK;
@@ -42,7 +42,7 @@ rg_status rg_lines_add(rg_lines *l, rg_vec2 a, rg_vec2 b, char assignment, int32
 rg_status rg_lines_warn(rg_lines *l, int32_t where, const char *format, ...)
 {
     if (l->warnings > RG_MOST_WARNINGS) return RG_OK;
-    rg_status s = rg_mem_grow(&l->mem, (void **)&l->warning, &l->warning_room, (size_t)l->warnings + 1, sizeof *l->warning);
+    rg_status s = RG_MEM_GROW(&l->mem, l->warning, l->warning_room, (size_t)l->warnings + 1);
     if (s != RG_OK) return s;
     const int is_last = l->warnings == RG_MOST_WARNINGS;
     rg_diag *d = &l->warning[l->warnings++];
@@ -68,7 +68,7 @@ rg_status rg_lines_trait(rg_lines *l, rg_trait_sort sort, const char *name, size
         return RG_OK;
     }
     if (l->traits == RG_MOST_TRAITS) return RG_OK;
-    const rg_status s = rg_mem_grow(&l->mem, (void **)&l->trait, &l->trait_room, (size_t)l->traits + 1, sizeof *l->trait);
+    const rg_status s = RG_MEM_GROW(&l->mem, l->trait, l->trait_room, (size_t)l->traits + 1);
     if (s != RG_OK) return s;
     rg_trait *t = &l->trait[l->traits++];
     *t = (rg_trait){.sort = sort, .assignment = assignment, .count = 1};

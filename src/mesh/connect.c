@@ -28,6 +28,15 @@ rg_status rg_mesh_copy(const rg_mesh *m, rg_mesh *out)
     return s;
 }
 
+int32_t rg_mesh_edge_between(const rg_mesh *m, int32_t f, int32_t a, int32_t b)
+{
+    for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) {
+        const int32_t *v = m->edge[m->facet_edge[j]];
+        if ((v[0] == a && v[1] == b) || (v[0] == b && v[1] == a)) return m->facet_edge[j];
+    }
+    return -1;
+}
+
 void rg_mesh_sectors_at(const rg_mesh *m, int32_t k, const rg_vec2 *X, double *theta)
 {
     const int32_t first = m->loop_start[k], last = m->loop_start[k + 1], v = m->inner_vertex[k];

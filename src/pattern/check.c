@@ -20,7 +20,7 @@ void rg_check_sectors(const struct rg_pattern *p, int32_t v, double *theta)
 
 static rg_status add(struct rg_pattern *p, size_t *room, int32_t v, rg_theorem theorem, double by)
 {
-    rg_status s = rg_mem_grow(&p->mem, (void **)&p->unfoldable, room, (size_t)p->unfoldables + 1, sizeof *p->unfoldable);
+    rg_status s = RG_MEM_GROW(&p->mem, p->unfoldable, *room, (size_t)p->unfoldables + 1);
     if (s == RG_OK) p->unfoldable[p->unfoldables++] = (rg_unfoldable){v, p->X[v].x, p->X[v].y, theorem, by};
     return s;
 }

@@ -42,7 +42,7 @@ rg_status rg_closed_find(struct rg_pattern *p)
             const int32_t next = (i + 1) % n, a = star[i], c = star[next], b = star[(i + 2) % n];
             const int inside = rg_closed_inside(p->E[a].assignment, p->E[c].assignment, p->E[b].assignment, theta[i], theta[next]);
             if (!inside) continue;
-            s = rg_mem_grow(&p->mem, (void **)&p->closed, &room, (size_t)p->closed_triples + 1, sizeof *p->closed);
+            s = RG_MEM_GROW(&p->mem, p->closed, room, (size_t)p->closed_triples + 1);
             if (s != RG_OK) break;
             rg_closed *closed = &p->closed[p->closed_triples++];
             *closed = (rg_closed){.vertex = v, .x = p->X[v].x, .y = p->X[v].y, .inside_angle = inside == 1 ? theta[i] : theta[next]};

@@ -146,9 +146,9 @@ typedef struct room { size_t map, vertex, edge; } room;
 static rg_status keep(rg_maps *g, room *r, const search *s, const rg_map *map)
 {
     const size_t n = (size_t)g->count, nv = (size_t)g->nv, ne = (size_t)g->ne;
-    rg_status status = rg_mem_grow(&g->mem, (void **)&g->map, &r->map, n + 1, sizeof *g->map);
-    if (status == RG_OK) status = rg_mem_grow(&g->mem, (void **)&g->vertex, &r->vertex, (n + 1) * nv, sizeof *g->vertex);
-    if (status == RG_OK) status = rg_mem_grow(&g->mem, (void **)&g->edge, &r->edge, (n + 1) * ne, sizeof *g->edge);
+    rg_status status = RG_MEM_GROW(&g->mem, g->map, r->map, n + 1);
+    if (status == RG_OK) status = RG_MEM_GROW(&g->mem, g->vertex, r->vertex, (n + 1) * nv);
+    if (status == RG_OK) status = RG_MEM_GROW(&g->mem, g->edge, r->edge, (n + 1) * ne);
     if (status != RG_OK) return status;
     g->map[n] = *map;
     memcpy(g->vertex + n * nv, s->vertex_to, nv * sizeof *g->vertex);

@@ -229,7 +229,7 @@ static rg_status put_together(sweep *s, rg_edge **E, int32_t *ne, size_t *room)
 {
     rg_edge *made = NULL;
     size_t made_room = 0;
-    const rg_status status = rg_mem_grow(&s->lines->mem, (void **)&made, &made_room, (size_t)s->ne + (size_t)s->piece_count, sizeof *made);
+    const rg_status status = RG_MEM_GROW(&s->lines->mem, made, made_room, (size_t)s->ne + (size_t)s->piece_count);
     if (status != RG_OK) return status;
     qsort(s->pieces, (size_t)s->piece_count, sizeof *s->pieces, by_edge);
     int32_t n = 0, at = 0;

@@ -81,7 +81,7 @@ static rg_status number(drawing *d, const rg_lines *lines, rg_piece **piece, int
         if (own->sheet < 0) {
             part *p = &d->part[outmost(d, parts, count, v)];
             if (p->outside >= 0 && p->sheet < 0) {
-                s = rg_mem_grow(&g->mem, (void **)piece, &room, (size_t)*pieces + 1, sizeof **piece);
+                s = RG_MEM_GROW(&g->mem, *piece, room, (size_t)*pieces + 1);
                 if (s != RG_OK) break;
                 const rg_vec2 a = rg_lines_own(lines, p->low, g->size), b = rg_lines_own(lines, p->high, g->size);
                 (*piece)[*pieces] = (rg_piece){.low = {a.x, fmin(a.y, b.y)}, .high = {b.x, fmax(a.y, b.y)}};

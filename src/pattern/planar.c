@@ -208,7 +208,7 @@ static rg_status add_cut(splitter *s, int32_t e, int32_t v)
 {
     if (s->E[e].v[0] == v || s->E[e].v[1] == v) return RG_OK;
     if (s->cut_count == MOST_CUTS) return s->too_many = "crossings", RG_EFORMAT;
-    rg_status status = rg_mem_grow(&s->mem, (void **)&s->cuts, &s->cut_room, s->cut_count + 1, sizeof *s->cuts);
+    rg_status status = RG_MEM_GROW(&s->mem, s->cuts, s->cut_room, s->cut_count + 1);
     if (status != RG_OK) return status;
     rg_vec2 a = s->points.X[s->E[e].v[0]], d = rg_vec2_sub(s->points.X[s->E[e].v[1]], a);
     double t = rg_vec2_dot(rg_vec2_sub(s->points.X[v], a), d);
@@ -232,7 +232,7 @@ static rg_status cross(splitter *s, int32_t e, int32_t f, int32_t c)
     rg_status status = rg_points_add(&s->points, x, &vertex);
     if (status == RG_OK && s->points.count > before) {
         const size_t n = (size_t)(vertex - s->looked_at);
-        status = rg_mem_grow(&s->mem, (void **)&s->parent, &s->parent_room, n + 1, sizeof *s->parent);
+        status = RG_MEM_GROW(&s->mem, s->parent, s->parent_room, n + 1);
         if (status == RG_OK) s->parent[n][0] = e, s->parent[n][1] = f;
     }
     if (status == RG_OK) status = add_cut(s, e, vertex);
@@ -379,7 +379,7 @@ static rg_status apply_cuts(splitter *s)
     rg_status status = RG_MEM_ARRAYS(&s->mem, RG_ARRAY(fresh, (size_t)s->ne + s->cut_count),
                                      RG_ARRAY(touched, (size_t)s->points.count));
     if (status == RG_OK) status = sort_cuts(s, &start);
-    if (status == RG_OK) status = rg_mem_grow(&s->mem, (void **)&E, &room, (size_t)s->ne + s->cut_count, sizeof *E);
+    if (status == RG_OK) status = RG_MEM_GROW(&s->mem, E, room, (size_t)s->ne + s->cut_count);
     if (status != RG_OK) {
         RG_MEM_FREE(&s->mem, fresh, touched, start);
         return status;
@@ -512,7 +512,7 @@ static rg_status add_line(splitter *s, rg_lines *lines, const rg_line *l, char a
         if (s->points.count > count) rg_points_forget(&s->points);
         return without_length(lines, l->where, l->a, told);
     }
-    if (status == RG_OK) status = rg_mem_grow(&s->mem, (void **)&s->E, &s->room, (size_t)s->ne + 1, sizeof *s->E);
+    if (status == RG_OK) status = RG_MEM_GROW(&s->mem, s->E, s->room, (size_t)s->ne + 1);
     if (status == RG_OK) s->E[s->ne++] = e;
     return status;
 }

@@ -85,9 +85,9 @@ rg_status rg_points_add(rg_points *p, rg_vec2 x, int32_t *vertex)
         return RG_OK;
     }
     const size_t need = (size_t)p->count + 1;
-    rg_status s = rg_mem_grow(&p->mem, (void **)&p->X, &p->room, need, sizeof *p->X);
-    if (s == RG_OK) s = rg_mem_grow(&p->mem, (void **)&p->next, &p->next_room, need, sizeof *p->next);
-    if (s == RG_OK) s = rg_mem_grow(&p->mem, (void **)&p->spread, &p->spread_room, need, sizeof *p->spread);
+    rg_status s = RG_MEM_GROW(&p->mem, p->X, p->room, need);
+    if (s == RG_OK) s = RG_MEM_GROW(&p->mem, p->next, p->next_room, need);
+    if (s == RG_OK) s = RG_MEM_GROW(&p->mem, p->spread, p->spread_room, need);
     if (s == RG_OK && need > p->heads) s = rehash(p, 2 * p->heads);
     if (s != RG_OK) return s;
     p->X[p->count] = x;

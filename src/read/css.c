@@ -73,7 +73,7 @@ static rg_status add_rules(rg_css *css, const source *q, const char *selectors, 
         }
         if (css->rules == RG_CSS_MOST_RULES)
             return rg_fail(RG_EFORMAT, q->why, line_of(q, selector), "more than %d rules of style", (int)RG_CSS_MOST_RULES);
-        s = rg_mem_grow(&css->mem, (void **)&css->rule, &css->room, (size_t)css->rules + 1, sizeof *css->rule);
+        s = RG_MEM_GROW(&css->mem, css->rule, css->room, (size_t)css->rules + 1);
         if (s != RG_OK) return s;
         css->rule[css->rules++] = (rg_rule){selector, body, length, body_n, weight};
     }
@@ -123,8 +123,7 @@ static const char *pass_at(const source *q, const char *s, rg_status *status)
 
 rg_status rg_css_add(rg_css *css, const rg_xml_node *style, rg_lines *l, rg_diag *why)
 {
-    rg_status status = rg_mem_grow(&css->mem, (void **)&css->sheet, &css->sheet_room, (size_t)css->sheets + 1,
-                                   sizeof *css->sheet);
+    rg_status status = RG_MEM_GROW(&css->mem, css->sheet, css->sheet_room, (size_t)css->sheets + 1);
     char *s = status == RG_OK ? rg_xml_string(&css->mem, style) : NULL;
     if (!s) return RG_ENOMEM;
     const source q = {s, rg_xml_line(style), l, why};

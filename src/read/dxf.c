@@ -367,7 +367,7 @@ static rg_status one_vertex(reader *r, entity *e, const entity *v, grid *g)
         return corner(r, e, e->in_space ? point(v, 0) : (rg_vec3){v->x[0], v->y[0], e->elevation}, v->bulge,
                       v->bulge_line);
     if (e->flags & FACETS && v->flags & OF_FACETS && !(v->flags & FACETS)) return facet(r, e, v, g);
-    const rg_status s = rg_mem_grow(&r->out->mem, (void **)&g->x, &g->room, (size_t)g->count + 1, sizeof *g->x);
+    const rg_status s = RG_MEM_GROW(&r->out->mem, g->x, g->room, (size_t)g->count + 1);
     if (s == RG_OK) g->x[g->count++] = point(v, 0);
     return s;
 }

@@ -16,7 +16,7 @@ static rg_status add(rg_ids *ids, const rg_xml_node *n)
     const char *name = rg_xml_attribute(n, "id");
     if (*name) {
         if (ids->count == INT32_MAX) return RG_ENOMEM;
-        const rg_status s = rg_mem_grow(&ids->mem, (void **)&ids->id, &ids->room, (size_t)ids->count + 1, sizeof *ids->id);
+        const rg_status s = RG_MEM_GROW(&ids->mem, ids->id, ids->room, (size_t)ids->count + 1);
         if (s != RG_OK) return s;
         ids->id[ids->count] = (rg_id){name, n, ids->count};
         ids->count++;

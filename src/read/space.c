@@ -48,7 +48,7 @@ rg_map3 rg_map3_of_normal(rg_vec3 n)
 rg_status rg_space_add(rg_space *q, rg_lines *lines, rg_vec3 a, rg_vec3 b, char assignment, int32_t where)
 {
     rg_status s =
-        rg_mem_grow(&lines->mem, (void **)&q->ends, &q->room, 2 * ((size_t)lines->count + 1), sizeof *q->ends);
+        RG_MEM_GROW(&lines->mem, q->ends, q->room, 2 * ((size_t)lines->count + 1));
     if (s == RG_OK) s = rg_lines_add(lines, (rg_vec2){a.x, a.y}, (rg_vec2){b.x, b.y}, assignment, where);
     if (s != RG_OK) return s;
     q->ends[2 * lines->count - 2] = a;
@@ -60,7 +60,7 @@ rg_status rg_space_add(rg_space *q, rg_lines *lines, rg_vec3 a, rg_vec3 b, char 
 rg_status rg_space_side(rg_space *q, rg_lines *lines, int32_t i)
 {
     const rg_status s =
-        rg_mem_grow(&lines->mem, (void **)&q->side, &q->side_room, (size_t)q->sides + 1, sizeof *q->side);
+        RG_MEM_GROW(&lines->mem, q->side, q->side_room, (size_t)q->sides + 1);
     if (s == RG_OK) q->side[q->sides++] = i;
     return s;
 }

@@ -17,8 +17,7 @@ rg_status rg_tables_read_layers(rg_tables *t, rg_pairs *p, const rg_memory *mem)
         if (p->code == 0 && rg_slice_is(p->value, "ENDSEC")) return RG_OK;
         if (p->code == 0 && rg_slice_is(p->value, "EOF")) return p->pending = 1, RG_OK;
         if (p->code == 0 && rg_slice_is(p->value, "LAYER") && t->layers < MOST_LAYERS) {
-            s = rg_mem_grow(mem, (void **)&t->layer, &t->layer_room, (size_t)t->layers + 1,
-                            sizeof *t->layer);
+            s = RG_MEM_GROW(mem, t->layer, t->layer_room, (size_t)t->layers + 1);
             if (s != RG_OK) return s;
             l = &t->layer[t->layers++];
             *l = (rg_layer){.name = {"", 0}, .dash = {"", 0}, .colour = RG_DXF_WHITE};
@@ -82,8 +81,7 @@ rg_status rg_tables_read_blocks(rg_tables *t, rg_pairs *p, const rg_memory *mem)
         if (p->code == 0 && (rg_slice_is(p->value, "ENDSEC") || p->pending)) break;
         if (p->code == 0 && rg_slice_is(p->value, "BLOCK")) {
             if (t->blocks == INT32_MAX) return RG_ENOMEM;
-            s = rg_mem_grow(mem, (void **)&t->block, &t->block_room, (size_t)t->blocks + 1,
-                            sizeof *t->block);
+            s = RG_MEM_GROW(mem, t->block, t->block_room, (size_t)t->blocks + 1);
             if (s != RG_OK) return s;
             open = &t->block[t->blocks];
             *open = (rg_block){.name = {"", 0}, .order = t->blocks++};

@@ -72,7 +72,7 @@ static rg_status add_triangle(rg_stack *s, int32_t f, const rg_vec2 p[3])
         if (!(last >= first)) continue;
         const size_t need = (size_t)s->samples + (size_t)(last - first) + 1;
         if (need > INT32_MAX) return RG_ENOMEM;
-        const rg_status ok = rg_mem_grow(&s->mem, (void **)&s->sample, &s->sample_room, need, sizeof *s->sample);
+        const rg_status ok = RG_MEM_GROW(&s->mem, s->sample, s->sample_room, need);
         if (ok != RG_OK) return ok;
         for (double column = first; column <= last; column++)
             s->sample[s->samples++] = (rg_stack_sample){(int32_t)row, (int32_t)column, f, 0};
@@ -109,8 +109,8 @@ static rg_status sort_along(rg_stack *s, int rows)
         if (at > high) high = at;
     }
     const size_t lines = (size_t)((int64_t)high - low) + 1;
-    rg_status ok = rg_mem_grow(&s->mem, (void **)&s->place, &s->place_room, lines + 1, sizeof *s->place);
-    if (ok == RG_OK) ok = rg_mem_grow(&s->mem, (void **)&s->sorted, &s->sorted_room, s->sample_room, sizeof *s->sorted);
+    rg_status ok = RG_MEM_GROW(&s->mem, s->place, s->place_room, lines + 1);
+    if (ok == RG_OK) ok = RG_MEM_GROW(&s->mem, s->sorted, s->sorted_room, s->sample_room);
     if (ok != RG_OK) return ok;
     memset(s->place, 0, (lines + 1) * sizeof *s->place);
     for (int32_t i = 0; i < s->samples; i++) s->place[(rows ? s->sample[i].row : s->sample[i].column) - low + 1]++;
@@ -165,7 +165,7 @@ static void measure_pile(rg_stack *s, rg_stack_sample *pile, int32_t n, const ax
 static rg_status pair_up(rg_stack *s, rg_stack_sample *pile, int32_t n)
 {
     const size_t need = (size_t)s->pairs + (size_t)n;
-    const rg_status ok = rg_mem_grow(&s->mem, (void **)&s->pair, &s->pair_room, need, sizeof *s->pair);
+    const rg_status ok = RG_MEM_GROW(&s->mem, s->pair, s->pair_room, need);
     if (ok != RG_OK) return ok;
     qsort(pile, (size_t)n, sizeof *pile, by_height);
     for (int32_t i = 0; i + 1 < n; i++) {
@@ -241,7 +241,7 @@ static int32_t lower(const rg_stack_pair *p) { return p->above >= 0 ? p->a : p->
 
 static rg_status link_pairs(rg_stack *s, const int32_t *facet, int32_t n)
 {
-    const rg_status ok = rg_mem_grow(&s->mem, (void **)&s->upper, &s->upper_room, (size_t)s->pairs, sizeof *s->upper);
+    const rg_status ok = RG_MEM_GROW(&s->mem, s->upper, s->upper_room, (size_t)s->pairs);
     if (ok != RG_OK) return ok;
     for (int32_t i = 0; i < n; i++) s->below[facet[i]] = 0, s->rank[facet[i]] = i;
     memset(s->start, 0, ((size_t)n + 1) * sizeof *s->start);

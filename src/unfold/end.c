@@ -11,12 +11,12 @@ static const double INSIDE = 1e-9, ABOUT_INSIDE = 1e-5;
 /* A weight below is rounding. */
 static const double NOTHING = 1e-7;
 
-/* Rows live while what they are about is nearer than that, in the plane of a crease, and else while facets face each other to 25
- * degrees. */
+/* Rows live while what they are about is nearer than that, in the plane of a crease, and else while facets face each other
+ * to 25 degrees. */
 static const double LIVES_INSIDE = 1e-3, LIVES = 2e-4, LIVES_FACING = 0.9;
 
-/* A height (lengths of the sheet) that shows which of two facets is above, what a crossing counts from: layers that are nearer lie on
- * each other; and how alike they lie there. */
+/* A height (lengths of the sheet) that shows which of two facets is above, what a crossing counts from: layers that are
+ * nearer lie on each other; and how alike they lie there. */
 static const double SHOWN = 1e-4, ALIKE = 0.9;
 
 /* A triangle cut by three half planes has six corners at most. */
@@ -148,7 +148,7 @@ static rg_status add_row(builder *w, rg_end_row row, rg_vec3 n)
     row.n = (rg_vec3){rg_vec3_dot(R->c[0], n), rg_vec3_dot(R->c[1], n), rg_vec3_dot(R->c[2], n)};
     for (int32_t k = 0; k < e->count; k++)
         if (same_row(&row, &e->row[k])) return RG_OK;
-    const rg_status s = rg_mem_grow(&e->mem, (void **)&e->row, &e->room, (size_t)e->count + 1, sizeof *e->row);
+    const rg_status s = RG_MEM_GROW(&e->mem, e->row, e->room, (size_t)e->count + 1);
     if (s == RG_OK) e->row[e->count++] = row;
     return s;
 }
@@ -166,11 +166,7 @@ static int32_t edge_of(const builder *w, int32_t f, const double *weight)
     int32_t v[2], n = 0;
     for (int k = 0; k < 3 && n < 2; k++)
         if (fabs(weight[k]) >= NOTHING) v[n++] = w->corner[f][k];
-    for (int32_t j = w->m->facet_start[f]; n == 2 && j < w->m->facet_start[f + 1]; j++) {
-        const int32_t *e = w->m->edge[w->m->facet_edge[j]];
-        if ((e[0] == v[0] && e[1] == v[1]) || (e[0] == v[1] && e[1] == v[0])) return w->m->facet_edge[j];
-    }
-    return -1;
+    return n == 2 ? rg_mesh_edge_between(w->m, f, v[0], v[1]) : -1;
 }
 
 /* Where a corner of the one meets the other, or two edges cross, the row is of that pair. */
@@ -351,7 +347,8 @@ static rg_status edge_rows(builder *w, const line *k, const line *l)
     rg_end_row row = {.frame = k->facet[0], .other = l->facet[0], .i = -1};
     double sign;
     if (rg_vec2_dot(k->in, l->in) < 0) {
-        if (w->rules->apart && are_apart(w, k->facet, k->facets, l, towards(x[k->a], x[k->b], (low + high) / 2 / k->length))) return RG_OK;
+        const rg_vec2 middle_of_both = towards(x[k->a], x[k->b], (low + high) / 2 / k->length);
+        if (w->rules->more && are_apart(w, k->facet, k->facets, l, middle_of_both)) return RG_OK;
         row.kind = RG_END_BESIDE;
         sign = -1;
     } else {
@@ -397,9 +394,10 @@ static int corner_side(const builder *w, const line *k, int32_t v, double at, rg
         }
         for (int32_t j = 0; j < k->facets; j++) mine |= facet[i] == k->facet[j];
     }
-    if (w->rules->round && k->facets == 2 && over_both && under_both) return -1;
+    if (!w->rules->more || k->facets != 2) return 0;
+    if (over_both && under_both) return -1;
     *kind = RG_END_BESIDE;
-    return w->rules->corners && k->facets == 2 && !near && !mine && !are_apart(w, facet, n, k, w->e->x[v]) ? -1 : 0;
+    return !near && !mine && !are_apart(w, facet, n, k, w->e->x[v]) ? -1 : 0;
 }
 
 static rg_status corner_rows(builder *w, const line *k)
@@ -483,15 +481,7 @@ void rg_end_free(rg_end *e)
     memset(e, 0, sizeof *e);
 }
 
-int rg_end_is_live(const rg_end *e, const rg_end_row *row, const rg_linkage *P)
-{
-    rg_vec3 apart = {0, 0, 0};
-    for (int32_t i = 0; i < row->terms; i++) apart = rg_vec3_axpy(row->weight[i], P->p[row->v[i]], apart);
-    if (!(rg_vec3_length(apart) < (row->kind == RG_END_INSIDE ? LIVES_INSIDE : LIVES))) return 0;
-    return row->kind == RG_END_INSIDE || fabs(e->sides.up[row->frame] * e->sides.up[row->other] *
-                                             rg_vec3_dot(P->place[row->frame].R.c[2], P->place[row->other].R.c[2])) > LIVES_FACING;
-}
-
+/* How far the places are from each other that a row is of, squared. */
 static double apart_squared(const rg_end_row *row, const rg_linkage *P)
 {
     rg_vec3 d = {0, 0, 0};
@@ -499,21 +489,39 @@ static double apart_squared(const rg_end_row *row, const rg_linkage *P)
     return rg_vec3_dot(d, d);
 }
 
-/* Rows are of places of the paper, which slide on each other. One that slid on a slope went up or down by that, which does not say
- * what is over it. */
+/* The cosine between the normals of a row's two facets. */
+static double facing(const rg_end_row *row, const rg_linkage *P)
+{
+    return rg_vec3_dot(P->place[row->frame].R.c[2], P->place[row->other].R.c[2]);
+}
+
+int rg_end_is_live(const rg_end_row *row, const rg_linkage *P)
+{
+    const double length = sqrt(apart_squared(row, P));
+    if (row->kind == RG_END_INSIDE) return length < LIVES_INSIDE;
+    return length < LIVES && fabs(facing(row, P)) > LIVES_FACING;
+}
+
+/* Two rows of the same two facets. */
+static int is_of_same(const rg_end_row *a, const rg_end_row *b)
+{
+    return a->kind == b->kind && a->frame == b->frame && a->other == b->other;
+}
+
+/* Rows are of places of the paper, which slide on each other. One that slid on a slope went up or down by that, which does
+ * not say what is over it. */
 int rg_end_is_upset(const rg_end *e, const rg_linkage *P)
 {
     for (int32_t k = 0; k < e->count;) { /* rows of two facets follow each other */
         const rg_end_row *first = &e->row[k];
         double low = INFINITY, high = -INFINITY, slid = 0;
-        for (; k < e->count && e->row[k].kind == first->kind && e->row[k].frame == first->frame && e->row[k].other == first->other; k++) {
+        for (; k < e->count && is_of_same(&e->row[k], first); k++) {
             const double gap = rg_end_gap(&e->row[k], P->place, P->p);
             low = fmin(low, gap), high = fmax(high, gap);
             slid = fmax(slid, sqrt(fmax(0, apart_squared(&e->row[k], P) - gap * gap)));
         }
-        const double facing = fabs(rg_vec3_dot(P->place[first->frame].R.c[2], P->place[first->other].R.c[2]));
-        const double by_slope = slid * sqrt(fmax(0, 1 - facing * facing));
-        if (first->kind == RG_END_LAYER && low < -SHOWN - by_slope && high <= SHOWN && facing >= ALIKE) return 1;
+        const double alike = fabs(facing(first, P)), by_slope = slid * sqrt(fmax(0, 1 - alike * alike));
+        if (first->kind == RG_END_LAYER && low < -SHOWN - by_slope && high <= SHOWN && alike >= ALIKE) return 1;
     }
     return 0;
 }

@@ -1,20 +1,20 @@
 /* end.h -- what must hold where the flat-folded end begins to open: rows from its order of layers.
- * Uses  linkage.h sides.h layers.h        Used by  open.c stride.c
+ * Uses  linkage.h sides.h nearest.h        Used by  open.c stride.c
  *
- * At the flat end all facets lie in one plane, and only the order tells them apart. To first order in how far creases are open,
- * what must hold is linear in positions; rows that lie in the plane speak at second order. With A under B the facets of a folded
- * crease K, m in the plane, across K, into the paper:
+ * At the flat end all facets lie in one plane, and only the order tells them apart. To first order in how far creases are
+ * open, what must hold is linear in positions; rows that lie in the plane speak at second order. With A under B the facets
+ * of a folded crease K, m in the plane, across K, into the paper:
  *
- *   LAYER   two facets overlap                               up . (upper - lower) >= 0   at the corners of what they share, unless
- *                                                                                        a third facet lies between them there
+ *   LAYER   two facets overlap                               up . (upper - lower) >= 0   at the corners of what they share,
+ *                                                                    unless a third facet lies between them there
  *   INSIDE  a folded crease, border or corner on K, with     m . (it - K) >= 0
  *           facets between A and B
  *   ROUND   a corner on K with facets over B and under A     m . (K - it) >= 0
- *   BESIDE  paper on the two sides of one line, and no       m . (K - it) >= 0           (that they pass over each other is as
- *           third facet that lies between them                                            well possible: a choice)
+ *   BESIDE  paper on the two sides of one line, and no       m . (K - it) >= 0           (a choice: that they pass over each
+ *           third facet that lies between them                                            other is as well possible)
  *
- * What a crease's two facets ask of a facet over or under both follows from LAYER. Vectors are carried by a facet, as a stack
- * whose creases are still closed turns as a whole. */
+ * What a crease's two facets ask of a facet over or under both follows from LAYER. Vectors are carried by a facet, as a
+ * stack whose creases are still closed turns as a whole. */
 #ifndef RG_END_H
 #define RG_END_H
 
@@ -22,7 +22,8 @@
 #include "unfold/nearest.h"
 #include "unfold/sides.h"
 
-typedef enum rg_end_kind { RG_END_LAYER, RG_END_INSIDE, RG_END_BESIDE } rg_end_kind; /* ROUND counts as INSIDE */
+/* ROUND counts as INSIDE. */
+typedef enum rg_end_kind { RG_END_LAYER, RG_END_INSIDE, RG_END_BESIDE } rg_end_kind;
 
 typedef struct rg_end_row {
     rg_end_kind kind;
@@ -34,12 +35,10 @@ typedef struct rg_end_row {
     int edges;            /* which of them; i negative: neither */
 } rg_end_row;
 
-/* Which of the rows are made that are sufficient but not always needed. */
 typedef struct rg_end_rules {
-    int round;   /* ROUND */
-    int corners; /* BESIDE for corners, too */
-    int keep;    /* the rows are kept while it unfolds, as long as they are of what lies there */
-    int apart;   /* BESIDE is left out where LAYER keeps the two apart */
+    int more; /* rows that are sufficient but not always needed: ROUND, and BESIDE for corners, too; and BESIDE of edges is
+               * left out where LAYER keeps the two apart */
+    int keep; /* the rows are kept while it unfolds, as long as they are of what lies there */
 } rg_end_rules;
 
 typedef struct rg_end {
@@ -53,7 +52,8 @@ typedef struct rg_end {
     rg_vec2 *x;          /* [nv] positions in the plane */
 } rg_end;
 
-/* The order between facets of the linkage's mesh: +1: f lies over g, seen with the front of facet `root` up; 0: no overlap. */
+/* The order between facets of the linkage's mesh: +1: f lies over g, seen with the front of the linkage's first facet up;
+ * 0: no overlap. */
 typedef int (*rg_end_above)(void *ctx, int32_t f, int32_t g);
 
 /* z[n]: the flat end, fold angles 0 or half a turn. RG_ENOMEM. Owner: the caller, rg_end_free, also after a failure. */
@@ -61,10 +61,11 @@ rg_status rg_end_init(rg_end *e, const rg_memory *mem, rg_linkage *P, const doub
                       rg_end_above above, void *ctx);
 void rg_end_free(rg_end *e);
 
-/* Rows are of fixed places, which slide on each other later: they speak as long as what they are about still lies there. */
-int rg_end_is_live(const rg_end *e, const rg_end_row *row, const rg_linkage *P);
-/* Non-zero: where P is put, a facet lies under one that it is over at the end, all over their common place: it has gone round it,
- * and could come back only through it. */
+/* Rows are of fixed places, which slide on each other later: they speak as long as what they are about still lies
+ * there. */
+int rg_end_is_live(const rg_end_row *row, const rg_linkage *P);
+/* Non-zero: where P is put, a facet lies under one that it is over at the end, all over their common place: it has gone
+ * round it, and could come back only through it. */
 int rg_end_is_upset(const rg_end *e, const rg_linkage *P);
 /* n of a row where the linkage is put now, and how far apart it says its parts are. */
 rg_vec3 rg_end_normal(const rg_end_row *row, const rg_place *place);

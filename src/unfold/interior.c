@@ -71,7 +71,7 @@ void rg_interior_clear(rg_interior *q)
 rg_status rg_interior_reserve(rg_interior *q, int32_t m)
 {
     double **vector[] = {&q->c, &q->d, &q->x, &q->slack, &q->dx, &q->dslack, &q->residual, &q->both, &q->before, &q->inverse};
-    rg_status s = rg_mem_grow(&q->mem, (void **)&q->of, &q->rows_room[10], (size_t)m, sizeof *q->of);
+    rg_status s = RG_MEM_GROW(&q->mem, q->of, q->rows_room[10], (size_t)m);
     for (int i = 0; i < 10 && s == RG_OK; i++) s = rg_mem_grow(&q->mem, (void **)vector[i], &q->rows_room[i], (size_t)m, sizeof(double));
     return s;
 }
@@ -204,14 +204,14 @@ static rg_status set_rows(problem *p)
 {
     rg_interior *q = p->q;
     const size_t n = (size_t)q->n, wide = p->wide;
-    rg_status s = rg_mem_grow(&q->mem, (void **)&q->Z, &q->Z_room, (size_t)(q->solved + p->m) * n, sizeof *q->Z);
+    rg_status s = RG_MEM_GROW(&q->mem, q->Z, q->Z_room, (size_t)(q->solved + p->m) * n);
     const size_t had = q->dense_room;
     if (s == RG_OK && wide * wide > had) {
         size_t again = had;
-        s = rg_mem_grow(&q->mem, (void **)&q->M, &again, wide * wide, sizeof *q->M);
-        if (s == RG_OK) s = rg_mem_grow(&q->mem, (void **)&q->L, &q->dense_room, wide * wide, sizeof *q->L);
+        s = RG_MEM_GROW(&q->mem, q->M, again, wide * wide);
+        if (s == RG_OK) s = RG_MEM_GROW(&q->mem, q->L, q->dense_room, wide * wide);
     }
-    if (s == RG_OK) s = rg_mem_grow(&q->mem, (void **)&q->update, &q->wide_room, RG_DENSE_WIDE * wide + PAD, sizeof *q->update);
+    if (s == RG_OK) s = RG_MEM_GROW(&q->mem, q->update, q->wide_room, RG_DENSE_WIDE * wide + PAD);
     if (s != RG_OK) return s;
     if (!q->factored) q->factored = factor(q, &q->few, q->base, NULL);
     for (int32_t k = 0; k < p->m; k++)
@@ -242,7 +242,7 @@ static rg_status set_ways(rg_interior *q)
         q->many_laid = 0;
     }
     if (s == RG_OK)
-        s = rg_mem_grow(&q->mem, (void **)&q->many_base, &q->many_base_room, rg_normal_numbers(&q->many), sizeof *q->many_base);
+        s = RG_MEM_GROW(&q->mem, q->many_base, q->many_base_room, rg_normal_numbers(&q->many));
     q->work += LAYING * (double)q->many_R.used;
     if (s == RG_OK && !q->many_laid) lay(q, &q->many, &q->many_J, &q->many_E, q->many_base);
     q->many_laid = s == RG_OK;
@@ -407,9 +407,9 @@ static void iterate(problem *p, double scale)
 
 static rg_status set_places(rg_interior *q)
 {
-    rg_status s = rg_mem_grow(&q->mem, (void **)&q->at, &q->at_room, (size_t)q->R.count, sizeof *q->at);
-    if (s == RG_OK) s = rg_mem_grow(&q->mem, (void **)&q->weight, &q->weight_room, (size_t)q->R.count, sizeof *q->weight);
-    if (s == RG_OK) s = rg_mem_grow(&q->mem, (void **)&q->sum, &q->sum_room, (size_t)q->R.count, sizeof *q->sum);
+    rg_status s = RG_MEM_GROW(&q->mem, q->at, q->at_room, (size_t)q->R.count);
+    if (s == RG_OK) s = RG_MEM_GROW(&q->mem, q->weight, q->weight_room, (size_t)q->R.count);
+    if (s == RG_OK) s = RG_MEM_GROW(&q->mem, q->sum, q->sum_room, (size_t)q->R.count);
     if (s != RG_OK) return s;
     for (; q->known < q->R.count; q->known++) q->at[q->known] = -1;
     return RG_OK;

@@ -28,7 +28,7 @@ rg_status rg_landing_run(rg_stride *s, const double *end, rg_status (*keep)(void
     rg_status status = RG_OK;
     int jams = 0;
     *left = open_by(s, end);
-    for (int n = 0; n < STEPS && *left > ENOUGH && status == RG_OK && s->work + s->q.work + s->q.q.work < s->budget; n++) {
+    for (int n = 0; n < STEPS && *left > ENOUGH && status == RG_OK && rg_nearest_work(&s->q) < s->budget; n++) {
         int gone;
         for (int32_t i = 0; i < P->n; i++) s->wish[i] = PART * (i < P->N ? 1 : 2 - PART) * (end[i] - s->z[i]);
         status = rg_stride_towards(s, 0, &gone);

@@ -128,6 +128,13 @@ void rg_linkage_velocity(rg_linkage *P, const double *dz, rg_vec3 *dp)
     }
 }
 
+double rg_linkage_past_half_turn(const rg_linkage *P, const double *z)
+{
+    double most = 0;
+    for (int32_t i = 0; i < P->N; i++) most = fmax(most, fabs(z[i]) - RG_PI);
+    return most;
+}
+
 double rg_linkage_area(const rg_linkage *P, int32_t f, const rg_vec2 *X)
 {
     const rg_vec2 *given = P->mesh->X;

@@ -45,6 +45,8 @@ void rg_linkage_put(rg_linkage *P, const double *z);
 void rg_linkage_positions(rg_linkage *P, const double *z, rg_vec3 *x);
 /* dp[nv]: out, the derivative of p along dz[n]. */
 void rg_linkage_velocity(rg_linkage *P, const double *dz, rg_vec3 *dp);
+/* The farthest, radians, that a crease is past half a turn at z; 0: none is. */
+double rg_linkage_past_half_turn(const rg_linkage *P, const double *z);
 /* The least area of a facet at u, over its area in the pattern given; negative: one has turned over. */
 double rg_linkage_least_area(rg_linkage *P, const double *u);
 /* The same of facet f with vertices at X[nv]. */

@@ -1,7 +1,9 @@
 #include "unfold/nearest.h"
+
 #include <string.h>
 
-/* A row counts as broken when it misses its bound by more than the first (lengths of the sheet, radians) and this part of it. */
+/* A row counts as broken when it misses its bound by more than the first (lengths of the sheet, radians) and this part of
+ * it. */
 static const double BROKEN = 1e-9, BROKEN_PART = 1e-3;
 /* Times that broken rows are added: most steps need one to four. In the first of them of all that a corner or an edge would meet
  * one way, within 60 degrees, only the nearest: in a stack that is the next layer, which mostly keeps it from those behind. */
@@ -33,19 +35,41 @@ void rg_nearest_free(rg_nearest *q)
     memset(q, 0, sizeof *q);
 }
 
+double rg_nearest_stand(rg_nearest *q, const double *z)
+{
+    rg_linkage *P = q->P;
+    const double angle = rg_coupled_assemble(&P->J, z, z + P->N, NULL);
+    rg_coupled_renew(&P->J, q->scale);
+    q->work += P->J.A.L.S.flops;
+    rg_linkage_put(P, z);
+    return angle;
+}
+
 void rg_nearest_clear(rg_nearest *q)
 {
     q->count = q->laid = 0;
     rg_interior_clear(&q->q);
 }
 
-rg_row *rg_nearest_add(rg_nearest *q)
+rg_row *rg_nearest_add(rg_nearest *q, int32_t terms, const int32_t *v, const double *weight, rg_vec3 n)
 {
-    if (rg_mem_grow(&q->mem, (void **)&q->row, &q->room, (size_t)q->count + 1, sizeof *q->row) != RG_OK) return NULL;
+    if (RG_MEM_GROW(&q->mem, q->row, q->room, (size_t)q->count + 1) != RG_OK) return NULL;
     rg_row *row = &q->row[q->count++];
     memset(row, 0, sizeof *row);
     row->crease = row->facet = row->at = row->feature = row->next = -1;
     row->c = LEAST_COMPLIANCE;
+    row->terms = terms;
+    for (int32_t i = 0; i < terms; i++) row->v[i] = v[i], row->weight[i] = weight[i];
+    row->n = n;
+    return row;
+}
+
+rg_row *rg_nearest_add_bound(rg_nearest *q, int32_t i, double sign)
+{
+    rg_row *row = rg_nearest_add(q, 0, NULL, NULL, (rg_vec3){0, 0, 0});
+    if (!row) return NULL;
+    row->crease = i;
+    row->weight[0] = sign > 0 ? -1 : 1;
     return row;
 }
 
@@ -125,15 +149,15 @@ static rg_status activate(rg_nearest *q, int32_t row, int soft)
 {
     const size_t n = (size_t)q->actives + 1;
     rg_status s = q->row[row].at < 0 ? make(q, &q->row[row]) : RG_OK;
-    if (s == RG_OK) s = rg_mem_grow(&q->mem, (void **)&q->active, &q->active_room, n, sizeof *q->active);
+    if (s == RG_OK) s = RG_MEM_GROW(&q->mem, q->active, q->active_room, n);
     if (s != RG_OK) return s;
     q->active[q->actives++] = 2 * row + soft;
     q->row[row].active |= 1 << soft;
     return RG_OK;
 }
 
-/* Flags: the row, 1, and its soft form, 2, that q->dz breaks and that are not active. Where it pushed as hard as the hardest it would
- * give by as much as its compliance says: what is broken by less is not worth a row. */
+/* Flags: the row, 1, and its soft form, 2, that q->dz breaks and that are not active. Where it pushed as hard as the hardest
+ * it would give by as much as its compliance says: what is broken by less is not worth a row. */
 static int broken(const rg_nearest *q, const rg_row *row, int with_soft)
 {
     const double value = rg_nearest_value(q, row);

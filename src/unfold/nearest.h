@@ -1,12 +1,12 @@
-/* nearest.h -- the nearest step to a wished one that keeps the sheet closed, and rows that say what must not come nearer.
+/* nearest.h -- the nearest step to a wished one that keeps the sheet closed, and rows of what must not come nearer.
  * Paper    eqs. (14), (15), (19), with inequalities        Uses  places.h interior.h        Used by  crossed.c end.c stride.c
  *
  *     min  1/2 |W^-1/2 (dz - wish)|^2 + sum s_i^2 / (2 c_i)
  *     s.t. A dz = -r,   row_i dz + s_i >= b_i
  *
- * with W^1/2 = diag(scale). y = W^-1/2 dz. What closes is projected onto, eq. (15); what rows change of it is interior.h's, by the
- * places of vertices, where it is sparse; and is projected once more. Rows are made only when the step would break them: of
- * thousands, most never are. */
+ * with W^1/2 = diag(scale). y = W^-1/2 dz. What closes is projected onto, eq. (15); what rows change of it is
+ * interior.h's, by the places of vertices, where it is sparse; and is projected once more. Rows are made only when the step
+ * would break them: of thousands, most never are. */
 #ifndef RG_NEAREST_H
 #define RG_NEAREST_H
 
@@ -15,8 +15,8 @@
 
 enum { RG_ROW_TERMS = 6 };
 
-/* n . sum weight[i] dp_v[i], or, with crease >= 0, weight[0] drho of it, or, with facet >= 0, sum weight[i] du of the ways v[i]; and
- * what it must be at least. */
+/* n . sum weight[i] dp_v[i], or, with crease >= 0, weight[0] drho of it, or, with facet >= 0, sum weight[i] du of the ways
+ * v[i]; and what it must be at least. */
 typedef struct rg_row {
     int32_t terms, crease, facet, v[RG_ROW_TERMS];
     double weight[RG_ROW_TERMS];
@@ -30,8 +30,9 @@ typedef struct rg_row {
     int32_t carried;       /* how n turns with what it is about, for the caller; 0: it does not */
     double base;           /* what the row is along the projected wish */
     int32_t at;            /* among the rows that are made, -1: not */
-    unsigned char *pushed, pushed_by; /* NULL, or who remembers, by a flag, that a row of the same pushed: then it is active
-                                       * from the start, else only when it is broken, whatever q->all says */
+    /* NULL, or who remembers, by a flag, that a row of the same pushed: then it is active from the start, else only when it
+     * is broken, whatever q->all says. */
+    unsigned char *pushed, pushed_by;
     int active;            /* flags: the row, 1, and its soft form, 2; 4 times them: what is broken of it */
     int closing;           /* non-zero: it pushed when it was solved without soft forms last */
     int32_t next;          /* broken too, of the same feature; -1: none */
@@ -55,16 +56,20 @@ typedef struct rg_nearest {
     double *right;      /* [rows of A] */
     rg_vec3 *dp;        /* [nv] */
     rg_interior q;
-    double work;
+    double work;        /* but for q.work */
 } rg_nearest;
 
 rg_status rg_nearest_init(rg_nearest *q, const rg_memory *mem, rg_linkage *P);
 void rg_nearest_free(rg_nearest *q);
 
-/* No rows; P is put and A renewed with q->scale at the state. */
+/* P is put and A renewed with q->scale at the state z[n]. Returns what closure is off, radians. */
+double rg_nearest_stand(rg_nearest *q, const double *z);
+/* No rows; the state is where it stands now. */
 void rg_nearest_clear(rg_nearest *q);
-/* A new row, zero but for c; NULL: no memory. */
-rg_row *rg_nearest_add(rg_nearest *q);
+/* A new row of so many terms along n, else zero but for c; NULL: no memory. */
+rg_row *rg_nearest_add(rg_nearest *q, int32_t terms, const int32_t *v, const double *weight, rg_vec3 n);
+/* The same of fold angle i: it is away from half a turn on the side of `sign`. */
+rg_row *rg_nearest_add_bound(rg_nearest *q, int32_t i, double sign);
 /* What a row is along q->dz, after rg_nearest_solve. */
 double rg_nearest_value(const rg_nearest *q, const rg_row *row);
 /* q->dz: out. wish[n], NULL: none. r[rows of A]: what closure is off. with_soft: the soft forms too. Keeps the rows that are
@@ -72,5 +77,7 @@ double rg_nearest_value(const rg_nearest *q, const rg_row *row);
 rg_status rg_nearest_solve(rg_nearest *q, const double *wish, const double *r, int with_soft);
 /* The same without rows. */
 void rg_nearest_project(rg_nearest *q, const double *wish, const double *r);
+/* Work of all calls, multiplications. */
+static inline double rg_nearest_work(const rg_nearest *q) { return q->work + q->q.work; }
 
 #endif

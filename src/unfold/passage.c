@@ -6,11 +6,7 @@
 
 #include <string.h>
 
-/* An opened state whose layers are farther on the wrong side is not one (lengths of the sheet): less than what
- * counts as a crossing. */
-static const double WRONG = 8e-5;
 static const double CLOSED = 1e-9, LEAST_AREA = 0.1;
-static const double OVER = 1e-4; /* radians past half a turn: rounding and closing may put a crease there, as in stride.c */
 /* From this progress on the order of layers is to be seen, where it is. */
 static const double NEAR_THE_END = 0.98;
 /* And on the way from this progress on pairs are followed. */
@@ -22,7 +18,7 @@ static const int NEWTON = 12;
 static const double NEARLY_HOME = 0.9;
 /* States that are looked at for an order, and the rows by which it is landed in: all first. */
 enum { SEEN = 12, LANDINGS = 2 };
-static const rg_end_rules LANDING[LANDINGS] = {{1, 1, 1, 1}, {0, 0, 0, 0}};
+static const rg_end_rules LANDING[LANDINGS] = {{1, 1}, {0, 0}};
 /* Folding leaves flat with creases folded by this part. */
 static const int OFF_FLAT_ITERATIONS = 60;
 static const double OFF_FLAT = 0.03, OFF_FLAT_LARGEST = 0.35, OFF_FLAT_STILL = 1e-8, OFF_FLAT_CLOSED = 1e-11;
@@ -120,7 +116,7 @@ static int is_stopped(const rg_passage *w, double done) { return w->stop && w->s
 /* What this try has spent: what was counted, and by w->q since. */
 static void count(rg_passage *w)
 {
-    w->spent += w->q.work + w->q.q.work;
+    w->spent += rg_nearest_work(&w->q);
     w->q.work = w->q.q.work = 0;
 }
 
@@ -130,40 +126,39 @@ static double left(rg_passage *w)
     return w->until - w->spent;
 }
 
+/* `budget` ends also one long solve, and so does who watches. */
+static void watch(const rg_passage *w, rg_nearest *q, double budget)
+{
+    q->q.most_work = fmax(budget, 1);
+    q->q.stop = w->stop;
+    q->q.ctx = w->ctx;
+}
+
 static void begin(rg_passage *w, double budget)
 {
     count(w);
     w->spent = 0;
     w->until = budget;
     w->as_seen = 0;
-    w->opened = w->landed = w->reached = 0;
-    w->state = RG_STRIDE_NO_STEP;
+    w->landed = 0;
     w->track.count = 0;
-    memset(w->refused, 0, sizeof w->refused);
-    w->q.q.most_work = fmax(budget, 1);
-    w->q.q.stop = w->stop;
-    w->q.q.ctx = w->ctx;
+    watch(w, &w->q, budget);
 }
 
-/* A stride from z, which `budget` ends, also within one long solve, and who watches. */
+/* A stride from z. */
 static rg_status set_out(rg_passage *w, const rg_end *end, const double *z, const double *target, double budget,
                          rg_stride *s)
 {
-    const rg_status status = rg_stride_init(s, &w->mem, &w->P, end ? &end->sides : NULL, end, z, target);
-    s->crossed = &w->crossed;
+    const rg_status status = rg_stride_init(s, &w->mem, &w->P, &w->crossed, end, z, target);
     s->budget = budget;
-    s->q.q.most_work = fmax(budget, 1);
-    s->q.q.stop = w->stop;
-    s->q.q.ctx = w->ctx;
+    watch(w, &s->q, budget);
     return status;
 }
 
 static void put_away(rg_passage *w, rg_stride *s)
 {
-    w->spent += s->q.work + s->q.q.work;
+    w->spent += rg_nearest_work(&s->q);
     w->steps += s->steps;
-    for (int i = 0; i < RG_REFUSALS; i++) w->refused[i] += s->refused[i];
-    w->who = s->who;
     rg_stride_free(s);
 }
 
@@ -272,7 +267,6 @@ static rg_status land_as_seen(rg_passage *w, int32_t at, int *through)
     if (s == RG_OK) {
         w->track.count = at + 1;
         memcpy(z, w->track.z + (size_t)at * n, n * sizeof *z);
-        w->opened = w->track.progress[at];
         s = choose_as_seen(w);
         for (int32_t i = 0; i < w->P.N; i++) target[i] = w->track.end[i] == 0 ? NAN : 0;
     }
@@ -306,8 +300,6 @@ static rg_status unfold(rg_passage *w, const rg_end *end, const double *z, const
             if (rg_track_crosses(&w->track, w->P.p)) break; /* sides of layers on each other did not tell */
             status = rg_track_keep(&w->track, s.z);
         }
-        w->reached = s.mean;
-        w->state = s.state;
         *flat = status == RG_OK && s.state == RG_STRIDE_ARRIVED;
         if (*flat) status = rg_home_finish(&w->track, s.z);
         else if (status == RG_OK && s.state != RG_STRIDE_GOES && s.mean > NEARLY_HOME)
@@ -327,7 +319,6 @@ static rg_status walk(rg_passage *w, const rg_end *end, const double *z, const d
     if (!slowly) p->count = 0;
     if (p->count < 2) status = rg_track_keep(p, z);
     if (status != RG_OK) return status;
-    w->opened = rg_track_progress(p, z);
     if (slowly) w->landed = p->progress[1];
     const int32_t opening = p->count - 1;
     status = unfold(w, end, z, target, through);
@@ -343,38 +334,38 @@ static rg_status walk(rg_passage *w, const rg_end *end, const double *z, const d
     return status;
 }
 
-/* The farthest that a crease is past half a turn. */
-static double over(const rg_passage *w, const double *z)
+/* A state that a motion may begin from. */
+static int is_open(const rg_opening *o)
 {
-    double most = 0;
-    for (int32_t i = 0; i < w->P.N; i++) most = fmax(most, fabs(z[i]) - RG_PI);
-    return most;
+    const int apart = o->worst >= -RG_TRACK_WRONG && rg_linkage_past_half_turn(o->P, o->z) <= RG_STRIDE_OVER;
+    return o->angle <= CLOSED && (o->way->grow || apart) && rg_linkage_least_area(o->P, o->z + o->P->N) >= LEAST_AREA;
 }
 
 rg_status rg_passage_from_end(rg_passage *w, const rg_passage_way *way, double budget, int *through)
 {
     rg_end end = {0};
     rg_proximity near = {0};
-    rg_open_result opened = {0};
+    rg_opening o = {.P = &w->P, .end = &end, .way = &way->open, .crossed = &w->crossed, .near = &near, .q = &w->q,
+                    .keep = rg_track_keep, .ctx = &w->track};
     const size_t n = (size_t)w->P.n;
-    double *z = rg_mem_array(&w->mem, n, sizeof *z), *target = rg_mem_array(&w->mem, n, sizeof *target);
+    double *target;
     *through = 0;
     begin(w, budget);
     find_end(w);
-    rg_status s = z && target ? rg_end_init(&end, &w->mem, &w->P, w->track.end, &way->rules, lies_over, w) : RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(&w->mem, RG_ARRAY(o.z, n), RG_ARRAY(target, n));
+    if (s == RG_OK) s = rg_end_init(&end, &w->mem, &w->P, w->track.end, &way->rules, lies_over, w);
     if (s == RG_OK) s = rg_proximity_init(&near, &w->mem, &w->mesh);
     if (s == RG_OK) s = rg_track_keep(&w->track, end.z);
     if (s == RG_OK) {
         for (int32_t i = 0; i < w->P.N; i++) target[i] = w->track.end[i] == 0 ? NAN : 0;
-        s = rg_open(&w->P, &end, &way->open, left(w), &w->crossed, &near, &w->q, z, rg_track_keep, &w->track, &opened);
+        o.until = left(w); /* w->q has been counted */
+        s = rg_open(&o);
     }
     rg_proximity_free(&near);
-    if (s == RG_OK && opened.angle <= CLOSED && (way->open.grow || (opened.worst >= -WRONG && over(w, z) <= OVER)) &&
-        rg_linkage_least_area(&w->P, z + w->P.N) >= LEAST_AREA)
-        s = walk(w, &end, z, target, way->open.grow, through);
+    if (s == RG_OK && is_open(&o)) s = walk(w, &end, o.z, target, way->open.grow, through);
     count(w);
     rg_end_free(&end);
-    RG_MEM_FREE(&w->mem, z, target);
+    RG_MEM_FREE(&w->mem, o.z, target);
     return s;
 }
 
@@ -412,8 +403,6 @@ static rg_status fold(rg_passage *w, const double *z, const double *target, int 
         if (status == RG_OK && s.steps > steps) status = rg_track_keep(&w->track, s.z);
     }
     *folded = status == RG_OK && s.state == RG_STRIDE_ARRIVED;
-    w->reached = s.mean;
-    w->state = s.state;
     put_away(w, &s);
     return status;
 }
@@ -434,10 +423,8 @@ rg_status rg_passage_from_flat(rg_passage *w, double budget, int *through)
     const int32_t folded = p->count;
     const int nearly = *through || (status == RG_OK && folded > 1 && p->progress[folded - 1] > NEARLY_HOME);
     if (*through) {
-        w->opened = w->landed = p->progress[folded - 1];
-        memset(z, 0, (size_t)w->P.n * sizeof *z);
-        memcpy(z, p->end, (size_t)w->P.n * sizeof *z);
-        status = rg_track_keep(p, z);
+        w->landed = p->progress[folded - 1];
+        status = rg_track_keep(p, p->end);
         *through = status == RG_OK && !rg_track_crosses_between(p);
     }
     if (status == RG_OK && nearly && !*through) status = land_as_seen(w, folded - 1, through);

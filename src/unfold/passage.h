@@ -31,14 +31,9 @@ typedef struct rg_passage {
     void *ctx;
     /* Of the last try. */
     int as_seen;           /* the order is not the one that was begun from */
-    double opened, landed; /* progress where it was opened; to which it was followed from there. Beyond, the order is
-                            * all there is */
-    double reached;        /* how far unfolded, or folded, in the mean */
-    rg_stride_state state; /* what ended that */
+    double landed;         /* progress to which it was followed from where it was opened. Beyond, the order is all there is */
     double spent, until;   /* of work, multiplications; and the most */
     int32_t steps;         /* of all tries */
-    int32_t refused[RG_REFUSALS]; /* steps of the last try, by why */
-    rg_close_pair who;     /* what ended the last of them that met something */
 } rg_passage;
 
 /* none: the facets as drawn. sign: +1, -1: mountain and valley exchanged. shorter: non-zero: facets are cut by short

@@ -7,16 +7,24 @@
 static const double SAFE = 0.9, MET = 0.05;
 static const int ADVANCES = 3000;
 
-static void set(unsigned char *flag, size_t width, int32_t i, int32_t j) { flag[(size_t)i * width + (size_t)j] |= RG_PROXIMITY_APART; }
+unsigned char *rg_proximity_flags(rg_proximity *n, int32_t kind, int32_t i, int32_t j)
+{
+    return kind ? n->edge + (size_t)i * (size_t)n->mesh->ne + (size_t)j
+                : n->corner + (size_t)i * (size_t)n->mesh->nf + (size_t)j;
+}
+
+static void set(rg_proximity *n, int32_t kind, int32_t i, int32_t j)
+{
+    *rg_proximity_flags(n, kind, i, j) |= RG_PROXIMITY_APART;
+}
 
 static void set_edges(rg_proximity *n, int32_t i, int32_t j)
 {
-    const size_t ne = (size_t)n->mesh->ne;
-    set(n->edge, ne, i, j);
-    set(n->edge, ne, j, i);
+    set(n, 1, i, j);
+    set(n, 1, j, i);
 }
 
-/* The corner of facet f that is not on edge e, and the edge from the other end than v of e to it. */
+/* The corner of facet f that is not on edge e. */
 static int32_t tip(const rg_mesh *m, int32_t f, int32_t e)
 {
     for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++)
@@ -24,21 +32,11 @@ static int32_t tip(const rg_mesh *m, int32_t f, int32_t e)
     return -1;
 }
 
-static int32_t edge_between(const rg_mesh *m, int32_t f, int32_t a, int32_t b)
-{
-    for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) {
-        const int32_t *v = m->edge[m->facet_edge[j]];
-        if ((v[0] == a && v[1] == b) || (v[0] == b && v[1] == a)) return m->facet_edge[j];
-    }
-    return -1;
-}
-
 static void leave_out(rg_proximity *n)
 {
     const rg_mesh *m = n->mesh;
-    const size_t nf = (size_t)m->nf;
     for (int32_t f = 0; f < m->nf; f++)
-        for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) set(n->corner, nf, m->facet_vertex[j], f);
+        for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) set(n, 0, m->facet_vertex[j], f);
     for (int32_t e = 0; e < m->ne; e++)
         for (int32_t f = 0; f <= e; f++) {
             const int32_t *a = m->edge[e], *b = m->edge[f];
@@ -48,10 +46,10 @@ static void leave_out(rg_proximity *n)
         const int32_t f = m->edge_facet[e][0], g = m->edge_facet[e][1];
         if (f < 0 || g < 0) continue;
         const int32_t a = m->edge[e][0], b = m->edge[e][1], x = tip(m, f, e), y = tip(m, g, e);
-        set(n->corner, nf, x, g);
-        set(n->corner, nf, y, f);
-        set_edges(n, edge_between(m, f, a, x), edge_between(m, g, b, y));
-        set_edges(n, edge_between(m, f, b, x), edge_between(m, g, a, y));
+        set(n, 0, x, g);
+        set(n, 0, y, f);
+        set_edges(n, rg_mesh_edge_between(m, f, a, x), rg_mesh_edge_between(m, g, b, y));
+        set_edges(n, rg_mesh_edge_between(m, f, b, x), rg_mesh_edge_between(m, g, a, y));
     }
 }
 
@@ -78,15 +76,14 @@ void rg_proximity_free(rg_proximity *n)
     memset(n, 0, sizeof *n);
 }
 
-static void corner_pair(const rg_mesh *m, int32_t v, int32_t f, rg_close_pair *at)
+static rg_close_pair pair_of(const rg_mesh *m, int32_t kind, int32_t i, int32_t j)
 {
-    const int32_t *c = m->facet_vertex + m->facet_start[f];
-    *at = (rg_close_pair){0, v, f, {v, c[0], c[1], c[2]}, {1, 0, 0, 0}, 0, {0, 0, 0}};
-}
-
-static void edge_pair(const rg_mesh *m, int32_t e, int32_t f, rg_close_pair *at)
-{
-    *at = (rg_close_pair){1, e, f, {m->edge[e][0], m->edge[e][1], m->edge[f][0], m->edge[f][1]}, {0, 0, 0, 0}, 0, {0, 0, 0}};
+    if (kind) {
+        const int32_t *e = m->edge[i], *f = m->edge[j];
+        return (rg_close_pair){.kind = 1, .i = i, .j = j, .v = {e[0], e[1], f[0], f[1]}};
+    }
+    const int32_t *c = m->facet_vertex + m->facet_start[j];
+    return (rg_close_pair){.i = i, .j = j, .v = {i, c[0], c[1], c[2]}};
 }
 
 static void measure(rg_close_pair *at, const rg_vec3 *p)
@@ -104,19 +101,31 @@ static void measure(rg_close_pair *at, const rg_vec3 *p)
     }
 }
 
-double rg_proximity_distance(const rg_proximity *n, int32_t kind, int32_t i, int32_t j, const rg_vec3 *p, rg_close_pair *at)
+double rg_proximity_distance(const rg_proximity *n, int32_t kind, int32_t i, int32_t j, const rg_vec3 *p,
+                             rg_close_pair *at)
 {
-    rg_close_pair mine;
-    if (!at) at = &mine;
-    if (kind == 0) corner_pair(n->mesh, i, j, at);
-    else edge_pair(n->mesh, i, j, at);
+    *at = pair_of(n->mesh, kind, i, j);
     measure(at, p);
     return at->d;
 }
 
+rg_vec3 rg_proximity_apart(const rg_close_pair *at, const rg_vec3 *p)
+{
+    rg_vec3 d = {0, 0, 0};
+    for (int i = 0; i < 4; i++) d = rg_vec3_axpy(at->weight[i], p[at->v[i]], d);
+    return d;
+}
+
+rg_vec3 rg_proximity_direction(const rg_close_pair *at, const rg_vec3 *p)
+{
+    rg_vec3 n = {0, 0, 0};
+    for (int i = 0; i < 4; i++) n = rg_vec3_axpy(at->weight[i] / fmax(at->d, 1e-300), p[at->v[i]], n);
+    return n;
+}
+
 static rg_status keep(rg_proximity *n, const rg_close_pair *at)
 {
-    const rg_status s = rg_mem_grow(&n->mem, (void **)&n->pair, &n->room, (size_t)n->count + 1, sizeof *n->pair);
+    const rg_status s = RG_MEM_GROW(&n->mem, n->pair, n->room, (size_t)n->count + 1);
     if (s == RG_OK) n->pair[n->count++] = *at;
     return s;
 }
@@ -126,31 +135,24 @@ int rg_proximity_is_inside(const rg_close_pair *at)
     return at->weight[0] > 0 && at->weight[1] > 0 && at->weight[2] < 0 && at->weight[3] < 0;
 }
 
-/* The pair of two features, if it is one that is looked at; *flag: out. */
-static int pair_of(const rg_proximity *n, rg_near_kind kind, int32_t i, int32_t j, rg_close_pair *at, unsigned char *flag)
+/* The pair of two features as near.h tells of them; its flags. */
+static rg_close_pair pair_told(rg_proximity *n, rg_near_kind kind, int32_t i, int32_t j, unsigned char *flags)
 {
-    const rg_mesh *m = n->mesh;
-    if (kind == RG_NEAR_CORNER) {
-        j = n->plates.facet[j]; /* of a triangle that is the only part */
-        *flag = n->corner[(size_t)i * (size_t)m->nf + (size_t)j];
-        if (!(*flag & RG_PROXIMITY_APART)) corner_pair(m, i, j, at);
-    } else {
-        const int32_t high = i > j ? i : j, low = i > j ? j : i;
-        *flag = n->edge[(size_t)high * (size_t)m->ne + (size_t)low];
-        if (!(*flag & RG_PROXIMITY_APART)) edge_pair(m, high, low, at);
-    }
-    return !(*flag & RG_PROXIMITY_APART);
+    rg_close_pair at;
+    if (kind == RG_NEAR_CORNER) at = pair_of(n->mesh, 0, i, n->plates.facet[j]); /* of a triangle that is the only part */
+    else at = pair_of(n->mesh, 1, i > j ? i : j, i > j ? j : i);
+    *flags = *rg_proximity_flags(n, at.kind, at.i, at.j);
+    return at;
 }
 
 typedef struct finding { rg_proximity *n; const rg_vec3 *p; double least, touching; rg_status status; } finding;
 
-static void find(void *ctx, rg_near_kind kind, int32_t i, int32_t j, int32_t a, int32_t b)
+static void find(void *ctx, rg_near_kind kind, int32_t i, int32_t j)
 {
     finding *f = ctx;
-    rg_close_pair at;
-    unsigned char flag;
-    (void)a, (void)b;
-    if (f->status != RG_OK || !pair_of(f->n, kind, i, j, &at, &flag)) return;
+    unsigned char flags;
+    rg_close_pair at = pair_told(f->n, kind, i, j, &flags);
+    if (f->status != RG_OK || flags & RG_PROXIMITY_APART) return;
     measure(&at, f->p);
     if (at.d < f->least && (at.kind == 0 || at.d < f->touching || rg_proximity_is_inside(&at))) f->status = keep(f->n, &at);
 }
@@ -205,25 +207,21 @@ static double advance(const rg_close_pair *from, const rg_vec3 *p, const rg_vec3
     return most;
 }
 
-typedef struct meeting { rg_proximity *n; const rg_vec3 *p, *q; double gap, most; rg_close_pair *who; } meeting;
+typedef struct meeting { rg_proximity *n; const rg_vec3 *p, *q; double gap, most; } meeting;
 
-static void meet(void *ctx, rg_near_kind kind, int32_t i, int32_t j, int32_t a, int32_t b)
+static void meet(void *ctx, rg_near_kind kind, int32_t i, int32_t j)
 {
     meeting *m = ctx;
-    rg_close_pair at;
-    unsigned char flag;
-    (void)a, (void)b;
-    if (!pair_of(m->n, kind, i, j, &at, &flag) || flag & RG_PROXIMITY_GLUED) return;
+    unsigned char flags;
+    const rg_close_pair at = pair_told(m->n, kind, i, j, &flags);
+    if (flags & (RG_PROXIMITY_APART | RG_PROXIMITY_GLUED)) return;
     const double t = advance(&at, m->p, m->q, m->gap, m->most);
-    if (!(t < m->most)) return;
-    m->most = t;
-    if (m->who) *m->who = at;
+    if (t < m->most) m->most = t;
 }
 
-double rg_proximity_meet(rg_proximity *n, const rg_vec3 *p, const rg_vec3 *q, double gap, rg_close_pair *who)
+double rg_proximity_meet(rg_proximity *n, const rg_vec3 *p, const rg_vec3 *q, double gap)
 {
-    meeting m = {n, p, q, gap, 1, who};
-    if (who) who->kind = -1;
+    meeting m = {n, p, q, gap, 1};
     rg_near_candidates(&n->plates, p, q, 0, &n->work, meet, &m);
     return m.most;
 }

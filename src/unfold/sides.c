@@ -17,7 +17,8 @@ rg_status rg_sides_init(rg_sides *s, const rg_memory *mem, const rg_mesh *m)
     s->mesh = m;
     const size_t nf = (size_t)m->nf, nv = (size_t)m->nv, ne = (size_t)m->ne;
     return RG_MEM_ARRAYS(mem, RG_ARRAY(s->up, nf), RG_ARRAY(s->over, nf * nf), RG_ARRAY(s->corner, nv * nf),
-                         RG_ARRAY(s->edge, ne * ne), RG_ARRAY(s->corner_behind, nv * nf), RG_ARRAY(s->edge_behind, ne * ne));
+                         RG_ARRAY(s->edge, ne * ne), RG_ARRAY(s->corner_behind, nv * nf),
+                         RG_ARRAY(s->edge_behind, ne * ne));
 }
 
 void rg_sides_free(rg_sides *s)
@@ -25,6 +26,11 @@ void rg_sides_free(rg_sides *s)
     if (!s->mem.resize) return;
     RG_MEM_FREE(&s->mem, s->up, s->over, s->corner, s->edge, s->corner_behind, s->edge_behind);
     memset(s, 0, sizeof *s);
+}
+
+static signed char over(const rg_sides *s, int32_t f, int32_t g)
+{
+    return s->over[(size_t)f * (size_t)s->mesh->nf + (size_t)g];
 }
 
 /* What s->corner says from these values on: over the facet, or under it, and inside its folded edge; outside its edge. */
@@ -73,19 +79,18 @@ static int32_t other_edge(const rg_mesh *m, int32_t g, int32_t v, int32_t e)
 static int round_which(const rg_sides *s, int32_t v, int32_t f, int k, int l, const rg_vec2 *x)
 {
     const rg_mesh *m = s->mesh;
-    const size_t nf = (size_t)m->nf;
     int found = -1;
     for (int32_t e = 0; e < m->ne; e++) {
         if (m->edge[e][0] != v && m->edge[e][1] != v) continue;
         for (int side = 0; side < 2; side++) {
             int32_t g = m->edge_facet[e][side], via = e;
-            if (g < 0 || s->over[(size_t)g * nf + (size_t)f] != 1) continue;
+            if (g < 0 || over(s, g, f) != 1) continue;
             for (;;) {
                 g = m->edge_facet[via][m->edge_facet[via][0] == g];
-                if (g < 0 || s->over[(size_t)g * nf + (size_t)f] != 0) break;
+                if (g < 0 || over(s, g, f) != 0) break;
                 via = other_edge(m, g, v, via);
             }
-            if (g < 0 || s->over[(size_t)g * nf + (size_t)f] != -1) continue;
+            if (g < 0 || over(s, g, f) != -1) continue;
             for (int i = 0; i < 2; i++) {
                 const int32_t *ends = m->edge[i ? via : e];
                 const int which = across_which(m, f, k, l, x, x[v], x[ends[0] == v ? ends[1] : ends[0]]);
@@ -109,7 +114,8 @@ static signed char goes_round(const rg_sides *s, int32_t v, int32_t f, const rg_
     }
     for (int k = 0; k < 3; k++) {
         double along;
-        if (fabs(outside(m, f, k, x, x[v], &along)) <= ON_RIM && along >= 0 && along <= 1) return (signed char)(ROUND_EDGE + k);
+        const double out = outside(m, f, k, x, x[v], &along);
+        if (fabs(out) <= ON_RIM && along >= 0 && along <= 1) return (signed char)(ROUND_EDGE + k);
     }
     return 0;
 }
@@ -118,17 +124,16 @@ static signed char goes_round(const rg_sides *s, int32_t v, int32_t f, const rg_
 static signed char lies_inside(const rg_sides *s, int32_t v, int32_t f, signed char side, const rg_vec2 *x)
 {
     const rg_mesh *m = s->mesh;
-    const size_t nf = (size_t)m->nf;
     for (int k = 0; k < 3; k++) {
         double along;
         const int32_t e = m->facet_edge[m->facet_start[f] + k];
         const int32_t other = m->edge_facet[e][m->edge_facet[e][0] == f];
-        if (other < 0 || s->over[(size_t)other * nf + (size_t)f] != side) continue;
+        if (other < 0 || over(s, other, f) != side) continue;
         const rg_vec2 d = rg_vec2_sub(x[m->edge[e][0]], x[m->edge[e][1]]);
         const double beyond = ON_RIM / rg_vec2_length(d);
         if (fabs(outside(m, f, k, x, x[v], &along)) > ON_RIM || along < -beyond || along > 1 + beyond) continue;
         for (int32_t g = 0; g < m->nf; g++) {
-            if (s->over[(size_t)g * nf + (size_t)f] != side || s->over[(size_t)g * nf + (size_t)other] != -side) continue;
+            if (over(s, g, f) != side || over(s, g, other) != -side) continue;
             const int32_t *c = m->facet_vertex + m->facet_start[g];
             if (c[0] == v || c[1] == v || c[2] == v) return (signed char)((side > 0 ? OVER_INSIDE : UNDER_INSIDE) + k);
         }
@@ -143,9 +148,9 @@ void rg_sides_finish(rg_sides *s, const rg_vec2 *x)
     memset(s->corner, 0, (size_t)m->nv * nf);
     for (int32_t f = 0; f < m->nf; f++)
         for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++)
-            for (size_t g = 0; g < nf; g++) {
-                signed char *c = &s->corner[(size_t)m->facet_vertex[j] * nf + g];
-                *c = both(*c, s->over[(size_t)f * nf + g]);
+            for (int32_t g = 0; g < m->nf; g++) {
+                signed char *c = &s->corner[(size_t)m->facet_vertex[j] * nf + (size_t)g];
+                *c = both(*c, over(s, f, g));
             }
     for (int32_t v = 0; v < m->nv; v++)
         for (int32_t f = 0; f < m->nf; f++) {
@@ -157,20 +162,16 @@ void rg_sides_finish(rg_sides *s, const rg_vec2 *x)
             signed char c = 0;
             for (int i = 0; i < 4; i++) {
                 const int32_t a = m->edge_facet[e][i / 2], b = m->edge_facet[f][i % 2];
-                if (a >= 0 && b >= 0) c = both(c, s->over[(size_t)a * nf + (size_t)b]);
+                if (a >= 0 && b >= 0) c = both(c, over(s, a, b));
             }
             s->edge[(size_t)e * (size_t)m->ne + (size_t)f] = settled(c);
         }
 }
 
 /* The normal of a facet that points up at the flat end. */
-static rg_vec3 upwards(const rg_sides *s, const rg_linkage *P, int32_t f) { return rg_vec3_scale(s->up[f], P->place[f].R.c[2]); }
-
-static rg_vec3 between(const rg_linkage *P, const rg_close_pair *at)
+static rg_vec3 upwards(const rg_sides *s, const rg_linkage *P, int32_t f)
 {
-    rg_vec3 d = {0, 0, 0};
-    for (int k = 0; k < 4; k++) d = rg_vec3_axpy(at->weight[k], P->p[at->v[k]], d);
-    return d;
+    return rg_vec3_scale(s->up[f], P->place[f].R.c[2]);
 }
 
 /* A corner that is to stay on one side, +1 outside, -1 inside, of edge k of the facet, in the facet's plane. */
@@ -193,7 +194,7 @@ static int tell_in_plane(const rg_linkage *P, rg_close_pair *at, int k, int side
 int rg_sides_tell(const rg_sides *s, const rg_linkage *P, rg_close_pair *at, rg_vec3 *n, double *d)
 {
     const rg_mesh *m = s->mesh;
-    const rg_vec3 apart = between(P, at);
+    const rg_vec3 apart = rg_proximity_apart(at, P->p);
     if (at->kind == 0) {
         int side = s->corner[(size_t)at->i * (size_t)m->nf + (size_t)at->j], inside = -1;
         if (side == 0) return 0;
@@ -227,4 +228,10 @@ int rg_sides_tell(const rg_sides *s, const rg_linkage *P, rg_close_pair *at, rg_
     }
     *d = rg_vec3_dot(*n, apart);
     return 1;
+}
+
+int rg_sides_is_behind(const rg_sides *s, const rg_close_pair *at)
+{
+    const size_t i = (size_t)at->i, j = (size_t)at->j;
+    return at->kind ? s->edge_behind[i * (size_t)s->mesh->ne + j] : s->corner_behind[i * (size_t)s->mesh->nf + j];
 }

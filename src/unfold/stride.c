@@ -12,25 +12,27 @@ static const double FLOOR = 6e-3;        /* keeps steps at 3 degrees; smaller on
 static const double FLOOR_LAST = 1e-5, FLOOR_LESS = 0.6;
 static const int32_t PATIENCE = 12;      /* the floor is lowered when so many steps */
 static const double SLOW = 0.02;         /* bring less than this part of what is left */
-static const double SOFT = 0.3, SOFT_MOST = 1e-3, SOFT_COMPLIANCE = 1e-5; /* 1e-3 is too weak to open, 1e-7 stops the motion */
+static const double SOFT = 0.3, SOFT_MOST = 1e-3;
+static const double SOFT_COMPLIANCE = 1e-5; /* 1e-3 is too weak to open, 1e-7 stops the motion */
 static const double ONE_WAY = 0.5;        /* cosine: ways that are nearer are the same */
 static const double HARD_COMPLIANCE = 1e-10; /* of a row, so that rows that contradict each other give a little */
-static const double CLOSING_ROUNDS = 1e-6; /* and of a glued pair, lest layers on each other make a program of each closing */
-static const double NOT_THERE = 1e-4; /* a part that is farther on its wrong side, in a state that does not cross, has gone round */
+/* And of a glued pair, lest layers on each other make a program of each closing. */
+static const double CLOSING_ROUNDS = 1e-6;
 static const double THICK = 0.006;       /* the floor over how far it is open: a dozen layers share what there is of room */
 static const double BELOW_FLOOR = 0.2;   /* what closing may take of a distance that is below the floor */
 static const double NEAR_HALF_TURN = 0.6; /* creases this near to half a turn get their bound as a row */
-static const double OVER_HALF_TURN = 1e-4; /* what rounding and closing may put a crease past it */
-static const double OVER_ROUNDING = 1e-8; /* and what it may go on by in a step, where it is past that */
-static const double ADDED_BACK = 0.1, PATTERN_BACK = 0.5; /* what added creases and pattern are wished back by in a step */
+static const double OVER_ROUNDING = 1e-8; /* what a crease past half a turn may go on by in a step */
+static const double ADDED_BACK = 0.1, PATTERN_BACK = 0.5; /* what added creases, pattern are wished back by in a step */
 static const double ADDED_SCALE = 3;     /* an added crease bends more readily than a drawn one leaves its wish */
 static const double LOCKED = 1e-3, HELD = 0.1; /* radians from half a turn; how readily such a crease turns in closing */
 static const double LEAST_AREA = 0.1;    /* of a facet, of what it was */
-static const double SMALL_AREA = 0.5, AREA_FLOOR = 0.12; /* facets of less get a row; and what it keeps: a little more than the least */
-static const double MOST_CORRECTION = 0.7, ALWAYS_CORRECTED = 1e-3; /* of the step: else it went to another branch */
+/* Facets of less get a row; and what it keeps: a little more than the least. */
+static const double SMALL_AREA = 0.5, AREA_FLOOR = 0.12;
+/* Of the step: else it went to another branch. */
+static const double MOST_CORRECTION = 0.7, ALWAYS_CORRECTED = 1e-3;
 static const double GAP = 0.1;           /* of its distance, that a pair must keep over a step */
-/* A pair is well apart from this distance on, and its side clear where the shortest line is within 60 degrees of the normal; edges
- * that are nearer to parallel (sine) have none. */
+/* A pair is well apart from this distance on, and its side clear where the shortest line is within 60 degrees of the normal;
+ * edges that are nearer to parallel (sine) have none. */
 static const double APART = 1e-5, STEEP = 0.5, PARALLEL = 1e-3;
 static const double IS_NORMAL = 1 - 1e-9; /* cosine: the shortest line is the normal, but for rounding */
 static const double WRONG_BY = 1e-5;     /* a glued pair may not be farther than that on its wrong side, and go on */
@@ -39,11 +41,14 @@ static const double CROSSED = 6e-5;      /* a step after which facets cross deep
 static const double STILL = 1e-7;        /* a step in which no crease turns by more is none */
 static const double DAMPING = 0.1; /* of closing, over what is open */
 static const double CLOSED = 1e-11, HARDLY_OPEN = 1e-8;
-static const int WITH_ROWS = 5, NEWTON = 12; /* frozen rows that can't all hold keep kicking Newton off: rows for some iterations only */
+/* Frozen rows that can't all hold keep kicking Newton off: rows for some iterations only. */
+static const int WITH_ROWS = 5, NEWTON = 12;
 static const int HALVINGS = 12;
 static const double ARRIVED_FLAT = 0.985, ARRIVED_FOLDED = 0.993;
+static const double PATTERN_MOVED = 0.05; /* by the most, where it has arrived folded */
 static const double GLUE = 2e-5, RELEASE = 3e-5, SIDE_RELEASE = 1e-5; /* from where a pair is glued, released */
-static const double HARDLY_OPEN_END = 0.08, GROWTH = 0.3, LAGGING = 0.7, OPENS = 1.05; /* near the end: steps as a part of how far it is open */
+/* Near the end steps are a part of how far it is open. */
+static const double HARDLY_OPEN_END = 0.08, GROWTH = 0.3, LAGGING = 0.7, OPENS = 1.05;
 static const double SIDE_COUNTS = 1e-3;  /* pairs nearer than that are held by their side in the order */
 
 /* What rows of the end let go, and push up, as for pairs. */
@@ -62,31 +67,24 @@ void rg_stride_hold(const rg_linkage *P, const double *z, double *scale)
         if (fabs(z[i]) > RG_PI - LOCKED) scale[i] *= HELD;
 }
 
-int rg_stride_close(rg_linkage *P, rg_nearest *q, double *z, double tol, int32_t most)
+void rg_stride_newton(rg_linkage *P, rg_nearest *q, double *z, double angle)
 {
-    int closed = 0;
-    for (int32_t i = 0;; i++) {
-        const double angle = rg_coupled_assemble(&P->J, z, z + P->N, NULL);
-        closed = angle <= tol;
-        if (closed || i == most || !(angle < 1)) break;
-        P->J.A.damping = DAMPING * angle; /* where equations all but depend on each other, as near flat, full steps overshoot */
-        rg_coupled_renew(&P->J, q->scale);
-        q->work += 20 * P->J.A.L.S.entries + P->J.A.L.S.flops;
-        rg_nearest_project(q, NULL, P->J.r);
-        for (int32_t k = 0; k < P->n; k++) z[k] += q->dz[k];
-    }
+    P->J.A.damping = DAMPING * angle;
+    rg_coupled_renew(&P->J, q->scale);
+    q->work += 20 * P->J.A.L.S.entries + P->J.A.L.S.flops;
+    rg_nearest_project(q, NULL, P->J.r);
     P->J.A.damping = 0;
-    return closed;
+    for (int32_t k = 0; k < P->n; k++) z[k] += q->dz[k];
 }
 
-/* At s->z: everything that the linear rows are made of. */
-static void stand(rg_stride *s)
+int rg_stride_close(rg_linkage *P, rg_nearest *q, double *z, double tol, int32_t most)
 {
-    rg_linkage *P = s->P;
-    rg_coupled_assemble(&P->J, s->z, s->z + P->N, NULL);
-    rg_coupled_renew(&P->J, s->q.scale);
-    s->q.work += P->J.A.L.S.flops;
-    rg_linkage_put(P, s->z);
+    for (int32_t i = 0;; i++) {
+        const double angle = rg_coupled_assemble(&P->J, z, z + P->N, NULL);
+        if (angle <= tol) return 1;
+        if (i == most || !(angle < 1)) return 0;
+        rg_stride_newton(P, q, z, angle);
+    }
 }
 
 static void measure(rg_stride *s)
@@ -104,10 +102,9 @@ static void measure(rg_stride *s)
     s->least = least;
 }
 
-static unsigned char *flag_of(rg_stride *s, int kind, int32_t i, int32_t j)
+static unsigned char *flags_of(rg_stride *s, const rg_close_pair *at)
 {
-    const size_t wide = (size_t)(kind ? s->P->mesh->ne : s->P->mesh->nf);
-    return (kind ? s->near.edge : s->near.corner) + (size_t)i * wide + (size_t)j;
+    return rg_proximity_flags(&s->near, at->kind, at->i, at->j);
 }
 
 /* What a row's n turns with: nothing, a facet, two edges, or, from BY_END on, what a row of the end is carried by. */
@@ -127,7 +124,7 @@ static rg_vec3 normal_of(const rg_linkage *P, const rg_close_pair *at)
 /* Of a pair that is well apart, on which side it is. */
 static void remember(rg_stride *s, const rg_close_pair *at)
 {
-    unsigned char *flag = flag_of(s, at->kind, at->i, at->j);
+    unsigned char *flag = flags_of(s, at);
     const double along = rg_vec3_dot(at->n, normal_of(s->P, at));
     *flag &= (unsigned char)~(RG_PROXIMITY_ABOVE | RG_PROXIMITY_BELOW);
     if (fabs(along) > STEEP) *flag |= along > 0 ? RG_PROXIMITY_ABOVE : RG_PROXIMITY_BELOW;
@@ -137,70 +134,60 @@ static void remember(rg_stride *s, const rg_close_pair *at)
 static int tell(rg_stride *s, rg_close_pair *at, rg_vec3 *n, double *d)
 {
     if (rg_sides_tell(s->sides, s->P, at, n, d)) return 1;
-    const unsigned char flag = *flag_of(s, at->kind, at->i, at->j);
+    const unsigned char flag = *flags_of(s, at);
     const int side = flag & RG_PROXIMITY_ABOVE ? 1 : flag & RG_PROXIMITY_BELOW ? -1 : 0;
     const rg_vec3 up = rg_vec3_scale(side, normal_of(s->P, at));
-    rg_vec3 apart = {0, 0, 0};
     if (!(rg_vec3_dot(up, up) > 0)) return 0;
-    for (int i = 0; i < 4; i++) apart = rg_vec3_axpy(at->weight[i], s->P->p[at->v[i]], apart);
-    if (at->d > GLUE && fabs(rg_vec3_dot(apart, up)) < STEEP * at->d) return 0; /* past the rim */
+    const double along = rg_vec3_dot(rg_proximity_apart(at, s->P->p), up);
+    if (at->d > GLUE && fabs(along) < STEEP * at->d) return 0; /* past the rim */
     *n = up;
-    *d = rg_vec3_dot(apart, up);
+    *d = along;
     return 1;
 }
 
-/* Where two layers lie on each other at the start they are glued. */
-static void glue(rg_stride *s)
+typedef void of_pair(rg_stride *s, int32_t kind, int32_t i, int32_t j, unsigned char *flags);
+
+static void for_all_pairs(rg_stride *s, of_pair *what)
 {
     const rg_mesh *m = s->P->mesh;
-    for (int kind = 0; kind < 2; kind++)
+    for (int32_t kind = 0; kind < 2; kind++)
         for (int32_t i = 0; i < (kind ? m->ne : m->nv); i++)
-            for (int32_t j = 0; j < (kind ? i : m->nf); j++) {
-                unsigned char *flag = flag_of(s, kind, i, j);
-                rg_close_pair at;
-                rg_vec3 n;
-                double d;
-                if (*flag || !(rg_proximity_distance(&s->near, kind, i, j, s->P->p, &at) < SIDE_COUNTS)) continue;
-                const int told = s->sides && rg_sides_tell(s->sides, s->P, &at, &n, &d);
-                if (at.d < GLUE || (told && d < SIDE_RELEASE)) *flag |= RG_PROXIMITY_GLUED;
-            }
+            for (int32_t j = 0; j < (kind ? i : m->nf); j++) what(s, kind, i, j, rg_proximity_flags(&s->near, kind, i, j));
 }
 
-static void release_pair(rg_stride *s, int kind, int32_t i, int32_t j, unsigned char *flag)
+/* Where two layers lie on each other at the start they are glued. */
+static void glue(rg_stride *s, int32_t kind, int32_t i, int32_t j, unsigned char *flags)
 {
     rg_close_pair at;
     rg_vec3 n;
     double d;
-    if (!(*flag & RG_PROXIMITY_GLUED)) return;
-    const double apart = rg_proximity_distance(&s->near, kind, i, j, s->P->p, &at);
-    const int told = s->sides && tell(s, &at, &n, &d);
-    if (!(apart > RELEASE) || (told && d < SIDE_RELEASE)) return;
-    *flag &= (unsigned char)~RG_PROXIMITY_GLUED;
+    if (*flags || !(rg_proximity_distance(&s->near, kind, i, j, s->P->p, &at) < SIDE_COUNTS)) return;
+    const int told = rg_sides_tell(s->sides, s->P, &at, &n, &d);
+    if (at.d < GLUE || (told && d < SIDE_RELEASE)) *flags |= RG_PROXIMITY_GLUED;
 }
 
 /* Released is for ever. */
-static void release(rg_stride *s)
+static void release(rg_stride *s, int32_t kind, int32_t i, int32_t j, unsigned char *flags)
 {
-    const rg_mesh *m = s->P->mesh;
-    for (int32_t v = 0; v < m->nv; v++)
-        for (int32_t f = 0; f < m->nf; f++) release_pair(s, 0, v, f, &s->near.corner[(size_t)v * (size_t)m->nf + (size_t)f]);
-    for (int32_t e = 0; e < m->ne; e++)
-        for (int32_t f = 0; f < e; f++) release_pair(s, 1, e, f, &s->near.edge[(size_t)e * (size_t)m->ne + (size_t)f]);
+    rg_close_pair at;
+    rg_vec3 n;
+    double d;
+    if (!(*flags & RG_PROXIMITY_GLUED)) return;
+    const double apart = rg_proximity_distance(&s->near, kind, i, j, s->P->p, &at);
+    const int told = tell(s, &at, &n, &d);
+    if (!(apart > RELEASE) || (told && d < SIDE_RELEASE)) return;
+    *flags &= (unsigned char)~RG_PROXIMITY_GLUED;
 }
 
-static int is_glued(rg_stride *s, const rg_close_pair *at)
-{
-    return *flag_of(s, at->kind, at->i, at->j) & RG_PROXIMITY_GLUED;
-}
-
-rg_status rg_stride_init(rg_stride *s, const rg_memory *mem, rg_linkage *P, const rg_sides *sides, const rg_end *end,
+rg_status rg_stride_init(rg_stride *s, const rg_memory *mem, rg_linkage *P, rg_crossed *crossed, const rg_end *end,
                          const double *z, const double *target)
 {
     memset(s, 0, sizeof *s);
     s->mem = *mem;
     s->P = P;
-    s->sides = sides;
+    s->crossed = crossed;
     s->end = end;
+    s->sides = end ? &end->sides : NULL;
     s->target = target;
     rg_status status = RG_MEM_ARRAYS(mem, RG_ARRAY(s->z, (size_t)P->n), RG_ARRAY(s->z1, (size_t)P->n),
                                      RG_ARRAY(s->wish, (size_t)P->n), RG_ARRAY(s->p1, (size_t)P->mesh->nv),
@@ -215,9 +202,9 @@ rg_status rg_stride_init(rg_stride *s, const rg_memory *mem, rg_linkage *P, cons
     s->h = s->pace = 1;
     s->dm = FLOOR;
     s->budget = INFINITY;
-    stand(s);
+    rg_nearest_stand(&s->q, s->z);
     measure(s);
-    if (sides) glue(s);
+    if (end) for_all_pairs(s, glue);
     return RG_OK;
 }
 
@@ -252,18 +239,19 @@ static double pattern_moved(const rg_stride *s, int most)
 static void judge(rg_stride *s)
 {
     const double merit = s->mean + 0.3 * s->least - 0.3 * pattern_moved(s, 0); /* 1.3 when it is done */
-    if (is_unfolding(s) ? s->least > ARRIVED_FLAT : s->least > ARRIVED_FOLDED && pattern_moved(s, 1) < 0.05) {
+    if (is_unfolding(s) ? s->least > ARRIVED_FLAT : s->least > ARRIVED_FOLDED && pattern_moved(s, 1) < PATTERN_MOVED) {
         s->state = RG_STRIDE_ARRIVED;
         return;
     }
-    if (s->steps >= RG_STRIDE_MOST || !(s->work + s->q.work + s->q.q.work < s->budget)) {
+    if (s->steps >= RG_STRIDE_MOST || !(rg_nearest_work(&s->q) < s->budget)) {
         s->state = RG_STRIDE_SPENT;
         return;
     }
     s->merit[s->steps] = merit;
     s->went[s->steps] = s->mean;
     if (s->steps - s->since < PATIENCE) return;
-    if (s->end && s->mean < HARDLY_OPEN_END && s->mean > OPENS * s->went[s->steps - PATIENCE]) return; /* it grows by parts of itself */
+    const double went = s->went[s->steps - PATIENCE];
+    if (s->end && s->mean < HARDLY_OPEN_END && s->mean > OPENS * went) return; /* it grows by parts of itself */
     if (merit - s->merit[s->steps - PATIENCE] >= SLOW * fmax(0.02, 1 - merit / 1.3)) return;
     if (s->dm < FLOOR_LAST) s->state = RG_STRIDE_STUCK;
     s->dm *= FLOOR_LESS;
@@ -277,7 +265,8 @@ static void make_wish(rg_stride *s)
     if (s->end && s->mean < HARDLY_OPEN_END) { /* the way off the end goes as e, and the pattern as e^2 */
         const double part = GROWTH * s->h;
         for (int32_t i = 0; i < P->n; i++) {
-            const double off = s->z[i] - s->end->z[i], least = i < P->N && !isnan(s->target[i]) ? LAGGING * s->mean * s->end->z[i] : 0;
+            const double end = s->end->z[i], off = s->z[i] - end;
+            const double least = i < P->N && !isnan(s->target[i]) ? LAGGING * s->mean * end : 0;
             s->wish[i] = i < P->N ? part * (fabs(off) < fabs(least) ? -least : off) : 2 * part * off;
         }
         s->pace = 1;
@@ -291,7 +280,10 @@ static void make_wish(rg_stride *s)
 }
 
 /* The floor of now: where the end has hardly opened, layers can't be as far apart as later. */
-static double floor_of(const rg_stride *s) { return s->end && s->end->keep ? fmin(s->dm, THICK * s->mean) : s->dm; }
+static double floor_of(const rg_stride *s)
+{
+    return s->end && s->end->keep ? fmin(s->dm, THICK * s->mean) : s->dm;
+}
 
 /* Non-zero: the first rows, which part what has crossed, part this pair the other way: it has leaked through, and what is
  * remembered of it is of the wrong side. */
@@ -312,37 +304,35 @@ static rg_status add_pair_rows(rg_stride *s)
     rg_status status = rg_proximity_find(near, s->P->p, REACH * MOVE * s->h / DAMPER + 1e-9, s->sides ? GLUE : 0);
     for (int32_t k = 0; status == RG_OK && k < near->count; k++) {
         rg_close_pair *at = &near->pair[k];
+        unsigned char *flags = flags_of(s, at);
         /* No distance to go by, nor a straight way from state to state that does not cut through what turns. */
-        if (s->sides && at->d < GLUE) *flag_of(s, at->kind, at->i, at->j) |= RG_PROXIMITY_GLUED;
+        if (s->sides && at->d < GLUE) *flags |= RG_PROXIMITY_GLUED;
         if (at->kind == 1 && !rg_proximity_is_inside(at)) continue; /* the corner has a row */
-        const int glued = is_glued(s, at);
+        const int glued = *flags & RG_PROXIMITY_GLUED;
         if (s->sides && !glued && at->d > APART) remember(s, at);
-        rg_vec3 n = {0, 0, 0};
+        const rg_vec3 shortest = rg_proximity_direction(at, s->P->p);
+        rg_vec3 n = shortest;
         double d = at->d;
-        for (int i = 0; i < 4; i++) n = rg_vec3_axpy(at->weight[i] / fmax(at->d, 1e-300), s->P->p[at->v[i]], n);
         if (s->sides && (glued || at->d < SIDE_COUNTS)) {
-            const rg_vec3 shortest = n;
-            const int told = tell(s, at, &n, &d) && d >= -NOT_THERE;
+            const int told = tell(s, at, &n, &d) && d >= -RG_STRIDE_NOT_THERE;
             if (glued && !told) continue;
             if (!told) n = shortest, d = at->d;
         }
         if (has_leaked(s, crossed, at, n)) {
-            *flag_of(s, at->kind, at->i, at->j) &= (unsigned char)~(RG_PROXIMITY_ABOVE | RG_PROXIMITY_BELOW);
+            *flags &= (unsigned char)~(RG_PROXIMITY_ABOVE | RG_PROXIMITY_BELOW);
             continue;
         }
-        rg_row *row = rg_nearest_add(&s->q);
+        rg_row *row = rg_nearest_add(&s->q, 4, at->v, at->weight, n);
         if (!row) return RG_ENOMEM;
-        row->terms = 4;
-        for (int i = 0; i < 4; i++) row->v[i] = at->v[i], row->weight[i] = at->weight[i];
-        row->n = n;
         row->feature = at->kind == 0 ? at->i : s->P->mesh->nv + at->i;
         if (fabs(rg_vec3_dot(n, normal_of(s->P, at))) > IS_NORMAL) row->carried = at->kind == 0 ? BY_FACET : BY_EDGES;
         row->d = d;
         row->c = HARD_COMPLIANCE;
         row->b = -DAMPER * fmax(0, d - dm);
-        row->floor = d - DAMPER_CLOSING * fmax(0, d - dm) - BELOW_FLOOR * fmin(fmax(d, 0), dm) - (glued ? CLOSING_ROUNDS : 0);
+        row->floor = d - DAMPER_CLOSING * fmax(0, d - dm) - BELOW_FLOOR * fmin(fmax(d, 0), dm);
+        if (glued) row->floor -= CLOSING_ROUNDS;
         row->glued = glued ? 1 : 0;
-        row->pushed = flag_of(s, at->kind, at->i, at->j);
+        row->pushed = flags;
         row->pushed_by = RG_PROXIMITY_PUSHED;
         if (d < dm) row->soft_b = fmin(SOFT * (dm - d), SOFT_MOST), row->soft_c = SOFT_COMPLIANCE;
     }
@@ -373,15 +363,11 @@ static rg_status add_end_rows(rg_stride *s)
 {
     for (int32_t k = 0; s->end && s->end->keep && k < s->end->count; k++) {
         const rg_end_row *from = &s->end->row[k];
-        if (!rg_end_is_live(s->end, from, s->P)) continue;
+        if (!rg_end_is_live(from, s->P)) continue;
         const double d = rg_end_gap(from, s->P->place, s->P->p);
-        if (d < -NOT_THERE) continue;
-        rg_row *row = rg_nearest_add(&s->q);
+        if (d < -RG_STRIDE_NOT_THERE) continue;
+        rg_row *row = rg_nearest_add(&s->q, from->terms, from->v, from->weight, rg_end_normal(from, s->P->place));
         if (!row) return RG_ENOMEM;
-        row->terms = from->terms;
-        memcpy(row->v, from->v, sizeof row->v);
-        memcpy(row->weight, from->weight, sizeof row->weight);
-        row->n = rg_end_normal(from, s->P->place);
         row->carried = BY_END + k;
         row->pushed = &s->pushed[s->P->N + k];
         row->pushed_by = 1;
@@ -402,14 +388,14 @@ static rg_status add_bounds(rg_stride *s)
     for (int32_t i = 0; i < s->P->N; i++) {
         const double rho = fabs(s->z[i]);
         if (rho < RG_PI - NEAR_HALF_TURN) continue;
-        rg_row *row = rg_nearest_add(&s->q);
+        rg_row *row = rg_nearest_add_bound(&s->q, i, s->z[i]);
         if (!row) return RG_ENOMEM;
-        row->crease = i;
-        row->weight[0] = s->z[i] > 0 ? -1 : 1;
         row->b = fmin(0, rho - RG_PI);
         row->pushed = &s->pushed[i];
         row->pushed_by = 1;
-        if (rho > RG_PI) row->soft_b = rho - RG_PI, row->soft_c = SOFT_COMPLIANCE; /* one that is locked there can't go back at once */
+        if (!(rho > RG_PI)) continue;
+        row->soft_b = rho - RG_PI; /* one that is locked there can't go back at once */
+        row->soft_c = SOFT_COMPLIANCE;
     }
     return RG_OK;
 }
@@ -421,7 +407,6 @@ void rg_stride_area(const rg_linkage *P, int32_t f, rg_row *row)
     const rg_vec2 *X = P->mesh->X;
     const double whole = rg_vec2_turn(X[v[0]], X[v[1]], X[v[2]]);
     row->facet = f;
-    row->terms = 0;
     for (int i = 0; i < 3; i++) {
         const rg_vec2 far = rg_vec2_sub(P->X[v[(i + 2) % 3]], P->X[v[(i + 1) % 3]]);
         for (int k = 0; k < 2; k++) {
@@ -439,7 +424,7 @@ static rg_status add_area_rows(rg_stride *s)
     for (int32_t f = 0; f < s->P->mesh->nf; f++) {
         const double part = rg_linkage_area(s->P, f, s->P->X);
         if (part >= SMALL_AREA) continue;
-        rg_row *row = rg_nearest_add(&s->q);
+        rg_row *row = rg_nearest_add(&s->q, 0, NULL, NULL, (rg_vec3){0, 0, 0});
         if (!row) return RG_ENOMEM;
         rg_stride_area(s->P, f, row);
         row->c = HARD_COMPLIANCE;
@@ -449,15 +434,16 @@ static rg_status add_area_rows(rg_stride *s)
     return RG_OK;
 }
 
-/* n of a row, as it is turned where vertices are at p and facets in place: else a corner that slides on a facet that turns would seem
- * to leave it, or to go through. */
+/* n of a row, as it is turned where vertices are at p and facets in place: else a corner that slides on a facet that turns
+ * would seem to leave it, or to go through. */
 static rg_vec3 normal_at(const rg_stride *s, const rg_row *row, const rg_vec3 *p, const rg_place *place)
 {
     const int32_t *v = row->v;
     if (row->carried == FIXED) return row->n;
     if (row->carried >= BY_END) return rg_end_normal(&s->end->row[row->carried - BY_END], place);
-    const rg_vec3 m = row->carried == BY_FACET ? rg_vec3_cross(rg_vec3_sub(p[v[2]], p[v[1]]), rg_vec3_sub(p[v[3]], p[v[1]]))
-                                               : rg_vec3_cross(rg_vec3_sub(p[v[1]], p[v[0]]), rg_vec3_sub(p[v[3]], p[v[2]]));
+    const rg_vec3 m = row->carried == BY_FACET
+                          ? rg_vec3_cross(rg_vec3_sub(p[v[2]], p[v[1]]), rg_vec3_sub(p[v[3]], p[v[1]]))
+                          : rg_vec3_cross(rg_vec3_sub(p[v[1]], p[v[0]]), rg_vec3_sub(p[v[3]], p[v[2]]));
     const double length = rg_vec3_length(m);
     if (!(length > 0)) return row->n;
     return rg_vec3_scale((rg_vec3_dot(m, row->n) > 0 ? 1 : -1) / length, m);
@@ -482,8 +468,9 @@ static void set_floors(rg_stride *s)
             row->b = row->floor - rg_linkage_area(s->P, row->facet, s->P->trial_X);
             continue;
         }
-        row->b = row->crease >= 0 ? fabs(s->z1[row->crease]) - fmax(RG_PI + OVER_HALF_TURN / 2, fabs(s->z[row->crease]))
-                                  : row->floor - CLOSING_ROUNDS / 10 - gap(s, row, s->p1, s->P->trial_place);
+        const int32_t i = row->crease;
+        row->b = i >= 0 ? fabs(s->z1[i]) - fmax(RG_PI + RG_STRIDE_OVER / 2, fabs(s->z[i]))
+                        : row->floor - CLOSING_ROUNDS / 10 - gap(s, row, s->p1, s->P->trial_place);
     }
 }
 
@@ -516,25 +503,32 @@ static int changes_side(const rg_stride *s)
         const rg_row *row = &s->q.row[k];
         if (!row->glued) continue;
         const double now = gap(s, row, s->p1, s->P->trial_place);
-        if (!(now >= -WRONG_BY) && !(now >= gap(s, row, s->P->p, s->P->place) - MAY_FALL * CLOSING_ROUNDS)) return 1;
+        if (now >= -WRONG_BY) continue;
+        if (!(now >= gap(s, row, s->P->p, s->P->place) - MAY_FALL * CLOSING_ROUNDS)) return 1;
     }
     return 0;
 }
 
-/* What is read off between two states is closed for itself, and bends: do facets cross half way from z to z1? s->p1 is lost. */
-static int crosses_half_way(rg_stride *s)
+/* Facets cross at s->p1. */
+static int crosses(const rg_stride *s)
 {
-    rg_linkage *P = s->P;
     rg_contact_hit hit;
-    if (!s->crossed) return 0;
-    for (int32_t i = 0; i < P->n; i++) s->middle[i] = (s->z[i] + s->z1[i]) / 2;
-    rg_stride_close(P, &s->q, s->middle, CLOSED, NEWTON);
-    rg_linkage_positions(P, s->middle, s->p1);
     return rg_contact_deepest(s->crossed->plates, s->p1, CROSSED, s->crossed->look, &hit);
 }
 
-/* -1: the trial step f dz, closed to z1, is one that paper can make; else why not. */
-static int refuse(rg_stride *s, const double *dz, double f)
+/* What is read off between two states is closed for itself, and bends: do facets cross half way from z to z1? s->p1 is
+ * lost. */
+static int crosses_half_way(rg_stride *s)
+{
+    rg_linkage *P = s->P;
+    for (int32_t i = 0; i < P->n; i++) s->middle[i] = (s->z[i] + s->z1[i]) / 2;
+    rg_stride_close(P, &s->q, s->middle, CLOSED, NEWTON);
+    rg_linkage_positions(P, s->middle, s->p1);
+    return crosses(s);
+}
+
+/* Non-zero: the trial step f dz, closed to z1, is one that paper can make. */
+static int is_good(rg_stride *s, const double *dz, double f)
 {
     const rg_linkage *P = s->P;
     double off = 0, step = 0;
@@ -543,16 +537,12 @@ static int refuse(rg_stride *s, const double *dz, double f)
         off += (have - want) * (have - want);
         step += want * want;
     }
-    if (!(sqrt(off) <= MOST_CORRECTION * sqrt(step) + ALWAYS_CORRECTED)) return RG_REFUSED_FAR;
-    if (!(rg_linkage_least_area(s->P, s->z1 + P->N) >= LEAST_AREA)) return RG_REFUSED_AREA;
+    if (!(sqrt(off) <= MOST_CORRECTION * sqrt(step) + ALWAYS_CORRECTED)) return 0;
+    if (!(rg_linkage_least_area(s->P, s->z1 + P->N) >= LEAST_AREA)) return 0;
     for (int32_t i = 0; i < P->N; i++)
-        if (!(fabs(s->z1[i]) <= fmax(RG_PI + OVER_HALF_TURN, fabs(s->z[i]) + OVER_ROUNDING))) return RG_REFUSED_OVER;
+        if (!(fabs(s->z1[i]) <= fmax(RG_PI + RG_STRIDE_OVER, fabs(s->z[i]) + OVER_ROUNDING))) return 0;
     rg_linkage_positions(s->P, s->z1, s->p1);
-    if (changes_side(s)) return RG_REFUSED_SIDE;
-    rg_contact_hit hit;
-    if (s->crossed && rg_contact_deepest(s->crossed->plates, s->p1, CROSSED, s->crossed->look, &hit)) return RG_REFUSED_SIDE;
-    if (rg_proximity_meet(&s->near, P->p, s->p1, GAP, &s->who) < 1) return RG_REFUSED_MEETS;
-    return crosses_half_way(s) ? RG_REFUSED_SIDE : -1;
+    return !changes_side(s) && !crosses(s) && rg_proximity_meet(&s->near, P->p, s->p1, GAP) >= 1 && !crosses_half_way(s);
 }
 
 /* The nearest step to s->wish that rows allow: q->dz. *f: out, the part of it that is short enough for them. */
@@ -589,16 +579,13 @@ static rg_status go(rg_stride *s, double f, int *halvings)
         for (int32_t i = 0; i < P->n; i++) s->z1[i] = s->z[i] + f * s->wish[i];
         const rg_status status = close_trial(s, &closed);
         if (status != RG_OK) return status;
-        const int why = closed ? refuse(s, s->wish, f) : RG_REFUSED_OPEN;
-        if (why < 0) {
-            memcpy(s->z, s->z1, (size_t)P->n * sizeof *s->z);
-            stand(s);
-            if (s->sides) release(s);
-            s->h = fmax(1e-3, fmin(1, 1.3 * s->h * pow(0.5, *halvings / 2.0)));
-            return RG_OK;
-        }
-        s->refused[why]++;
-        stand(s);
+        const int good = closed && is_good(s, s->wish, f);
+        if (good) memcpy(s->z, s->z1, (size_t)P->n * sizeof *s->z);
+        rg_nearest_stand(&s->q, s->z);
+        if (!good) continue;
+        if (s->sides) for_all_pairs(s, release);
+        s->h = fmax(1e-3, fmin(1, 1.3 * s->h * pow(0.5, *halvings / 2.0)));
+        return RG_OK;
     }
     *halvings = -1;
     return RG_OK;

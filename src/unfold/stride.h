@@ -16,19 +16,27 @@
 #include "unfold/nearest.h"
 #include "unfold/sides.h"
 
-typedef enum rg_stride_state { RG_STRIDE_GOES, RG_STRIDE_ARRIVED, RG_STRIDE_STUCK, RG_STRIDE_NO_STEP, RG_STRIDE_SPENT } rg_stride_state;
+typedef enum rg_stride_state {
+    RG_STRIDE_GOES,
+    RG_STRIDE_ARRIVED,
+    RG_STRIDE_STUCK,   /* with the lowest floor */
+    RG_STRIDE_NO_STEP, /* of all halves of a step none is one that paper can make */
+    RG_STRIDE_SPENT
+} rg_stride_state;
 
-/* Why trial steps were refused. */
-enum { RG_REFUSED_OPEN, RG_REFUSED_FAR, RG_REFUSED_AREA, RG_REFUSED_OVER, RG_REFUSED_MEETS, RG_REFUSED_SIDE, RG_REFUSALS };
+/* A part that is farther on its wrong side (lengths of the sheet), in a state that does not cross, has gone round. */
+#define RG_STRIDE_NOT_THERE 1e-4
+/* What rounding and closing may put a crease past half a turn, radians. */
+#define RG_STRIDE_OVER 1e-4
 
 typedef struct rg_stride {
     rg_memory mem;
     rg_linkage *P;           /* borrowed */
     rg_proximity near;
     rg_nearest q;
-    const rg_sides *sides;  /* borrowed; NULL: the motion does not come from a flat end */
-    const rg_end *end;      /* borrowed; NULL: no rows of it */
-    rg_crossed *crossed;    /* borrowed; NULL, as rg_stride_init leaves it: states are not looked at */
+    rg_crossed *crossed;     /* borrowed */
+    const rg_end *end;       /* borrowed; NULL: the motion does not come from a flat end */
+    const rg_sides *sides;   /* of it */
     const double *target;   /* borrowed [N] radians, all 0: unfolding; NAN: none */
     double *z, *z1, *wish;  /* [n] */
     rg_vec3 *p1;            /* [nv] */
@@ -39,16 +47,14 @@ typedef struct rg_stride {
     int32_t steps, since;   /* taken; the step at which the floor was lowered last */
     double turn;            /* the most that a crease turns in the step found last */
     double mean, least;     /* progress: mean over driven creases, and of the last of them */
-    double work, budget;
-    int32_t refused[RG_REFUSALS];
-    rg_close_pair who;            /* what ended the last refused step */
+    double budget;          /* the most of rg_nearest_work(&q) */
     rg_stride_state state;
 } rg_stride;
 
 enum { RG_STRIDE_MOST = 1500 };
 
 /* From z[n], closed. RG_ENOMEM. Owner: the caller, rg_stride_free, also after a failure. */
-rg_status rg_stride_init(rg_stride *s, const rg_memory *mem, rg_linkage *P, const rg_sides *sides, const rg_end *end,
+rg_status rg_stride_init(rg_stride *s, const rg_memory *mem, rg_linkage *P, rg_crossed *crossed, const rg_end *end,
                          const double *z, const double *target);
 void rg_stride_free(rg_stride *s);
 /* One step taken: s->z; or s->state says why not. */
@@ -63,7 +69,10 @@ void rg_stride_area(const rg_linkage *P, int32_t f, rg_row *row);
 void rg_stride_scale(const rg_linkage *P, double give, double *scale);
 /* Creases of z[N] that are locked at half a turn turn less readily: closing knows of no bounds. */
 void rg_stride_hold(const rg_linkage *P, const double *z, double *scale);
-/* Plain Newton: z is closed to `tol` or, returning zero, as near as it came. */
+/* One step of Newton's method that closes z, which is off by `angle`; damped, as where equations all but depend on each other,
+ * such as near flat, full steps overshoot. */
+void rg_stride_newton(rg_linkage *P, rg_nearest *q, double *z, double angle);
+/* So many of them at most: z is closed to `tol` or, returning zero, as near as it came. */
 int rg_stride_close(rg_linkage *P, rg_nearest *q, double *z, double tol, int32_t most);
 
 #endif

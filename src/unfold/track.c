@@ -3,15 +3,12 @@
 
 #include <string.h>
 
-/* A state whose facets cross deeper (lengths of the sheet) is none: less than what counts as a crossing. */
-static const double WRONG = 8e-5;
 /* Between two states so many places are looked at, less one, that the way between two of them is straight to BENT
  * (lengths of the sheet). */
 enum { LEAST_BETWEEN = 4, MOST_BETWEEN = 40 };
 static const double BENT = 2e-5;
-/* Closing a state that is read off, radians: as well as rounding lets it, and at least so well that it is closed. Where equations depend on
- * each other, as near flat, corrections overshoot along what they hardly hold; damped by a part of what is open they do not. */
-static const double READ_CLOSED = 1e-13, CLOSED = 1e-10, DAMPING = 0.1, NO_BETTER = 0.5, NEAR_DUE = 1e-6;
+/* Closing a state that is read off, radians: as well as rounding lets it, and at least so well that it is closed. */
+static const double READ_CLOSED = 1e-13, CLOSED = 1e-10, NO_BETTER = 0.5, NEAR_DUE = 1e-6;
 static const int READ_NEWTON = 45, SECANTS = 8;
 /* The farthest, radians, that creases turn on a way that is cut short. */
 static const double SHORT_CUT = 10 * RG_DEG;
@@ -57,8 +54,8 @@ rg_status rg_track_keep(void *ctx, const double *z)
 {
     rg_track *p = ctx;
     const size_t n = (size_t)p->P->n, at = (size_t)p->count;
-    rg_status s = rg_mem_grow(&p->mem, (void **)&p->z, &p->z_room, (at + 1) * n, sizeof *z);
-    if (s == RG_OK) s = rg_mem_grow(&p->mem, (void **)&p->progress, &p->progress_room, at + 1, sizeof *z);
+    rg_status s = RG_MEM_GROW(&p->mem, p->z, p->z_room, (at + 1) * n);
+    if (s == RG_OK) s = RG_MEM_GROW(&p->mem, p->progress, p->progress_room, at + 1);
     if (s != RG_OK) return s;
     memcpy(p->z + at * n, z, n * sizeof *z);
     p->progress[at] = rg_track_progress(p, z);
@@ -90,13 +87,8 @@ static void close(rg_track *p)
         if (angle < best) memcpy(p->best, p->scratch, (size_t)P->n * sizeof *p->best), best = angle;
         if (is_closed || !(angle < 1)) break;
         before = angle;
-        P->J.A.damping = DAMPING * angle;
-        rg_coupled_renew(&P->J, p->q->scale);
-        p->q->work += 20 * P->J.A.L.S.entries + P->J.A.L.S.flops;
-        rg_nearest_project(p->q, NULL, P->J.r);
-        for (int32_t k = 0; k < P->n; k++) p->scratch[k] += p->q->dz[k];
+        rg_stride_newton(P, p->q, p->scratch, angle);
     }
-    P->J.A.damping = 0;
     if (best < INFINITY) memcpy(p->scratch, p->best, (size_t)P->n * sizeof *p->best);
 }
 
@@ -141,7 +133,7 @@ void rg_track_read(rg_track *p, double due)
 int rg_track_crosses(rg_track *p, const rg_vec3 *x)
 {
     rg_contact_hit hit;
-    return rg_contact_deepest(&p->plates, x, WRONG, &p->look, &hit);
+    return rg_contact_deepest(&p->plates, x, RG_TRACK_WRONG, &p->look, &hit);
 }
 
 /* Parts of the way from state k to state j, so many that each is all but straight: how far off the chord's middle

@@ -7,6 +7,9 @@
 #include "unfold/linkage.h"
 #include "unfold/nearest.h"
 
+/* A state whose facets cross deeper (lengths of the sheet) is none: less than what counts as a crossing. */
+#define RG_TRACK_WRONG 8e-5
+
 typedef struct rg_track {
     rg_memory mem;
     rg_linkage *P;         /* borrowed */
@@ -35,8 +38,8 @@ void rg_track_reverse(rg_track *p);
 int rg_track_crosses(rg_track *p, const rg_vec3 *x);
 /* The same anywhere between two states, where frames may be. */
 int rg_track_crosses_between(rg_track *p);
-/* Steps that are held by rows go back a little at times, and what is read off by progress would leap over that: where a short way leads
- * straight on, and is free, it takes its place. */
+/* Steps that are held by rows go back a little at times, and what is read off by progress would leap over that: where a
+ * short way leads straight on, and is free, it takes its place. */
 void rg_track_rise(rg_track *p);
 /* The closed state at a progress between 0 and 1: p->scratch. Between two states it is what closes near the straight
  * way between them. Allocates nothing. */

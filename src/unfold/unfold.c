@@ -5,14 +5,14 @@
 
 /* They fail on different patterns; the first frees most. */
 static const rg_passage_way WAYS[] = {
-    /* part  give hard  margin scaled grow repair    round corners keep apart */
-    {{0.03, 0.2, 1e-9, 1e-4, 0, 0, 6}, {0, 0, 0, 0}},
-    {{0.2, 0.2, 1e-9, 0, 1, 1, 0}, {1, 1, 1, 1}},
-    {{0.06, 0.2, 1e-9, 0, 1, 1, 0}, {1, 1, 1, 1}},
-    {{0.1, 0.2, 1e-9, 0, 1, 1, 0}, {0, 0, 0, 0}},
-    {{0.03, 0.2, 1e-8, 0, 0, 0, 0}, {1, 1, 0, 1}},
-    {{0.03, 0.2, 1e-9, 1e-4, 1, 1, 0}, {0, 0, 0, 0}},
-    {{0.03, 0.2, 1e-6, 1e-4, 0, 0, 6}, {0, 0, 0, 0}},
+    /* part  hard  margin grow repair    more keep */
+    {{0.03, 1e-9, 1e-4, 0, 6}, {0, 0}},
+    {{0.2, 1e-9, 0, 1, 0}, {1, 1}},
+    {{0.06, 1e-9, 0, 1, 0}, {1, 1}},
+    {{0.1, 1e-9, 0, 1, 0}, {0, 0}},
+    {{0.03, 1e-8, 0, 0, 0}, {1, 0}},
+    {{0.03, 1e-9, 1e-4, 1, 0}, {0, 0}},
+    {{0.03, 1e-6, 1e-4, 0, 6}, {0, 0}},
 };
 /* What is tried, one after the other: a way of opening, and the number of an order; way -1: from flat. Another order
  * does more than another way. */

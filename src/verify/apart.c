@@ -2,7 +2,7 @@
 
 rg_status rg_aparts_add(rg_aparts *s, int32_t a, int32_t b, rg_vec3 axis)
 {
-    const rg_status status = rg_mem_grow(&s->mem, (void **)&s->list, &s->room, (size_t)s->n + 1, sizeof *s->list);
+    const rg_status status = RG_MEM_GROW(&s->mem, s->list, s->room, (size_t)s->n + 1);
     if (status == RG_OK) s->list[s->n++] = (rg_apart){a, b, axis};
     return status;
 }

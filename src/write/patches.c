@@ -38,12 +38,12 @@ static rg_status add(rg_patches *p, const rg_layers *l, int32_t cell, int32_t f,
     const size_t k = (size_t)p->count;
     int32_t n = p->start ? p->start[k] : 0, h = c->faces.first[cell];
     const int32_t from = n;
-    rg_status s = rg_mem_grow(&p->mem, (void **)&p->facet, &p->room[0], k + 1, sizeof *p->facet);
-    if (s == RG_OK) s = rg_mem_grow(&p->mem, (void **)&p->raise, &p->room[1], k + 1, sizeof *p->raise);
-    if (s == RG_OK) s = rg_mem_grow(&p->mem, (void **)&p->start, &p->room[2], k + 2, sizeof *p->start);
+    rg_status s = RG_MEM_GROW(&p->mem, p->facet, p->room[0], k + 1);
+    if (s == RG_OK) s = RG_MEM_GROW(&p->mem, p->raise, p->room[1], k + 1);
+    if (s == RG_OK) s = RG_MEM_GROW(&p->mem, p->start, p->room[2], k + 2);
     do {
-        if (s == RG_OK) s = rg_mem_grow(&p->mem, (void **)&p->edge, &p->room[3], (size_t)n + 1, sizeof *p->edge);
-        if (s == RG_OK) s = rg_mem_grow(&p->mem, (void **)&p->corner, &p->room[4], (size_t)n + 1, sizeof *p->corner);
+        if (s == RG_OK) s = RG_MEM_GROW(&p->mem, p->edge, p->room[3], (size_t)n + 1);
+        if (s == RG_OK) s = RG_MEM_GROW(&p->mem, p->corner, p->room[4], (size_t)n + 1);
         if (s != RG_OK) return s;
         p->corner[n] = unfolded(&l->flat.place[f], c->graph.X[rg_tail(c->graph.E, h)]);
         p->edge[n++] = edge_along(l, h >> 1, f);

@@ -146,7 +146,7 @@ rg_status rg_png_load(const rg_memory *mem, const char *path, unsigned char **by
     enum { PIECE = 65536 };
     size_t room = 0, used = 0;
     for (size_t got = 1; s == RG_OK && got > 0; used += got) {
-        s = rg_mem_grow(mem, (void **)&all, &room, used + PIECE, 1);
+        s = RG_MEM_GROW(mem, all, room, used + PIECE);
         got = s == RG_OK ? fread(all + used, 1, PIECE, file) : 0;
     }
     if (s == RG_ENOMEM) rg_fail(s, why, 0, "out of memory for the picture");

@@ -9,8 +9,8 @@ rg_status rg_reel_keep(rg_reel *r, const rg_memory *mem, const unsigned char *rg
     size_t runs = 0;
     for (size_t i = 0, n; i < r->pixels; i += n, runs++)
         for (n = 1; n < LONGEST && i + n < r->pixels && memcmp(rgb + 3 * (i + n), rgb + 3 * i, 3) == 0;) n++;
-    rg_status s = rg_mem_grow(mem, (void **)&r->bytes, &r->room, r->used + RUN * runs, 1);
-    if (s == RG_OK) s = rg_mem_grow(mem, (void **)&r->start, &r->start_room, (size_t)r->count + 1, sizeof *r->start);
+    rg_status s = RG_MEM_GROW(mem, r->bytes, r->room, r->used + RUN * runs);
+    if (s == RG_OK) s = RG_MEM_GROW(mem, r->start, r->start_room, (size_t)r->count + 1);
     if (s != RG_OK) return s;
     r->start[r->count++] = r->used;
     for (size_t i = 0, n; i < r->pixels; i += n) {
