@@ -44,7 +44,8 @@ typedef struct rg_course {
 /* The mesh is borrowed. RG_ENOMEM: *c is zeroed. */
 rg_status rg_course_init(const rg_mesh *m, rg_course *c);
 void rg_course_free(rg_course *c);
-/* The next state; it is copied. is_frame zero: it lies between frames, and counts for what crosses first alone. RG_ENOMEM. */
+/* The next state; it is copied. is_frame zero: it lies between frames, and counts for what crosses first alone.
+ * RG_ENOMEM. */
 rg_status rg_course_add(rg_course *c, const rg_plates_state *s, int is_frame);
 /* After the last one; c->found is complete then. RG_ENOMEM. */
 rg_status rg_course_end(rg_course *c);

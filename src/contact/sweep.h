@@ -66,7 +66,8 @@ void rg_sweep_work_free(rg_sweep_work *w);
 rg_status rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const rg_plates_state *to, double depth,
                         rg_sweep_work *w,
                         rg_sweep_found *found);
-/* Of what is kept now, only pairs that were on such a side before: what a rule that allows much lets be known is not sure. */
+/* Of what is kept now, only pairs that were on such a side before: what a rule that allows much lets be known is not
+ * sure. */
 void rg_sweep_forget_new(rg_sweep_work *w);
 /* What is kept now is what the next step begins with. */
 void rg_sweep_go_on(rg_sweep_work *w);

@@ -1,17 +1,17 @@
 /* The traditional bases, on the square -1 ... 1 with corners A, B, C, D counter-clockwise from the lower left.
  *
- * A base packs equal right triangles that are each folded along their three bisectors: four of them meet in the middle of the
- * bird base, eight in that of the frog base, two with their long sides in that of the fish base. So all points are centres of
- * inscribed circles. Both theorems hold at every inner vertex. */
+ * A base packs equal right triangles that are each folded along their three bisectors: four of them meet in the middle
+ * of the bird base, eight in that of the frog base, two with their long sides in that of the fish base. So all points
+ * are centres of inscribed circles. Both theorems hold at every inner vertex. */
 #include "generate/kinds.h"
 
 static const double S = 0.414213562373095049; /* sqrt 2 - 1, radius of the circle in a triangle with a long side of 2 */
 static const double U = 0.292893218813452475; /* 1 - sqrt 1/2, the same with short sides of 1 */
 static const double W = 0.707106781186547524; /* sqrt 1/2 */
 
-/* Points by letter: O centre; A B C D corners; s e n w middles of the edges; S E N W centres of circles above them; p q r t
- * middles of the lines S-E, E-N, N-W, W-S; F G centres of the fish base's circles, f g where those touch; 1 ... 8 centres of
- * the frog base's circles, counter-clockwise from the one next to A on AB; x y middles of 1-2, 5-6. */
+/* Points by letter: O centre; A B C D corners; s e n w middles of the edges; S E N W centres of circles above them; p q
+ * r t middles of the lines S-E, E-N, N-W, W-S; F G centres of the fish base's circles, f g where those touch; 1 ... 8
+ * centres of the frog base's circles, counter-clockwise from the one next to A on AB; x y middles of 1-2, 5-6. */
 static const char letters[] = "OABCDsenwSENWpqrtFGfg12345678xy";
 
 static rg_vec2 point(char letter)
@@ -73,9 +73,9 @@ void rg_frog_draw(rg_sketch *d)
     draw(d, here, "M 1x x2 34 5y y6 78 Ox Oy, V xs yn");
 }
 
-/* Four bird bases, their edges folded; the flaps in the middle and at the corners of the sheet are lifted. Two of the bases
- * have theirs folded in half: twelve creases of the bases and the four edges meet in the middle, less two diagonals left
- * whole, eight of them valleys. */
+/* Four bird bases, their edges folded; the flaps in the middle and at the corners of the sheet are lifted. Two of the
+ * bases have theirs folded in half: twelve creases of the bases and the four edges meet in the middle, less two
+ * diagonals left whole, eight of them valleys. */
 void rg_four_crane_draw(rg_sketch *d)
 {
     static const char *const shared = "V OS OE ON OW SA SB EB EC NC ND WD WA, M OA OC";

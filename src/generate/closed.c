@@ -1,10 +1,10 @@
 /* Closed vertices (section 3.1) in a ring, each of which waits for the next: the two cures of Fig. 5, one pattern each.
  *
- * At vertex k of a triangle, the side to the next vertex goes straight on behind k, creased alike: these two are c. The side
- * to the vertex before it and its mirror image across c, creased opposite, are a and b: a line folded through both layers. Such a
- * vertex has c folded all the way before a and b can start; as each side is the c of one vertex and the a of another, no
- * vertex can begin. A crease that splits one of its two inside angles, which lie on either side of whichever of a, b is
- * opposite to c, frees a vertex; one anywhere else does not. Both theorems hold at all three. */
+ * At vertex k of a triangle, the side to the next vertex goes straight on behind k, creased alike: these two are c. The
+ * side to the vertex before it and its mirror image across c, creased opposite, are a and b: a line folded through both
+ * layers. Such a vertex has c folded all the way before a and b can start; as each side is the c of one vertex and the
+ * a of another, no vertex can begin. A crease that splits one of its two inside angles, which lie on either side of
+ * whichever of a, b is opposite to c, frees a vertex; one anywhere else does not. Both theorems hold at all three. */
 #include "generate/kinds.h"
 
 typedef struct ring {
@@ -39,8 +39,8 @@ static void draw_ring(rg_sketch *d, const ring *r, const rg_vec2 on[3], const rg
     }
 }
 
-/* A triangle twist: all sides alike, sectors of 60 and 120 degrees, pleats to the edges at right angles. All six inside angles
- * are corners of facets of four corners, outside the triangle. */
+/* A triangle twist: all sides alike, sectors of 60 and 120 degrees, pleats to the edges at right angles. All six inside
+ * angles are corners of facets of four corners, outside the triangle. */
 void rg_closed_split_draw(rg_sketch *d)
 {
     static const double far = 2; /* edges of the sheet from its centre; corners of the triangle: 1 */
@@ -58,9 +58,9 @@ void rg_closed_split_draw(rg_sketch *d)
     }
 }
 
-/* A triangle of 90, 30 and 60 degrees, its last side opposite to the others: now the inside angles are two corners of the
- * triangle itself, and corners of facets that are triangles too, because the creases that bound them meet at the sheet's
- * edge. None of them can be split. */
+/* A triangle of 90, 30 and 60 degrees, its last side opposite to the others: now the inside angles are two corners of
+ * the triangle itself, and corners of facets that are triangles too, because the creases that bound them meet at the
+ * sheet's edge. None of them can be split. */
 void rg_closed_adjust_draw(rg_sketch *d)
 {
     const rg_vec2 v[3] = {{0, 0}, {1, 0}, {0, 1 / sqrt(3)}};

@@ -1,13 +1,15 @@
 /* The traditional crane, wings up: a bird base with its two legs narrowed and folded up as neck and tail, and a head.
  *
- * Narrowing. A leg has four layers of 22.5 degrees; its front two are folded to the middle as one, and so are the two behind.
- * The fold runs from the tip A through both layers, W and Q, and on through the wing to the hinge, where both meet, R. Opened
- * up, it is a ring A W R Q around the bird base's vertex S. What it moves it moves whole, so that the creases inside keep
- * their assignments, and those of the ring alternate: they lie in layers facing up and down in turn.
+ * Narrowing. A leg has four layers of 22.5 degrees; its front two are folded to the middle as one, and so are the two
+ * behind. The fold runs from the tip A through both layers, W and Q, and on through the wing to the hinge, where both
+ * meet, R. Opened up, it is a ring A W R Q around the bird base's vertex S. What it moves it moves whole, so that the
+ * creases inside keep their assignments, and those of the ring alternate: they lie in layers facing up and down in
+ * turn.
  *
- * Reverse folds. Now the leg is an accordion of eight sectors of 11.25 degrees, rays 0 (an edge) ... 4 (the diagonal) ... 8.
- * A fold straight across it is a zigzag that crosses even rays at one distance from A and odd ones at another. The halves of
- * the leg, 0 - 4 and 4 - 8, are folded in opposite directions, and the ray between them, 4, is turned inside out beyond.
+ * Reverse folds. Now the leg is an accordion of eight sectors of 11.25 degrees, rays 0 (an edge) ... 4 (the diagonal)
+ * ... 8. A fold straight across it is a zigzag that crosses even rays at one distance from A and odd ones at another.
+ * The halves of the leg, 0 - 4 and 4 - 8, are folded in opposite directions, and the ray between them, 4, is turned
+ * inside out beyond.
  *
  * Both theorems hold at every inner vertex. */
 #include "generate/kinds.h"

@@ -16,8 +16,8 @@ typedef struct rg_sketch {
 void rg_drawing_line(rg_sketch *d, rg_vec2 a, rg_vec2 b, char assignment);
 /* The lines b[0] - b[1] - ... - b[count - 1], all of one assignment. */
 void rg_drawing_path(rg_sketch *d, const rg_vec2 *b, int32_t count, char assignment);
-/* Scales and moves it so that it is centred on the origin: what is 1 as drawn is then `cell` or, where that is 0, the longer side is `side`,
- * or that of ORIPA's sheet, 400. */
+/* Scales and moves it so that it is centred on the origin: what is 1 as drawn is then `cell` or, where that is 0, the
+ * longer side is `side`, or that of ORIPA's sheet, 400. */
 void rg_drawing_fit(rg_sketch *d, double side, double cell);
 
 static inline char rg_opposite(char assignment) { return assignment == RG_MOUNTAIN ? RG_VALLEY : RG_MOUNTAIN; }

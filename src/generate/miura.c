@@ -1,12 +1,13 @@
 /* Miura-ori, and its relatives with straight rows.
  *
- * Pleat the sheet along parallel rows: what lay at height Y then lies at height y of a narrow strip. Fold the strip along
- * slanted lines x = c + k y and open everything: each line has become a zigzag, mirrored at every row. So at every vertex
- * the two sectors on the side to which the zigzag leans are alpha, with tan(alpha) = 1/k, the others pi - alpha: Kawasaki's
- * theorem holds. A zigzag has one assignment, and its neighbours the other; of the two pieces of a row at a vertex the one
- * between the acute sectors is opposite to the zigzag, the other is like it: Maekawa's theorem holds.
- * As each zigzag keeps its k in every row, the tangents of the half fold angles of two zigzags have the same ratio
- * everywhere, k/k', and the sheet folds rigidly with one degree of freedom, all creases arriving at pi together. */
+ * Pleat the sheet along parallel rows: what lay at height Y then lies at height y of a narrow strip. Fold the strip
+ * along slanted lines x = c + k y and open everything: each line has become a zigzag, mirrored at every row. So at
+ * every vertex the two sectors on the side to which the zigzag leans are alpha, with tan(alpha) = 1/k, the others pi -
+ * alpha: Kawasaki's theorem holds. A zigzag has one assignment, and its neighbours the other; of the two pieces of a
+ * row at a vertex the one between the acute sectors is opposite to the zigzag, the other is like it: Maekawa's theorem
+ * holds. As each zigzag keeps its k in every row, the tangents of the half fold angles of two zigzags have the same
+ * ratio everywhere, k/k', and the sheet folds rigidly with one degree of freedom, all creases arriving at pi
+ * together. */
 #include "generate/kinds.h"
 #include "base/memory.h"
 
@@ -72,8 +73,8 @@ static double next(uint64_t *state, double from, double to)
     return from + (to - from) * (double)(*state >> 11) / 9007199254740992.0; /* 2^53 */
 }
 
-/* n columns and rows with heights, widths and slants by chance: m is the seed. Two lines of the strip, at least 0.7 apart
- * at its foot and differing in k by at most 0.5, do not cross at heights up to 1. */
+/* n columns and rows with heights, widths and slants by chance: m is the seed. Two lines of the strip, at least 0.7
+ * apart at its foot and differing in k by at most 0.5, do not cross at heights up to 1. */
 void rg_random_draw(rg_sketch *d)
 {
     strip s;

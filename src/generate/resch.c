@@ -1,17 +1,18 @@
 /* Resch's triangles: the sheet contracts to a smooth face of triangles, with three-finned tucks behind it.
  *
- * The plane is paved with two triangles of side 1 to each of side 2, so that at every vertex meet a corner of a large one, the
- * middle of a side of another and two small ones. Six creases from its centre cut a large triangle into halves of equilateral
- * ones: those to its corners are the fins' lower edges (valley), those to the middles of its sides the seams where three fins
- * meet (mountain). All other creases are where a fin leaves the face (mountain).
- * Kawasaki's theorem holds everywhere: sectors 60, 90, 90, 60, 30, 30 degrees at a corner and 60 six times at a centre.
- * Maekawa's holds nowhere, because the aim is not flat: fins stand at right angles to the face (90 degrees), are double (180)
- * and meet at 120 (60). A run that drives all creases to 180 stops when the face has closed. */
+ * The plane is paved with two triangles of side 1 to each of side 2, so that at every vertex meet a corner of a large
+ * one, the middle of a side of another and two small ones. Six creases from its centre cut a large triangle into halves
+ * of equilateral ones: those to its corners are the fins' lower edges (valley), those to the middles of its sides the
+ * seams where three fins meet (mountain). All other creases are where a fin leaves the face (mountain). Kawasaki's
+ * theorem holds everywhere: sectors 60, 90, 90, 60, 30, 30 degrees at a corner and 60 six times at a centre. Maekawa's
+ * holds nowhere, because the aim is not flat: fins stand at right angles to the face (90 degrees), are double (180) and
+ * meet at 120 (60). A run that drives all creases to 180 stops when the face has closed. */
 #include "generate/kinds.h"
 
 static const double HEIGHT = 0.866025403784438647; /* of a triangle of side 1 */
 
-/* Large triangle (i, j) has its lower left corner at i (a + b) + j (2 a - b) of the grid a = (1, 0), b = (1/2, HEIGHT). */
+/* Large triangle (i, j) has its lower left corner at i (a + b) + j (2 a - b) of the grid a = (1, 0), b = (1/2,
+ * HEIGHT). */
 static rg_vec2 at(int32_t i, int32_t j, double a, double b)
 {
     a += i + 2.0 * j;

@@ -1,8 +1,8 @@
 /* Concentric squares, crossed by the diagonals of the sheet: the pleated hypar, and a flap of box pleats.
  *
- * At a corner of a square the diagonal bisects: sectors pi/4 twice inside, 3 pi/4 twice outside. With its two sides alike,
- * the piece of diagonal inside must be opposite to them and the one outside like them, which makes squares and pieces of
- * diagonals alternate from the centre outwards. */
+ * At a corner of a square the diagonal bisects: sectors pi/4 twice inside, 3 pi/4 twice outside. With its two sides
+ * alike, the piece of diagonal inside must be opposite to them and the one outside like them, which makes squares and
+ * pieces of diagonals alternate from the centre outwards. */
 #include "generate/kinds.h"
 
 /* The corners of the square of half side r, and back to the first. */
@@ -28,11 +28,12 @@ static void draw_leaning(rg_sketch *d, double k, int left)
     for (int i = 0; i < 4; i++) rg_drawing_line(d, inner[i + !left], outer[i + left], RG_UNASSIGNED);
 }
 
-/* Squares 1 ... n, the last of them the sheet's edge. The innermost one is crossed by one diagonal only: four alike that
- * meet at right angles break Maekawa's theorem and are rigid. So two corners of that square have degree 3; everywhere else
- * both theorems hold for the pleats. Plates alone cannot move here: the trapezoids bend, along diagonals that lean one way
- * in one ring and the other way in the next (E. D. Demaine et al., "(Non)existence of pleated folds: how paper folds between
- * creases"). They are drawn as creases without an assignment: which way they lean decides whether it folds. */
+/* Squares 1 ... n, the last of them the sheet's edge. The innermost one is crossed by one diagonal only: four alike
+ * that meet at right angles break Maekawa's theorem and are rigid. So two corners of that square have degree 3;
+ * everywhere else both theorems hold for the pleats. Plates alone cannot move here: the trapezoids bend, along
+ * diagonals that lean one way in one ring and the other way in the next (E. D. Demaine et al., "(Non)existence of
+ * pleated folds: how paper folds between creases"). They are drawn as creases without an assignment: which way they
+ * lean decides whether it folds. */
 void rg_hypar_draw(rg_sketch *d)
 {
     rg_vec2 q[5];
@@ -47,9 +48,10 @@ void rg_hypar_draw(rg_sketch *d)
     }
 }
 
-/* A waterbomb base on a grid of 2 half x 2 half, its point sunk at every grid line, which makes a flap one unit wide: what box
- * pleating begins with. The fold across the middle of the base changes at each square like the diagonals, but opposite to
- * them; it meets the squares at right angles, three creases of one kind and one of the other. Both theorems hold everywhere. */
+/* A waterbomb base on a grid of 2 half x 2 half, its point sunk at every grid line, which makes a flap one unit wide:
+ * what box pleating begins with. The fold across the middle of the base changes at each square like the diagonals, but
+ * opposite to them; it meets the squares at right angles, three creases of one kind and one of the other. Both theorems
+ * hold everywhere. */
 static void draw_sunk(rg_sketch *d, int32_t half)
 {
     rg_vec2 q[5];

@@ -1,9 +1,9 @@
 /* A tatou, the folded purse: a square twist with pleats to the edges.
  *
- * On a grid of four: a square stands on its point in the middle, and from each of its corners two lines run to the edges at
- * right angles, each of them one side of a pleat. Sectors 90, 45, 90 and 135 degrees; sides of the square and the pleats'
- * near lines are valleys, the pleats' far lines mountains: both theorems hold at all four vertices. It does not fold
- * rigidly at all: around the square each vertex would have to be ahead of the next. */
+ * On a grid of four: a square stands on its point in the middle, and from each of its corners two lines run to the
+ * edges at right angles, each of them one side of a pleat. Sectors 90, 45, 90 and 135 degrees; sides of the square and
+ * the pleats' near lines are valleys, the pleats' far lines mountains: both theorems hold at all four vertices. It does
+ * not fold rigidly at all: around the square each vertex would have to be ahead of the next. */
 #include "generate/kinds.h"
 
 static rg_vec2 turned(rg_vec2 p, int quarters)

@@ -1,12 +1,12 @@
 /* Yoshimura and Kresling patterns: sheets of equal triangles in rows, which cylinders buckle to.
  *
- * Every inner vertex has degree 6 and the same sectors opposite to each other, so that Kawasaki's theorem holds; four creases
- * of one kind and two of the other make Maekawa's hold. */
+ * Every inner vertex has degree 6 and the same sectors opposite to each other, so that Kawasaki's theorem holds; four
+ * creases of one kind and two of the other make Maekawa's hold. */
 #include "generate/kinds.h"
 
-/* n isosceles triangles side by side, m rows; `angle` is that at the base. Bases valley, legs mountain. A row of them folded
- * flat is a strip that turns round and round: vertices fold flat, but paper with a thickness of layers would meet itself.
- * Above 60 degrees the angle at the top would be the smallest, between two mountains. */
+/* n isosceles triangles side by side, m rows; `angle` is that at the base. Bases valley, legs mountain. A row of them
+ * folded flat is a strip that turns round and round: vertices fold flat, but paper with a thickness of layers would
+ * meet itself. Above 60 degrees the angle at the top would be the smallest, between two mountains. */
 void rg_yoshimura_draw(rg_sketch *d)
 {
     const double h = tan(d->angle) / 2;
@@ -30,10 +30,11 @@ void rg_yoshimura_draw(rg_sketch *d)
     }
 }
 
-/* A tube of n sides, cut open, m storeys. Parallelograms with bases 1 and a long diagonal: bases and sides mountain, diagonals
- * valley. `angle` is that between base and diagonal, 3/4 of its usual largest, pi/2 - pi/n, if not given. Between diagonal and
- * side it is pi/n: a row folded flat then turns by 2 pi/n at each side and closes to the n-gon that the tube collapses to.
- * As a sheet that is not glued together it folds rigidly all the way, as a tube it would have to bend. */
+/* A tube of n sides, cut open, m storeys. Parallelograms with bases 1 and a long diagonal: bases and sides mountain,
+ * diagonals valley. `angle` is that between base and diagonal, 3/4 of its usual largest, pi/2 - pi/n, if not given.
+ * Between diagonal and side it is pi/n: a row folded flat then turns by 2 pi/n at each side and closes to the n-gon
+ * that the tube collapses to. As a sheet that is not glued together it folds rigidly all the way, as a tube it would
+ * have to bend. */
 void rg_kresling_draw(rg_sketch *d)
 {
     const double apex = RG_PI / d->n, base = d->angle > 0 ? d->angle : 0.75 * (RG_PI / 2 - apex);

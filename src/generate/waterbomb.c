@@ -1,10 +1,11 @@
 /* Waterbomb tessellation: n units side by side in a row, m rows, each row moved by half a unit against the next.
  *
  * A unit is 2 wide and 2 h high, h the tangent of the angle between a diagonal and the rows: diagonals valley, the line
- * down its middle mountain. Units and rows are divided by mountains. With sectors beta = angle and pi/2 - beta, a centre has
- * pi/2 - beta twice, 2 beta, and again; a corner beta, pi/2 - beta twice, beta and two right angles: Kawasaki's theorem
- * holds for any beta, Maekawa's with two mountains to four valleys and four to two. Below 30 degrees 2 beta would be the
- * smallest sector at a centre, between two valleys, which cannot fold flat. All facets are triangles. */
+ * down its middle mountain. Units and rows are divided by mountains. With sectors beta = angle and pi/2 - beta, a
+ * centre has pi/2 - beta twice, 2 beta, and again; a corner beta, pi/2 - beta twice, beta and two right angles:
+ * Kawasaki's theorem holds for any beta, Maekawa's with two mountains to four valleys and four to two. Below 30 degrees
+ * 2 beta would be the smallest sector at a centre, between two valleys, which cannot fold flat. All facets are
+ * triangles. */
 #include "generate/kinds.h"
 
 /* Lines below a row: unit pieces, because corners of both rows end there. */

@@ -75,8 +75,8 @@ static void put(search *s, const int32_t *facet, int32_t n, int in)
     for (int32_t i = 0; i < n; i++) s->in[facet[i]] = (unsigned char)in;
 }
 
-/* Of n facets, which with those in s->in have no order, as few as will do, to the front; returns how many. changed: s->in is not what
- * it was when that was last tried. On return they are in s->in. */
+/* Of n facets, which with those in s->in have no order, as few as will do, to the front; returns how many. changed:
+ * s->in is not what it was when that was last tried. On return they are in s->in. */
 static int32_t least(search *s, int32_t *facet, int32_t n, int changed)
 {
     if (changed && has_none(s)) return 0;

@@ -2,8 +2,9 @@
  * Source   deletion of what is not needed, half of it at once: U. Junker, "QuickXplain" (AAAI 2004)
  * Uses  count.h        Used by  layers.c
  *
- * What holds for some of the facets holds for all: each constraint is of three or four facets that are over one place. So facets that
- * have no order by themselves are the reason why the sheet has none; and when none of them can be spared, a reason to show. */
+ * What holds for some of the facets holds for all: each constraint is of three or four facets that are over one place.
+ * So facets that have no order by themselves are the reason why the sheet has none; and when none of them can be
+ * spared, a reason to show. */
 #ifndef RG_LAYERS_BLAME_H
 #define RG_LAYERS_BLAME_H
 

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Points of the folded sheet that are meant to be one differ by what the file's digits leave: up to 3e-7 of the sheet's size in
- * files as people share them, while the narrowest overlaps that are meant are 3e-5 wide. Real patterns give the same orders from
- * 1e-6 to 1e-5. */
+/* Points of the folded sheet that are meant to be one differ by what the file's digits leave: up to 3e-7 of the sheet's
+ * size in files as people share them, while the narrowest overlaps that are meant are 3e-5 wide. Real patterns give the
+ * same orders from 1e-6 to 1e-5. */
 static const double ROUNDED = 3e-6;
 /* ... or by more, as facets put a vertex in different places: each of two points may be that far off. */
 static const double OFF = 2;
@@ -152,8 +152,8 @@ static double clearance(const rg_vec2 *corner, int32_t n, rg_vec2 x)
     return least;
 }
 
-/* A point well inside the polygon: the middle of a stretch of a level line half-way between two corners' levels, the one of these
- * that is farthest from the border. scratch: [2 n]. Returns how far. */
+/* A point well inside the polygon: the middle of a stretch of a level line half-way between two corners' levels, the
+ * one of these that is farthest from the border. scratch: [2 n]. Returns how far. */
 static double best_point(const rg_vec2 *corner, int32_t n, double *scratch, rg_vec2 *point)
 {
     double best = 0, *level = scratch, *cut = scratch + n;

@@ -105,7 +105,8 @@ static void learn(counter *c)
         }
 }
 
-/* Puts the parts of what is unknown among n pairs at the end of the list. from: where they begin in it; NULL: all pairs. */
+/* Puts the parts of what is unknown among n pairs at the end of the list. from: where they begin in it; NULL: all
+ * pairs. */
 static void divide(counter *c, const size_t *from, int32_t n)
 {
     for (int32_t i = 0; i < n; i++) {
@@ -204,7 +205,8 @@ static rg_status keep_parts(rg_parts *q, const counter *c)
     return RG_OK;
 }
 
-/* Of a part whose orders are too many to count: how many can be numbered, each being found anew among those before it. */
+/* Of a part whose orders are too many to count: how many can be numbered, each being found anew among those before
+ * it. */
 static uint64_t count_some(counter *c, size_t first, int32_t n)
 {
     const int64_t limit = c->limit;

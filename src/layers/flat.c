@@ -5,8 +5,8 @@
 
 /* A fold angle that is meant to be 0 or half a turn: files give degrees with a few digits. */
 static const double MEANT = 0.01 * RG_DEG;
-/* How far apart facets may put a vertex, in parts of the sheet's size: what is deeper counts as paper in paper (docs/corpus.md).
- * Drawings that are meant to fold flat come to 1e-5, one drawn by eye to 3e-4. */
+/* How far apart facets may put a vertex, in parts of the sheet's size: what is deeper counts as paper in paper
+ * (docs/corpus.md). Drawings that are meant to fold flat come to 1e-5, one drawn by eye to 3e-4. */
 static const double CLOSED = 1e-4;
 
 /* Sector angles of a vertex that fail to cancel by less, radians, are rounding. */
@@ -142,8 +142,8 @@ static void place_facets(rg_flat *f, const rg_mesh *m, int32_t *queue)
     }
 }
 
-/* Vertices where their facets put them, and how far these are apart. count: scratch. A crease whose facets have the same side up
- * although it folds, or not although it does not, does not close either. */
+/* Vertices where their facets put them, and how far these are apart. count: scratch. A crease whose facets have the
+ * same side up although it folds, or not although it does not, does not close either. */
 static void place_vertices(rg_flat *f, const rg_mesh *m, int32_t *count)
 {
     memset(count, 0, (size_t)m->nv * sizeof *count);

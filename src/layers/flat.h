@@ -40,8 +40,9 @@ typedef struct rg_flat {
     int32_t root;          /* the facet that stays where it is */
 } rg_flat;
 
-/* m: the sheet, triangulated or not. angle[m->N]: where each crease ends, radians; NAN: not said, see undriven.h. RG_ENOMEM. Owner: the caller, rg_flat_free, also after a failure. If `state` is not RG_FLAT_END, what
- * follows `nf` may be missing. */
+/* m: the sheet, triangulated or not. angle[m->N]: where each crease ends, radians; NAN: not said, see undriven.h.
+ * RG_ENOMEM. Owner: the caller, rg_flat_free, also after a failure. If `state` is not RG_FLAT_END, what follows `nf`
+ * may be missing. */
 rg_status rg_flat_init(rg_flat *f, const rg_memory *mem, const rg_mesh *m, const double *angle);
 void rg_flat_free(rg_flat *f);
 

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Words and cases that finding an order may look at, and counting orders: a few seconds. The most that a real pattern took, of 541
- * facets with 7,662,993,408 orders, is 130 million. */
+/* Words and cases that finding an order may look at, and counting orders: a few seconds. The most that a real pattern
+ * took, of 541 facets with 7,662,993,408 orders, is 130 million. */
 static const int64_t MOST_WORK = 200000000;
 /* Facets that a reason names in words: what fits in a line. */
 enum { IN_WORDS = 4 };
@@ -88,7 +88,8 @@ static void name_facets(rg_layers *l, const int32_t *facet, int32_t n)
     i->where_at = (const double(*)[2])l->where_at;
 }
 
-/* There is none, as showed first at these facets: a few that have none by themselves, or if they are not found, these. */
+/* There is none, as showed first at these facets: a few that have none by themselves, or if they are not found,
+ * these. */
 static rg_status say_none(rg_layers *l, const char *rule, const int32_t *facet, int32_t n)
 {
     rg_blame b = {.facet = rg_mem_array(&l->mem, (size_t)l->flat.nf, sizeof *b.facet)};
@@ -352,8 +353,8 @@ static void mark_seen(const rg_layers *l, unsigned char *seen)
     }
 }
 
-/* Goes from facet f to what lies above it (below: -1) and has no level, over facets with one mark, which get another. Returns how
- * many it found, in c->ring. */
+/* Goes from facet f to what lies above it (below: -1) and has no level, over facets with one mark, which get another.
+ * Returns how many it found, in c->ring. */
 static int32_t spread(climb *c, int32_t f, int side, int32_t from, int32_t to)
 {
     const rg_pairs *p = &c->l->pairs;
@@ -370,8 +371,8 @@ static int32_t spread(climb *c, int32_t f, int side, int32_t from, int32_t to)
     return n;
 }
 
-/* Which facet to let through where all that wait lie on one that waits: of a circle with nothing but itself under it, the one that has
- * least of it below, what would be seen first. */
+/* Which facet to let through where all that wait lie on one that waits: of a circle with nothing but itself under it,
+ * the one that has least of it below, what would be seen first. */
 static int32_t cut_circle(climb *c)
 {
     const int32_t nf = c->l->flat.nf;
@@ -396,7 +397,8 @@ static int32_t cut_circle(climb *c)
     return best;
 }
 
-/* Gives facet f its turn: what lies on it comes higher, and what should lie under it but has not had its turn yet too. */
+/* Gives facet f its turn: what lies on it comes higher, and what should lie under it but has not had its turn yet
+ * too. */
 static void climb_over(climb *c, int32_t f, int32_t *level)
 {
     const rg_pairs *p = &c->l->pairs;

@@ -1,4 +1,5 @@
-/* layers.h -- which facets lie on which where the sheet is folded flat: how many ways there are, any one of them, or why none.
+/* layers.h -- which facets lie on which where the sheet is folded flat: how many ways there are, any one of them, or
+ * why none.
  * Source   as constraint.h; orders of pairs and their solution by parts: J. Ku's Flat-Folder
  * Uses  blame.h        Used by  motion, render, write */
 #ifndef RG_LAYERS_H
@@ -25,19 +26,19 @@ struct rg_layers {
     double where_at[RG_LAYERS_NAMED][2];
 };
 
-/* Of a sheet whose creases end at angle[m->N], radians; NAN: not said. m: triangulated or not; it is copied. y_down: the file's y runs
- * the other way, in which places are told. RG_OK whatever is found, see l->info; RG_ENOMEM. */
+/* Of a sheet whose creases end at angle[m->N], radians; NAN: not said. m: triangulated or not; it is copied. y_down:
+ * the file's y runs the other way, in which places are told. RG_OK whatever is found, see l->info; RG_ENOMEM. */
 rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, const rg_memory *mem, const rg_stop *stop, rg_layers **layers, rg_diag *why);
 
-/* Sets l->orders.value to the order whose parts have the numbers which[l->parts.count] (NULL: all 0). RG_ENOMEM; RG_EARG: there is
- * none. Scratch of the handle is used: one thread at a time. */
+/* Sets l->orders.value to the order whose parts have the numbers which[l->parts.count] (NULL: all 0). RG_ENOMEM;
+ * RG_EARG: there is none. Scratch of the handle is used: one thread at a time. */
 rg_status rg_layers_choose(rg_layers *l, const uint64_t *which);
 
 /* The same with an order near wish[l->pairs.count], see rg_parts_choose_near. */
 rg_status rg_layers_choose_near(rg_layers *l, const double *wish);
 
-/* After a choice: +1: facet g lies above f (in the plane of flat.h, seen with the front of facet flat.root up), -1: below, 0: they do
- * not overlap. */
+/* After a choice: +1: facet g lies above f (in the plane of flat.h, seen with the front of facet flat.root up), -1:
+ * below, 0: they do not overlap. */
 static inline int rg_layers_above(const rg_layers *l, int32_t f, int32_t g)
 {
     const int32_t pair = f == g ? -1 : rg_pairs_find(&l->pairs, f, g);

@@ -1,8 +1,8 @@
 /* propagate.h -- orders of pairs of facets that are known, and what follows from them.
  * Uses  constraint.h        Used by  count.c
  *
- * An equation of signs gives its last unknown one. Transitivity: of a < b follows, for every facet c that has a common place with
- * both, a < c where b < c and c < b where c < a; facets being bits of a row, 64 of them at once. */
+ * An equation of signs gives its last unknown one. Transitivity: of a < b follows, for every facet c that has a common
+ * place with both, a < c where b < c and c < b where c < a; facets being bits of a row, 64 of them at once. */
 #ifndef RG_LAYERS_PROPAGATE_H
 #define RG_LAYERS_PROPAGATE_H
 

@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-/* Points are on a line, and facets on one side of it, within this many tolerances of the cells: a line is drawn through the ends of one
- * crease, and the others' ends are as far off again. */
+/* Points are on a line, and facets on one side of it, within this many tolerances of the cells: a line is drawn through
+ * the ends of one crease, and the others' ends are as far off again. */
 static const double ON_LINE = 4;
 enum { NO_SIDE = 2 };
 
@@ -123,8 +123,8 @@ static int32_t put_in(search *s, int32_t body, int32_t n)
     return n;
 }
 
-/* The least set of bodies that turns `up` with that one: with all that lies over it. Returns how many facets these are; 0: something
- * is in the way. */
+/* The least set of bodies that turns `up` with that one: with all that lies over it. Returns how many facets these are;
+ * 0: something is in the way. */
 static int32_t close(search *s, int32_t body, int up)
 {
     const rg_pairs *p = &s->now.pairs;
@@ -218,8 +218,9 @@ static int is_better(const search *s, const rg_simple_fold *c, const rg_simple_f
     return size_of(s, c) < size_of(s, old);
 }
 
-/* Ways of a body's points, seen from above: straight across the line, to where they are mirrored. Do those of both lie on the two sides
- * of some line? Directions to try: along and across the creases of both, and the sheet's border where it turns. */
+/* Ways of a body's points, seen from above: straight across the line, to where they are mirrored. Do those of both lie
+ * on the two sides of some line? Directions to try: along and across the creases of both, and the sheet's border where
+ * it turns. */
 static int parted_along(const search *s, const rg_simple_fold *const c[2], rg_vec2 d)
 {
     const rg_mesh *m = &s->l->mesh;
@@ -258,8 +259,8 @@ static int are_parted(const search *s, const rg_simple_fold *p, const rg_simple_
     return 0;
 }
 
-/* May it go at once with those that the stage has? Bodies that turn up and down never meet; others do not where one line parts their
- * ways. No crease may join two that turn. */
+/* May it go at once with those that the stage has? Bodies that turn up and down never meet; others do not where one
+ * line parts their ways. No crease may join two that turn. */
 static int goes_with(const search *s, const rg_simple_fold *c, int32_t first)
 {
     for (int32_t k = first; k < s->q->folds; k++)

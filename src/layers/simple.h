@@ -1,12 +1,13 @@
-/* simple.h -- how a flat-folded sheet comes apart, simple fold by simple fold: layers on one side of a line, the topmost or the lowest
- * there, turned back over it.
+/* simple.h -- how a flat-folded sheet comes apart, simple fold by simple fold: layers on one side of a line, the
+ * topmost or the lowest there, turned back over it.
  * Source   E. Arkin, M. Bender, E. Demaine et al., "When can you fold a map?" (2004): simple folds
  * Uses  layers.h        Used by  motion
  *
- * Folded flat, a line, one side of it, and up or down: layers that lie all on that side, are joined to the others only by folded
- * creases on the line, and have none of the others over them (under them), turn as one body by half a turn about the line. Nothing is
- * in their way, as all else lies in the plane or on the other side of it. What remains is folded flat with fewer creases, in an order
- * that is known: what was turned lies the other way round, and on top (at the bottom). */
+ * Folded flat, a line, one side of it, and up or down: layers that lie all on that side, are joined to the others only
+ * by folded creases on the line, and have none of the others over them (under them), turn as one body by half a turn
+ * about the line. Nothing is in their way, as all else lies in the plane or on the other side of it. What remains is
+ * folded flat with fewer creases, in an order that is known: what was turned lies the other way round, and on top (at
+ * the bottom). */
 #ifndef RG_LAYERS_SIMPLE_H
 #define RG_LAYERS_SIMPLE_H
 
@@ -35,8 +36,8 @@ typedef struct rg_simple {
     int up;               /* in the base the front of flat.root looks up (+1) or down (-1), as `above` means it */
 } rg_simple;
 
-/* l: an order is chosen; of a mesh without added creases. RG_OK also where no fold is simple: folds is 0. RG_ENOMEM. Owner: the
- * caller, rg_simple_free, also after a failure. */
+/* l: an order is chosen; of a mesh without added creases. RG_OK also where no fold is simple: folds is 0. RG_ENOMEM.
+ * Owner: the caller, rg_simple_free, also after a failure. */
 rg_status rg_simple_find(rg_simple *q, const rg_memory *mem, const rg_layers *l);
 void rg_simple_free(rg_simple *q);
 

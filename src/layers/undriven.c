@@ -1,7 +1,7 @@
 #include "layers/undriven.h"
 
-/* Angles of one vertex that should cancel, radians: more than drawings by eye are off, less than a sector. What is really off then
- * shows where the facets are put together. */
+/* Angles of one vertex that should cancel, radians: more than drawings by eye are off, less than a sector. What is
+ * really off then shows where the facets are put together. */
 static const double CANCEL = 1 * RG_DEG;
 /* Creases without a target at one vertex: 2^12 ways are looked at; a vertex with more is left flat. */
 enum { MOST_UNTOLD = 12 };
@@ -25,7 +25,8 @@ static double off_by(const rg_mesh *m, int32_t k, const signed char *turn, unsig
 
 double rg_undriven_off(const rg_mesh *m, int32_t k, const signed char *turn) { return off_by(m, k, turn, 0); }
 
-/* The ways in which vertex k can close: creases folded in any, in all of them, and the way with the fewest. 0: too many creases. */
+/* The ways in which vertex k can close: creases folded in any, in all of them, and the way with the fewest. 0: too many
+ * creases. */
 static int look(const rg_mesh *m, int32_t k, const signed char *turn, choice *c)
 {
     *c = (choice){.all = ~0u};

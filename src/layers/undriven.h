@@ -15,7 +15,8 @@ enum { RG_TURN_UNTOLD = 3, RG_TURN_EITHER = 2 };
  * RG_ENOMEM. */
 rg_status rg_undriven_decide(const rg_mesh *m, signed char *turn, int32_t *at, int *guessed);
 
-/* By how much interior vertex k does not close with those turns, radians; INFINITY: an odd number of creases fold there. */
+/* By how much interior vertex k does not close with those turns, radians; INFINITY: an odd number of creases fold
+ * there. */
 double rg_undriven_off(const rg_mesh *m, int32_t k, const signed char *turn);
 
 #endif

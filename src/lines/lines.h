@@ -27,7 +27,8 @@ typedef struct rg_line {
     int32_t where;     /* line of the file, 0: none */
 } rg_line;
 
-/* What drawing programs tell lines apart by, and how often it was found: so that its user can say what it stands for. */
+/* What drawing programs tell lines apart by, and how often it was found: so that its user can say what it stands
+ * for. */
 typedef enum rg_trait_sort { RG_BY_COLOUR, RG_BY_LAYER, RG_BY_DASH, RG_TRAIT_SORTS } rg_trait_sort;
 enum { RG_TRAIT_ROOM = 48, RG_MOST_TRAITS = 200, RG_MOST_KINDS = 64 };
 typedef struct rg_trait {
@@ -37,8 +38,8 @@ typedef struct rg_trait {
     int32_t count;
 } rg_trait;
 
-/* All that a FOLD file says, as a tree that read/value.h knows how to read. Here it is only held, handed on and let go, through its
- * reader's own functions: what folds need not know what a file is. */
+/* All that a FOLD file says, as a tree that read/value.h knows how to read. Here it is only held, handed on and let go,
+ * through its reader's own functions: what folds need not know what a file is. */
 typedef struct json_t rg_value;
 typedef struct rg_keeper {
     rg_value *(*share)(rg_value *);

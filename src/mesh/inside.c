@@ -1,7 +1,8 @@
 #include "mesh/inside.h"
 #include "pattern/closed.h"
 
-/* The creases around a vertex as drawn: added ones left out, the angle to the next one, and whether that sector is whole. */
+/* The creases around a vertex as drawn: added ones left out, the angle to the next one, and whether that sector is
+ * whole. */
 typedef struct spoke { int32_t crease; double theta; int whole; } spoke;
 
 static int32_t drawn_spokes(const rg_mesh *m, int32_t k, spoke *s)

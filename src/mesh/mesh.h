@@ -31,9 +31,10 @@ typedef struct rg_mesh {
 /* Facets of a pattern, not triangulated. RG_ESHEET: not one sheet without holes, why->text says where.
  * Owner: the caller, rg_mesh_free; *m is zeroed on failure. */
 rg_status rg_mesh_from_pattern(const rg_pattern *p, const rg_memory *mem, rg_mesh *m, rg_diag *why);
-/* The same sheet with every facet cut into triangles by added creases ('F', target NAN, crease numbers after all others;
- * old crease and edge numbers are kept). Never a flipped or a zero-area triangle. DOF = N - 3M = N0 - 3 afterwards.
- * Of all ways to cut a facet, one that splits most inside angles of closed vertices, and then has the largest least angle. */
+/* The same sheet with every facet cut into triangles by added creases ('F', target NAN, crease numbers after all
+ * others; old crease and edge numbers are kept). Never a flipped or a zero-area triangle. DOF = N - 3M = N0 - 3
+ * afterwards. Of all ways to cut a facet, one that splits most inside angles of closed vertices, and then has the
+ * largest least angle. */
 rg_status rg_triangulate_all(const rg_mesh *m, rg_mesh *out);
 /* The same by short diagonals, whatever they split: sheets fold one way that do not fold the other. */
 rg_status rg_triangulate_short(const rg_mesh *m, rg_mesh *out);

@@ -42,8 +42,8 @@ static int is_along(rg_vec2 at, rg_vec2 side, rg_vec2 x)
     return fabs(sine(at, side, x)) <= COLLINEAR && rg_vec2_dot(rg_vec2_sub(side, at), rg_vec2_sub(x, at)) > 0;
 }
 
-/* Does the ray from corner i to x start inside? Between the sides of a corner of less than half a turn it is left of one and
- * right of the other; at one of more, it does not where it is right of the one and left of the other. */
+/* Does the ray from corner i to x start inside? Between the sides of a corner of less than half a turn it is left of
+ * one and right of the other; at one of more, it does not where it is right of the one and left of the other. */
 static int starts_inside(const rg_polygon *p, int32_t i, rg_vec2 x)
 {
     const rg_vec2 at = corner(p, i), next = corner(p, i + 1), last = corner(p, i - 1);

@@ -12,7 +12,8 @@ typedef struct rg_polygon {
     unsigned char *inside; /* [n] non-zero: an inside angle, which an added crease is to split */
 } rg_polygon;
 
-/* Facets of more corners are cut one ear at a time: the best of all ways takes the third power of the corners, and tables. */
+/* Facets of more corners are cut one ear at a time: the best of all ways takes the third power of the corners, and
+ * tables. */
 enum { RG_POLYGON_LARGEST = 64 };
 
 typedef struct rg_polygon_cost {
@@ -25,16 +26,16 @@ typedef struct rg_polygon_work {
     int32_t *apex;
 } rg_polygon_work;
 
-/* The least sine of the angles of the triangle of corners i, j, k, counter-clockwise; 0: it has no area, or another corner
- * lies in it. */
+/* The least sine of the angles of the triangle of corners i, j, k, counter-clockwise; 0: it has no area, or another
+ * corner lies in it. */
 double rg_polygon_least_sine(const rg_polygon *p, int32_t i, int32_t j, int32_t k);
 /* Does the join of corners i and j run inside, and touch no other corner? */
 int rg_polygon_has_diagonal(const rg_polygon *p, int32_t i, int32_t j);
 /* The least sine of the four angles between that join and the sides at its ends. */
 double rg_polygon_least_sine_at(const rg_polygon *p, int32_t i, int32_t j);
-/* Puts p, as triangles, behind the facets of m, with its diagonals behind the edges: of all triangulations one that leaves
- * fewest inside angles whole, and of those the one whose smallest angle is largest. Returns zero, m untouched: there is none,
- * or p has too many corners. */
+/* Puts p, as triangles, behind the facets of m, with its diagonals behind the edges: of all triangulations one that
+ * leaves fewest inside angles whole, and of those the one whose smallest angle is largest. Returns zero, m untouched:
+ * there is none, or p has too many corners. */
 int rg_polygon_cut(const rg_polygon *p, rg_polygon_work *w, rg_mesh *m);
 /* One diagonal, one facet of three corners. */
 int32_t rg_polygon_add_diagonal(rg_mesh *m, int32_t from, int32_t to);

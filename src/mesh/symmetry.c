@@ -7,8 +7,8 @@
 
 /* A mirror line this near to an axis, or to half way between them (radians, twice its angle), lies there. */
 static const double ON_AXIS = 1e-9;
-/* What is found within the first of these parts of the sheet may be no group, where vertices lie as near to each other: then
- * the next one is tried. */
+/* What is found within the first of these parts of the sheet may be no group, where vertices lie as near to each other:
+ * then the next one is tried. */
 static const double SAME_PLACE[] = {RG_SAME_PLACE, RG_SAME_PLACE / 30, RG_SAME_PLACE / 1000};
 enum { SAME_PLACES = sizeof SAME_PLACE / sizeof *SAME_PLACE };
 
@@ -159,8 +159,8 @@ static int is_product(const rg_maps *all, int32_t a, int32_t b, int32_t c)
     return 1;
 }
 
-/* Elements by angle are a group when each is the one before, turned by the least turn, all round; and when a mirror undoes
- * itself and turns the other way round. */
+/* Elements by angle are a group when each is the one before, turned by the least turn, all round; and when a mirror
+ * undoes itself and turns the other way round. */
 static int is_group(const rg_maps *all, const place *turn, int32_t turns, const place *mirror, int32_t mirrors)
 {
     const int32_t least = turn[turns > 1].n;
@@ -184,8 +184,8 @@ static void cos_sin(double angle, double *c, double *s)
     *s = q == 1 ? 1 : q == 3 ? -1 : 0;
 }
 
-/* A drawing's angles are off by what its vertices are: turns are by even steps, mirror lines lie evenly about their mean,
- * which is taken along an axis if it is as good as along it. */
+/* A drawing's angles are off by what its vertices are: turns are by even steps, mirror lines lie evenly about their
+ * mean, which is taken along an axis if it is as good as along it. */
 static void fill_matrices(rg_symmetry *G, const place *mirror)
 {
     const int32_t n = G->turns;

@@ -1,10 +1,10 @@
 /* symmetry.h -- how a sheet goes to itself: where each vertex, edge, crease and facet goes.
  * Uses  mesh.h maps.h        Used by  triangulate.c freedom.c, fold, motion
  *
- * A group G of turns about the middle of the pattern and of mirrors across lines through it, which take every crease to one
- * that folds alike. A mirror does so too: the plane that stands on the mirror line takes the upper side of the paper to the
- * upper side. So a folded state has the symmetry when rho_g(i) = rho_i for every g of G, and when the pattern that it is
- * folded from, if that has moved, goes to itself: dX_g(v) = A_g dX_v. */
+ * A group G of turns about the middle of the pattern and of mirrors across lines through it, which take every crease to
+ * one that folds alike. A mirror does so too: the plane that stands on the mirror line takes the upper side of the
+ * paper to the upper side. So a folded state has the symmetry when rho_g(i) = rho_i for every g of G, and when the
+ * pattern that it is folded from, if that has moved, goes to itself: dX_g(v) = A_g dX_v. */
 #ifndef RG_SYMMETRY_H
 #define RG_SYMMETRY_H
 
@@ -27,18 +27,19 @@ typedef struct rg_symmetry {
 
 /* All that the drawing allows, which may be off by RG_SAME_PLACE. RG_ENOMEM. Owner: the caller, rg_symmetry_free. */
 rg_status rg_symmetry_find(rg_symmetry *G, const rg_memory *mem, const rg_mesh *m);
-/* The part of it with every `every`-th turn and, of its mirrors, those that are `mirror` modulo `every`; mirror < 0: none.
- * every divides G->turns. RG_ENOMEM. */
+/* The part of it with every `every`-th turn and, of its mirrors, those that are `mirror` modulo `every`; mirror < 0:
+ * none. every divides G->turns. RG_ENOMEM. */
 rg_status rg_symmetry_part(rg_symmetry *out, const rg_symmetry *G, int32_t every, int32_t mirror);
-/* The same elements on another mesh with the same vertices. RG_EARG: they do not take its edges and facets to each other;
- * RG_ENOMEM. *out is then zeroed. */
+/* The same elements on another mesh with the same vertices. RG_EARG: they do not take its edges and facets to each
+ * other; RG_ENOMEM. *out is then zeroed. */
 rg_status rg_symmetry_on(rg_symmetry *out, const rg_symmetry *G, const rg_mesh *m);
 void rg_symmetry_free(rg_symmetry *G);
 
 /* A part of G as rg_symmetry_part takes it. */
 typedef struct rg_subgroup { int32_t every, mirror, order; } rg_subgroup;
-/* The subgroups of G that are not alike, the largest first and G the first of them, of as large ones those with more turns
- * first; the last one is that of order 1, unless there are more than `most`. Returns how many of list[most] were filled. */
+/* The subgroups of G that are not alike, the largest first and G the first of them, of as large ones those with more
+ * turns first; the last one is that of order 1, unless there are more than `most`. Returns how many of list[most] were
+ * filled. */
 int32_t rg_symmetry_subgroups(const rg_symmetry *G, rg_subgroup *list, int32_t most);
 
 /* Facets as rg_triangulate_some cuts them, so that *out has the symmetry too: of every orbit the first facet is cut, if

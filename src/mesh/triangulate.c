@@ -154,8 +154,8 @@ static int may_cross_facet(const cutter *c, int32_t f, int32_t i, int32_t j)
     return 1;
 }
 
-/* As that of an ear: short ones first, slivers last, but one that splits an inside angle before all, and one that cuts it
- * off unsplit after all. */
+/* As that of an ear: short ones first, slivers last, but one that splits an inside angle before all, and one that cuts
+ * it off unsplit after all. */
 static double score_across(const rg_polygon *p, int32_t i, int32_t j)
 {
     const double length = rg_vec2_length(rg_vec2_sub(p->X[p->v[j]], p->X[p->v[i]])), least = rg_polygon_least_sine_at(p, i, j);

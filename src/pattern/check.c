@@ -35,8 +35,9 @@ static rg_mat3 over_crease(double rho, double theta)
     return (rg_mat3){{{C, c * S, s * S}, {-S, c * C, s * C}, {0, -s, c}}};
 }
 
-/* The angle, radians, by which the paper round a vertex misses itself when each crease is at its target; 0: it is not said
- * for all of them, or they all lie flat or folded flat, which theorems are for. It is the rotation that eq. (1) asks to be none. */
+/* The angle, radians, by which the paper round a vertex misses itself when each crease is at its target; 0: it is not
+ * said for all of them, or they all lie flat or folded flat, which theorems are for. It is the rotation that eq. (1)
+ * asks to be none. */
 static double targets_miss(const struct rg_pattern *p, int32_t v, const double *theta)
 {
     const int32_t *star = p->star + p->star_start[v], n = p->star_start[v + 1] - p->star_start[v];
@@ -53,8 +54,8 @@ static double targets_miss(const struct rg_pattern *p, int32_t v, const double *
     return atan2(rg_vec3_length(twice), F.c[0].x + F.c[1].y + F.c[2].z - 1);
 }
 
-/* The sector that is strictly the smallest among its neighbours has its two creases folded the same way: they would shut
- * it in from both sides. Returns by how much it is smaller where that is most, 0 where all is well. */
+/* The sector that is strictly the smallest among its neighbours has its two creases folded the same way: they would
+ * shut it in from both sides. Returns by how much it is smaller where that is most, 0 where all is well. */
 static double big_little_big(const struct rg_pattern *p, int32_t v, const double *theta)
 {
     const int32_t *star = p->star + p->star_start[v], n = p->star_start[v + 1] - p->star_start[v];

@@ -10,7 +10,8 @@
 void rg_check_sectors(const struct rg_pattern *p, int32_t v, double *theta);
 /* The most edges that meet at a vertex, at least 1. */
 int32_t rg_check_most_edges(const struct rg_pattern *p);
-/* What meets at one vertex is compared with each other: so many creases still take seconds, and no model has a tenth of them. */
+/* What meets at one vertex is compared with each other: so many creases still take seconds, and no model has a tenth of
+ * them. */
 enum { RG_MOST_AT_A_VERTEX = 1000 };
 /* A vertex at which more meet than that, and which therefore is not folded; -1: there is none. */
 int32_t rg_check_crowded(const struct rg_pattern *p);

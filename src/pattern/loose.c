@@ -13,8 +13,8 @@ static const double SENSIBLE = 0.02;
  * it, both would be one vertex, somewhere between them. */
 static const double HARDLY_FARTHER = 2;
 
-/* A loose end, of edge e at vertex v, that is told. How far the nearest line is that does not end there, and the nearest
- * vertex that is no end of its own: INFINITY where that is more than can be sensible. */
+/* A loose end, of edge e at vertex v, that is told. How far the nearest line is that does not end there, and the
+ * nearest vertex that is no end of its own: INFINITY where that is more than can be sensible. */
 typedef struct loose { int32_t e, v; double line, vertex; int is_end; } loose;
 
 static void find_nearest_lines(const rg_graph *g, loose *told, int n)

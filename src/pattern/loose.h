@@ -5,8 +5,8 @@
 
 #include "pattern/graph.h"
 
-/* Takes out edges that end in the middle of a facet, or outside of the sheet, from their free ends inwards; the lines are
- * warned of each, of many by their number. RG_ENOMEM. */
+/* Takes out edges that end in the middle of a facet, or outside of the sheet, from their free ends inwards; the lines
+ * are warned of each, of many by their number. RG_ENOMEM. */
 rg_status rg_loose_drop(rg_graph *g, rg_lines *lines);
 
 #endif

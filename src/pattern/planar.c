@@ -16,7 +16,8 @@ enum { MOST_CUTS = 1 << 24 };
 static const int64_t MOST_PAIRS = (int64_t)1 << 34;
 /* Cells that one long line crosses, added up over all: what is kept of them takes 1 GB at the most. */
 static const int64_t MOST_ENTRIES = (int64_t)1 << 28;
-/* Crossings are guessed from so many pairs of lines, of which so many have to cross to mean anything; that few lines are not asked. */
+/* Crossings are guessed from so many pairs of lines, of which so many have to cross to mean anything; that few lines
+ * are not asked. */
 enum { PAIRS_LOOKED_AT = 200000, TO_MEAN_ANYTHING = 10, FEW_LINES = 3000 };
 /* Less than one edge of so many is fresh: then most are far from all that are. */
 enum { FEW = 100 };
@@ -75,7 +76,8 @@ static inline int32_t cell_of(const splitter *s, rg_vec2 x) { return column(s, x
 
 typedef enum visit { MARK, COUNT, FILL } visit;
 
-/* At an edge's cell: marks it as wanted; or where it is, counts the edge there, or puts it in. Returns whether it is. */
+/* At an edge's cell: marks it as wanted; or where it is, counts the edge there, or puts it in. Returns whether it
+ * is. */
 static inline int visit_cell(splitter *s, int32_t e, int32_t c, visit what)
 {
     if (what == MARK) s->wanted[c] = 1;
@@ -119,7 +121,8 @@ static int register_edge(splitter *s, int32_t e, visit what)
     return any;
 }
 
-/* Of an edge from one cell to the same or the next one, all cells that it is registered at are within so many rows and columns of the first. */
+/* Of an edge from one cell to the same or the next one, all cells that it is registered at are within so many rows and
+ * columns of the first. */
 enum { REACH = 2 };
 typedef struct place { int16_t column, row; } place; /* MOST_SIDE is less */
 
@@ -142,7 +145,8 @@ static rg_status widen(const splitter *s, unsigned char **near)
     return status;
 }
 
-/* The edges in cells that are wanted, in order: list[*n]. Where few are, most edges are told to be elsewhere by the cells of their ends. */
+/* The edges in cells that are wanted, in order: list[*n]. Where few are, most edges are told to be elsewhere by the
+ * cells of their ends. */
 static rg_status count_near(splitter *s, int32_t *list, int32_t *n)
 {
     unsigned char *near = NULL;
@@ -350,8 +354,9 @@ static double square_of(const splitter *s, int32_t u, int32_t v)
     return rg_vec2_dot(d, d);
 }
 
-/* How many of n cuts of an edge to make now: all, or the first alone where vertices lie so near both sides of a short edge
- * that a part between two of them is longer than the whole. Parts get shorter and shorter then, and the rounds end. */
+/* How many of n cuts of an edge to make now: all, or the first alone where vertices lie so near both sides of a short
+ * edge that a part between two of them is longer than the whole. Parts get shorter and shorter then, and the rounds
+ * end. */
 static size_t cuts_to_make(const splitter *s, const rg_edge *e, const cut *cuts, size_t n)
 {
     const double whole = square_of(s, e->v[0], e->v[1]);
@@ -360,8 +365,9 @@ static size_t cuts_to_make(const splitter *s, const rg_edge *e, const cut *cuts,
     return n;
 }
 
-/* Whether a cut leaves the edge where it was. A piece between two such ones crosses nothing that the edge does not cross, which has been
- * seen to: it need not be looked at again. Most crossings are so; those that fell to a vertex nearby are not. */
+/* Whether a cut leaves the edge where it was. A piece between two such ones crosses nothing that the edge does not
+ * cross, which has been seen to: it need not be looked at again. Most crossings are so; those that fell to a vertex
+ * nearby are not. */
 static int stays(const splitter *s, const rg_edge *e, int32_t vertex)
 {
     const rg_vec2 a = s->points.X[e->v[0]], d = rg_vec2_sub(s->points.X[e->v[1]], a);
@@ -430,7 +436,8 @@ static int32_t lower(const rg_edge *e) { return e->v[0] < e->v[1] ? e->v[0] : e-
 /* Of two edges with the same ends, one is new. */
 static int may_be_double(const splitter *s, const rg_edge *e) { return !s->touched || (s->touched[e->v[0]] && s->touched[e->v[1]]); }
 
-/* Those that may be doubles by their lower vertex, then by the other one. start[nv + 2]: out, where those of a vertex begin. */
+/* Those that may be doubles by their lower vertex, then by the other one. start[nv + 2]: out, where those of a vertex
+ * begin. */
 static void sort_edges(const splitter *s, int32_t *start, keyed *key)
 {
     const int32_t nv = s->points.count;
@@ -559,7 +566,8 @@ static int32_t pick(uint64_t *state, int32_t n)
     return (int32_t)((*state >> 33) % (uint64_t)n);
 }
 
-/* Is it to be feared, before anything is kept of them, that there are more crossings than may be? Guessed from pairs of lines. */
+/* Is it to be feared, before anything is kept of them, that there are more crossings than may be? Guessed from pairs of
+ * lines. */
 static int crosses_too_often(const splitter *s)
 {
     uint64_t state = 1;

@@ -11,8 +11,9 @@
  * s->progress is asked every millisecond or so; RG_ECANCELLED where it ends it.
  * Owner: the caller, rg_graph_free, also after a failure. */
 rg_status rg_planar_from_lines(rg_lines *lines, const rg_reading *s, rg_graph *g, rg_diag *why);
-/* The same of every line, with its own assignment and with loose ends, for whoever keeps the drawing: only doubles and lines
- * without length are left out. merge: as in rg_reading. Only the progress of `ask` counts; NULL: nobody is asked. */
+/* The same of every line, with its own assignment and with loose ends, for whoever keeps the drawing: only doubles and
+ * lines without length are left out. merge: as in rg_reading. Only the progress of `ask` counts; NULL: nobody is
+ * asked. */
 rg_status rg_planar_from_all_lines(rg_lines *lines, double merge, const rg_reading *ask, rg_graph *g, rg_diag *why);
 
 #endif

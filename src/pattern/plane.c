@@ -130,7 +130,7 @@ int32_t rg_pattern_edge_at(const rg_pattern *p, const double x[2])
     return found;
 }
 
-/* ---------------------------------------------------------------------------------------------- what it is to do ---- */
+/* -------------------------------------------------------------------------------------------- what it is to do ---- */
 
 static int is_crease(const rg_pattern *p, int32_t e) { return e >= 0 && e < p->ne && p->letter[e] != RG_BORDER; }
 

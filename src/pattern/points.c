@@ -103,8 +103,8 @@ void rg_points_forget(rg_points *p)
     p->head[slot(p, column(p, p->X[v].x), row(p, p->X[v].y))] = p->next[v]; /* the newest stands first in its chain */
 }
 
-/* What was merged is behind: the vertices are taken as new points, in their order. Those that the mean brought within the
- * tolerance of each other are one then, where the first of them is. */
+/* What was merged is behind: the vertices are taken as new points, in their order. Those that the mean brought within
+ * the tolerance of each other are one then, where the first of them is. */
 rg_status rg_points_settle(rg_points *p, int32_t *now)
 {
     const int32_t n = p->count;

@@ -29,7 +29,8 @@ void rg_points_free(rg_points *p);
 rg_status rg_points_add(rg_points *p, rg_vec2 x, int32_t *vertex);
 /* Takes the newest vertex out again. */
 void rg_points_forget(rg_points *p);
-/* Moves every vertex to the mean of the points that it was made of, and merges those that are within the tolerance then.
+/* Moves every vertex to the mean of the points that it was made of, and merges those that are within the tolerance
+ * then.
  * now[count]: out, the vertex that each one has become. RG_ENOMEM. */
 rg_status rg_points_settle(rg_points *p, int32_t *now);
 

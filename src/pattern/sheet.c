@@ -108,8 +108,8 @@ static double off_line(const rg_graph *g, int32_t v, const rg_edge *e, const rg_
     return fabs(rg_vec2_turn(a, b, g->X[v])) / rg_vec2_length(rg_vec2_sub(b, a));
 }
 
-/* May edges e and f, which meet at v only with each other, become one? Writes what it is then to *joined. `tol`: how far
- * v may be off it. */
+/* May edges e and f, which meet at v only with each other, become one? Writes what it is then to *joined. `tol`: how
+ * far v may be off it. */
 static int join(const rg_graph *g, int32_t v, const rg_edge *e, const rg_edge *f, double tol, rg_edge *joined)
 {
     const rg_vec2 x = g->X[v], a = rg_vec2_sub(x, g->X[e->v[e->v[0] == v]]), b = rg_vec2_sub(g->X[f->v[f->v[0] == v]], x);

@@ -92,8 +92,8 @@ static rg_vec3 put(const rg_place *p, rg_vec2 x)
     return rg_vec3_axpy(x.x, p->R.c[0], rg_vec3_axpy(x.y, p->R.c[1], p->t));
 }
 
-/* With e = R u, m = R u turned left, n = R e_z the turn is in the plane of m and n; and the hinge stays: for a point a of
- * it R a + t is the same on both sides. */
+/* With e = R u, m = R u turned left, n = R e_z the turn is in the plane of m and n; and the hinge stays: for a point a
+ * of it R a + t is the same on both sides. */
 static void over_hinge(const rg_place *from, const rg_hinge *h, double c, double s, rg_place *to)
 {
     const rg_vec3 *R = from->R.c;
@@ -136,8 +136,8 @@ static double larger(double most, double value)
     return value <= most || isnan(most) ? most : value;
 }
 
-/* Every pair of facets around a vertex, also those that meet in nothing else: small gaps between neighbours add up. Pairs are
- * looked at only where the gaps to the first facet leave room for one that is larger than all so far. */
+/* Every pair of facets around a vertex, also those that meet in nothing else: small gaps between neighbours add up.
+ * Pairs are looked at only where the gaps to the first facet leave room for one that is larger than all so far. */
 double rg_pose_gap(const rg_vec2 *X, const rg_tree *t, const rg_place *place)
 {
     double gap = 0; /* squared */

@@ -38,7 +38,8 @@ void rg_pose_vertices(const rg_mesh *m, const rg_vec2 *X, const rg_tree *t, cons
 double rg_pose_gap(const rg_vec2 *X, const rg_tree *t, const rg_place *place);
 /* Largest | 3D length / pattern length - 1 | over the edges, with vertices as placed by x. */
 double rg_pose_strain(const rg_mesh *m, const rg_vec2 *X, const rg_vec3 *x);
-/* Newell's normal of facet f with vertices at x[nv], as long as its area: right for any facet, also where corners lie in a line. */
+/* Newell's normal of facet f with vertices at x[nv], as long as its area: right for any facet, also where corners lie
+ * in a line. */
 rg_vec3 rg_pose_area(const rg_mesh *m, int32_t f, const rg_vec3 *x);
 
 #endif

@@ -1,7 +1,7 @@
 #include "pose/turn.h"
 
-/* Four times the product of the largest component with each of the four is a sum of two matrix entries (or three, for its
- * square); dividing by the largest one keeps the digits. */
+/* Four times the product of the largest component with each of the four is a sum of two matrix entries (or three, for
+ * its square); dividing by the largest one keeps the digits. */
 rg_turn rg_turn_from_matrix(const rg_mat3 *R, rg_turn before)
 {
     const rg_vec3 a = R->c[0], b = R->c[1], c = R->c[2];

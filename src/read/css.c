@@ -157,7 +157,8 @@ static void copy(char value[RG_CSS_VALUE], const char *s, size_t n)
     value[n] = 0;
 }
 
-/* `name: value; name: value`; the last one counts, of the important ones where there are some. 0: none, 2: important. */
+/* `name: value; name: value`; the last one counts, of the important ones where there are some. 0: none, 2:
+ * important. */
 static int declared(const char *s, size_t n, const char *property, char value[RG_CSS_VALUE])
 {
     int found = 0;

@@ -52,7 +52,8 @@ static const rg_value *frame_at(const reader *r, int64_t number)
     return number == 0 ? r->root : rg_value_at(rg_value_get(r->root, "file_frames"), (size_t)number - 1);
 }
 
-/* What stands before the path that `text` begins with: the frame that has its key, among those that the frame is made of. */
+/* What stands before the path that `text` begins with: the frame that has its key, among those that the frame is made
+ * of. */
 static void begin_path(const reader *r, const char *text, char path[PATH_ROOM])
 {
     char key[40];
@@ -324,7 +325,8 @@ static double area(const reader *r, int32_t f)
     return fabs(twice) <= ROUNDED * far * n ? 0 : twice / 2;
 }
 
-/* The sides of all faces, sorted by their ends, and which way the faces run. *turn: out, +1 or -1; 0: there are none. */
+/* The sides of all faces, sorted by their ends, and which way the faces run. *turn: out, +1 or -1; 0: there are
+ * none. */
 static rg_status turn_faces(reader *r, int *turn)
 {
     double sum = 0, all = 0;

@@ -1,10 +1,10 @@
 /* kinds.h -- what the user says of a drawing's colours, layers, names and dashes: `KEY=KIND`.
  * Uses  colour.h lines.h        Used by  paint.c svg.c dxf.c read.c
  *
- * KEY is what the drawing has: a colour (as CSS writes it, or AutoCAD's number or name of it), a layer, group or class, a pattern
- * of dashes (AutoCAD's name of it, or the lengths of a stroke-dasharray; solid). `colour:`, `layer:` or `dash:` before it says
- * which of these is meant. KIND: border, cut, mountain, valley, unassigned, aux, none. Of several that fit a line the last
- * counts. */
+ * KEY is what the drawing has: a colour (as CSS writes it, or AutoCAD's number or name of it), a layer, group or class,
+ * a pattern of dashes (AutoCAD's name of it, or the lengths of a stroke-dasharray; solid). `colour:`, `layer:` or
+ * `dash:` before it says which of these is meant. KIND: border, cut, mountain, valley, unassigned, aux, none. Of
+ * several that fit a line the last counts. */
 #ifndef RG_KINDS_H
 #define RG_KINDS_H
 

@@ -6,8 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The line of the value at a path like frames[3].edges[0], or of the last one on the way that there is. The text is JSON
- * that a parser took; "" is its whole. */
+/* The line of the value at a path like frames[3].edges[0], or of the last one on the way that there is. The text is
+ * JSON that a parser took; "" is its whole. */
 int32_t rg_locate_line(const char *text, size_t size, const char *path);
 /* Those of the first n elements of the list at that path; what is not there is left as it is. */
 void rg_locate_lines(const char *text, size_t size, const char *path, int32_t *line, int32_t n);

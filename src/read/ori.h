@@ -1,10 +1,10 @@
 /* ori.h -- Oriedita's own .ori: JSON with a line segment an entry.
  * Uses  value.h        Used by  read.c
  *
- * A line is {"a": "x,y", "b": "x,y", "color": NAME}, points also as {"x": x, "y": y} or [x, y]. Colours: BLACK_0 border, RED_1
- * mountain, BLUE_2 valley; the others, of which CYAN_3 is the one for it, are auxiliary. Circles, texts and auxiliary lines of
- * their own are no part of the pattern. y points down in the file. Versions v1 and
- * v1.x are known. */
+ * A line is {"a": "x,y", "b": "x,y", "color": NAME}, points also as {"x": x, "y": y} or [x, y]. Colours: BLACK_0
+ * border, RED_1 mountain, BLUE_2 valley; the others, of which CYAN_3 is the one for it, are auxiliary. Circles, texts
+ * and auxiliary lines of their own are no part of the pattern. y points down in the file. Versions v1 and v1.x are
+ * known. */
 #ifndef RG_ORI_H
 #define RG_ORI_H
 

@@ -13,7 +13,8 @@ rg_status rg_read_format(const void *bytes, size_t size, const char *path, const
 rg_format rg_read_extension(const char *path);
 
 /* Reads the bytes; `path` as above, `keep` as in fold.h. *out is initialised here; on failure it is left freed.
- * RG_EFORMAT: why->line, why->text. RG_ENOMEM, RG_ECANCELLED (s->progress, asked every few milliseconds): why->text too. */
+ * RG_EFORMAT: why->line, why->text. RG_ENOMEM, RG_ECANCELLED (s->progress, asked every few milliseconds): why->text
+ * too. */
 rg_status rg_read_bytes(const void *bytes, size_t size, const char *path, const rg_reading *s, int keep, rg_lines *out,
                         rg_diag *why);
 /* The same from a file; "-" is standard input. RG_EREAD: why->text. */

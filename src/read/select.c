@@ -9,7 +9,8 @@ enum { MOST_DEEP = 4, MOST_PARTS = 32 };
 enum { MOST_TRIED = 20000 };
 enum { OF_TAG = 1, OF_CLASS = 1000, OF_ID = 1000000 }; /* no selector has a thousand of one kind */
 
-/* One element's part of a selector, and how it hangs together with the part before it: ' ', '>', '+', '~'; 0: the first. */
+/* One element's part of a selector, and how it hangs together with the part before it: ' ', '>', '+', '~'; 0: the
+ * first. */
 typedef struct part { const char *s; size_t n; char joint; } part;
 
 static int is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }

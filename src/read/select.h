@@ -1,9 +1,9 @@
 /* select.h -- selectors of style sheets: which elements a rule is for.
  * Uses  xml.h        Used by  css.c
  *
- * Understood: tags, *, .class, #id, [name] with = ~= |= ^= $= *=, :not(), :is(), :where(), :root, :first-child, :last-child,
- * :only-child, :nth-child() and the like of types, joined by blank, >, + and ~. What depends on a pointer or a link (:hover),
- * and what is drawn besides an element (::before), is of no element here. */
+ * Understood: tags, *, .class, #id, [name] with = ~= |= ^= $= *=, :not(), :is(), :where(), :root, :first-child,
+ * :last-child, :only-child, :nth-child() and the like of types, joined by blank, >, + and ~. What depends on a pointer
+ * or a link (:hover), and what is drawn besides an element (::before), is of no element here. */
 #ifndef RG_SELECT_H
 #define RG_SELECT_H
 

@@ -8,8 +8,8 @@
 
 /* ------------------------------------------------------------------------------- well-formed or not ---- */
 
-/* Where memory is short, the library may call a text ill-formed that is not. So what it refuses is looked at once more, by the
- * grammar alone (RFC 8259), which takes no memory: a text that is well-formed was refused for want of it. */
+/* Where memory is short, the library may call a text ill-formed that is not. So what it refuses is looked at once more,
+ * by the grammar alone (RFC 8259), which takes no memory: a text that is well-formed was refused for want of it. */
 
 /* Open lists and objects, a bit each; deeper than any text that the library takes. */
 enum { DEEPEST = 2048 };

@@ -42,7 +42,8 @@ const void *rg_value_next(const rg_value *v, const void *k);
 const char *rg_value_key(const void *k);
 const rg_value *rg_value_under(const void *k);
 
-/* A new object with all of `parent` (an object or NULL) and over it all of `child`; values are shared. NULL: no memory. */
+/* A new object with all of `parent` (an object or NULL) and over it all of `child`; values are shared. NULL: no
+ * memory. */
 rg_value *rg_value_overlay(const rg_value *parent, const rg_value *child);
 /* Takes a key out of an object. */
 void rg_value_drop(rg_value *v, const char *key);

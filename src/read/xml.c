@@ -42,7 +42,8 @@ static void refuse_document_type(void *ctx, const xmlChar *name, const xmlChar *
     xmlStopParser(parser);
 }
 
-/* Want of memory is not always told to the parser that it happens to, but to the thread; with nobody there, it is printed. */
+/* Want of memory is not always told to the parser that it happens to, but to the thread; with nobody there, it is
+ * printed. */
 #if LIBXML_VERSION >= 21200
 static void note_memory(void *ctx, const xmlError *e)
 #else

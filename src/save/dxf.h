@@ -1,9 +1,10 @@
 /* dxf.h -- line segments to AutoCAD's exchange format (R12, text), for cutters.
  * Used by  files/convert.c write/dxffile.c
  *
- * A layer a kind, so that a cutter can be told what to do with each: cut (border and slits, solid), score-mountain (dash dot),
- * score-valley (dashes), score-unassigned (dots), aux (thin dashes). Colours are those of ORIPA today: 3, 1, 5, 6, 8. $INSUNITS is
- * the unit of the file, where it is known. y points up. Dashes are as long as fits the drawing. */
+ * A layer a kind, so that a cutter can be told what to do with each: cut (border and slits, solid), score-mountain
+ * (dash dot), score-valley (dashes), score-unassigned (dots), aux (thin dashes). Colours are those of ORIPA today: 3,
+ * 1, 5, 6, 8. $INSUNITS is the unit of the file, where it is known. y points up. Dashes are as long as fits the
+ * drawing. */
 #ifndef RG_SAVE_DXF_H
 #define RG_SAVE_DXF_H
 

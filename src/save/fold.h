@@ -20,8 +20,8 @@ typedef struct rg_fold_sheet {
     int same_vertices, same_edges, same_faces; /* numbered as in lines.frame: what else is said there of them holds */
 } rg_fold_sheet;
 
-/* What a frame that was read says besides, as members of the object that is open: all of its keys but those named in `ours` (ended
- * by NULL) that still hold on a sheet so numbered. Returns how many do not. */
+/* What a frame that was read says besides, as members of the object that is open: all of its keys but those named in
+ * `ours` (ended by NULL) that still hold on a sheet so numbered. Returns how many do not. */
 int32_t rg_fold_put_rest(rg_json *j, const rg_value *frame, const rg_fold_sheet *sheet, const char *const *ours);
 
 /* Their numbers in the file that was read, null for what it does not have: of the first `known` of n, source[known]. */

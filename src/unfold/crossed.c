@@ -2,10 +2,11 @@
 
 #include <math.h>
 
-/* Depths (lengths of the sheet) from which pairs count; what of the depth is asked for at once, and compliances: not deeper, and
- * out of it. */
+/* Depths (lengths of the sheet) from which pairs count; what of the depth is asked for at once, and compliances: not
+ * deeper, and out of it. */
 static const double BEGUN = 1e-6, BACK = 0.5, BACK_MOST = 1e-4, NOT_DEEPER = 1e-9, OUT = 1e-6;
-/* Corners of a facet within this (lengths of the sheet) are as far along an axis: an edge or a facet that is square to it. */
+/* Corners of a facet within this (lengths of the sheet) are as far along an axis: an edge or a facet that is square to
+ * it. */
 static const double AS_FAR = 1e-9;
 
 /* Corners of a facet that are as far along an axis as any: one, the ends of an edge, or all. */
@@ -31,8 +32,8 @@ static int is_apart(const support *one, const support *other)
     return one->n == 1 && other->n >= 1 && other->v[0] != v && other->v[1] != v && other->v[2] != v;
 }
 
-/* Where `one` of facet f meets `other` of facet g: *at, out, of f less g. Zero: at a corner that they have in common, or in a
- * way that has no one place. */
+/* Where `one` of facet f meets `other` of facet g: *at, out, of f less g. Zero: at a corner that they have in common,
+ * or in a way that has no one place. */
 static int place(const rg_linkage *P, const rg_proximity *near, int32_t f, const support *one, int32_t g,
                  const support *other, rg_close_pair *at)
 {

@@ -2,8 +2,8 @@
  * Uses  contact.h nearest.h proximity.h        Used by  open.c stride.c
  *
  * Where layers lie all but on each other, sides and distances are as good as rounding lets them be, and a pair may be a
- * little on its wrong side without their knowing. What has begun to cross is parted along the shortest way while that is
- * still short. */
+ * little on its wrong side without their knowing. What has begun to cross is parted along the shortest way while that
+ * is still short. */
 #ifndef RG_CROSSED_H
 #define RG_CROSSED_H
 

@@ -11,8 +11,8 @@ static const double INSIDE = 1e-9, ABOUT_INSIDE = 1e-5;
 /* A weight below is rounding. */
 static const double NOTHING = 1e-7;
 
-/* Rows live while what they are about is nearer than that, in the plane of a crease, and else while facets face each other
- * to 25 degrees. */
+/* Rows live while what they are about is nearer than that, in the plane of a crease, and else while facets face each
+ * other to 25 degrees. */
 static const double LIVES_INSIDE = 1e-3, LIVES = 2e-4, LIVES_FACING = 0.9;
 
 /* A height (lengths of the sheet) that shows which of two facets is above, what a crossing counts from: layers that are
@@ -311,7 +311,8 @@ static int all_in(const builder *w, const line *inner, const line *outer)
     return 1;
 }
 
-/* Non-zero: at x, facets of the one are over those of the other, or a third one lies between: LAYER keeps them apart. */
+/* Non-zero: at x, facets of the one are over those of the other, or a third one lies between: LAYER keeps them
+ * apart. */
 static int are_apart(const builder *w, const int32_t *one, int32_t n, const line *l, rg_vec2 x)
 {
     for (int32_t i = 0; i < n; i++)
@@ -508,8 +509,8 @@ static int is_of_same(const rg_end_row *a, const rg_end_row *b)
     return a->kind == b->kind && a->frame == b->frame && a->other == b->other;
 }
 
-/* Rows are of places of the paper, which slide on each other. One that slid on a slope went up or down by that, which does
- * not say what is over it. */
+/* Rows are of places of the paper, which slide on each other. One that slid on a slope went up or down by that, which
+ * does not say what is over it. */
 int rg_end_is_upset(const rg_end *e, const rg_linkage *P)
 {
     for (int32_t k = 0; k < e->count;) { /* rows of two facets follow each other */

@@ -52,8 +52,8 @@ typedef struct rg_end {
     rg_vec2 *x;          /* [nv] positions in the plane */
 } rg_end;
 
-/* The order between facets of the linkage's mesh: +1: f lies over g, seen with the front of the linkage's first facet up;
- * 0: no overlap. */
+/* The order between facets of the linkage's mesh: +1: f lies over g, seen with the front of the linkage's first facet
+ * up; 0: no overlap. */
 typedef int (*rg_end_above)(void *ctx, int32_t f, int32_t g);
 
 /* z[n]: the flat end, fold angles 0 or half a turn. RG_ENOMEM. Owner: the caller, rg_end_free, also after a failure. */

@@ -11,13 +11,14 @@ static const int ITERATIONS = 60;
 static const double COMPLEMENTARY = 1e-11, KEPT = 1e-8;
 /* The part of the way to the nearest bound that a step goes. */
 static const double SHORT_OF_BOUND = 0.995;
-/* The proximal term: E comes to hold by a factor of it over what E E^T is worth along each direction, which near flat is as little
- * as 1e-7 along some; and rounding grows by its inverse. */
+/* The proximal term: E comes to hold by a factor of it over what E E^T is worth along each direction, which near flat
+ * is as little as 1e-7 along some; and rounding grows by its inverse. */
 static const double EPS = 1e-9;
-/* Multipliers begin as so many times what is asked: that is some times what a single row needs; rows that contradict each other
- * need thousands of times as much, which a part of the largest of the last solution tells. */
+/* Multipliers begin as so many times what is asked: that is some times what a single row needs; rows that contradict
+ * each other need thousands of times as much, which a part of the largest of the last solution tells. */
 static const double BEGIN = 100, BEGIN_LAST = 0.03, BEGIN_SLACK = 0.3;
-/* What products x t may be, over the centre's, before they are corrected; and what a correction aims at, a longer step. */
+/* What products x t may be, over the centre's, before they are corrected; and what a correction aims at, a longer
+ * step. */
 static const double OFF_CENTRE = 10, LONGER = 1.5, LONGER_BY = 0.3;
 /* On the diagonal where rounding spoils a pivot. */
 static const double BETA = 1e-9, BETA_GROWTH = 100, BETA_LARGEST = 1;
@@ -76,7 +77,7 @@ rg_status rg_interior_reserve(rg_interior *q, int32_t m)
     return s;
 }
 
-/* ---------------------------------------------------------------------------------------------- G + E^T E / eps ---- */
+/* --------------------------------------------------------------------------------------------- G + E^T E / eps ---- */
 
 /* Of one factorisation, and of laying its numbers down. */
 static double numbers(const rg_normal *N, const rg_slots *rows) { return N->L.S.flops / 2 + LAYING * (N->L.S.entries + (double)rows->used); }
@@ -157,7 +158,7 @@ static void solve_row(rg_interior *q, int32_t row, double *z)
     q->work += 4 * q->few.L.S.entries;
 }
 
-/* ---------------------------------------------------------------------------------------------- Newton's matrix ---- */
+/* --------------------------------------------------------------------------------------------- Newton's matrix ---- */
 
 typedef struct problem {
     rg_interior *q;
@@ -266,7 +267,8 @@ static int set_matrix(problem *p)
 
 /* Newton's step for
  *     G v - E^T y - R^T x = 0,   E v = 0,   R v + C x - d - slack = 0,   x slack = target
- * off, Ev, residual are what the first three are off, `both` the last over x. By rows v is taken to be Z x all the time. */
+ * off, Ev, residual are what the first three are off, `both` the last over x. By rows v is taken to be Z x all the
+ * time. */
 static void newton(problem *p)
 {
     rg_interior *q = p->q;
@@ -288,7 +290,7 @@ static void newton(problem *p)
     for (int32_t i = 0; i < m; i++) q->dslack[i] = q->both[i] - (1 / q->inverse[i] - q->c[i]) * q->dx[i];
 }
 
-/* ------------------------------------------------------------------------------------------------------ iterations ---- */
+/* -------------------------------------------------------------------------------------------------- iterations ---- */
 
 /* v of x, by rows. */
 static void gather(problem *p)
@@ -353,8 +355,8 @@ static double step_to(const rg_interior *q, int32_t m, double part)
     return fmin(farthest(m, q->x, q->dx, part), farthest(m, q->slack, q->dslack, part));
 }
 
-/* One more solution with the same matrix, that takes products back to the centre which a longer step would bring far from it
- * (Gondzio, Multiple centrality corrections in a primal-dual method, 1996). */
+/* One more solution with the same matrix, that takes products back to the centre which a longer step would bring far
+ * from it (Gondzio, Multiple centrality corrections in a primal-dual method, 1996). */
 static void correct(problem *p, double centre)
 {
     rg_interior *q = p->q;

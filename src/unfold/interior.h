@@ -1,17 +1,18 @@
-/* interior.h -- the least step that keeps rows, and how hard each pushes: a convex quadratic program, by an interior point.
+/* interior.h -- the least step that keeps rows, and how hard each pushes: a convex quadratic program, by an interior
+ * point.
  * Uses  normal.h dense.h        Used by  nearest.c
  *
  *     min  1/2 v^T G v + sum s_i^2 / (2 c_i)        G = J^T J + diag g
  *     s.t. E v = 0,   R v + s >= d
  *
- * Layers that lie on each other give the same row many times, which sets of active rows cycle on. An interior point does not
- * mind: each of its iterations solves, with multipliers x and what rows are more than kept by, t,
+ * Layers that lie on each other give the same row many times, which sets of active rows cycle on. An interior point
+ * does not mind: each of its iterations solves, with multipliers x and what rows are more than kept by, t,
  *
  *     (G + E^T E / eps + R^T D^-1 R) dv = ...,   D = c + t / x
  *
- * where E is a proximal term, by which it comes to hold exactly. The matrix is sparse, and its pattern hardly changes: it is
- * analysed anew only where rows do not fit. A few rows are cheaper by rows: G + E^T E / eps is factored once and solved with for
- * each, then D + R (G + E^T E / eps)^-1 R^T is a small dense matrix.
+ * where E is a proximal term, by which it comes to hold exactly. The matrix is sparse, and its pattern hardly changes:
+ * it is analysed anew only where rows do not fit. A few rows are cheaper by rows: G + E^T E / eps is factored once and
+ * solved with for each, then D + R (G + E^T E / eps)^-1 R^T is a small dense matrix.
  *   Mehrotra, On the implementation of a primal-dual interior point method, 1992.
  *   Friedlander, Orban, A primal-dual regularized interior-point method for convex quadratic programs, 2012. */
 #ifndef RG_INTERIOR_H
@@ -62,8 +63,8 @@ void rg_interior_free(rg_interior *q);
 void rg_interior_clear(rg_interior *q);
 /* Room for m rows. RG_ENOMEM. */
 rg_status rg_interior_reserve(rg_interior *q, int32_t m);
-/* m rows, of the R that there are. Rows may be added to R, and it be solved again, until rg_interior_clear. RG_ENOMEM; allocates
- * only what has never been as large, and for a pattern that does not fit. */
+/* m rows, of the R that there are. Rows may be added to R, and it be solved again, until rg_interior_clear. RG_ENOMEM;
+ * allocates only what has never been as large, and for a pattern that does not fit. */
 rg_status rg_interior_solve(rg_interior *q, int32_t m);
 
 #endif

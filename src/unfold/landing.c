@@ -4,7 +4,8 @@
 
 /* Of what it is open by, a crease is closed by this part in a step; the pattern goes twice as fast, at first order. */
 static const double PART = 0.2;
-/* Done when creases are open by less than this part of their angle, in the mean; then it is thinner than a drawing is exact. */
+/* Done when creases are open by less than this part of their angle, in the mean; then it is thinner than a drawing is
+ * exact. */
 static const double ENOUGH = 2e-4;
 static const int STEPS = 80;
 /* A step that gets less than this part of what was wished is a jam. */

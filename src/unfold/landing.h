@@ -1,9 +1,9 @@
 /* landing.h -- from a state a little open back into the flat end, step by step.
  * Uses  stride.h open.h        Used by  passage.c
  *
- * Creases are open by e, to first order, and the pattern has moved by e^2: so each step wishes e to become less by a part of
- * itself, and lets each distance become less by a part of itself. What is left when e is small rests on the order of layers
- * alone. */
+ * Creases are open by e, to first order, and the pattern has moved by e^2: so each step wishes e to become less by a
+ * part of itself, and lets each distance become less by a part of itself. What is left when e is small rests on the
+ * order of layers alone. */
 #ifndef RG_LANDING_H
 #define RG_LANDING_H
 

@@ -2,11 +2,12 @@
 
 #include <string.h>
 
-/* A row counts as broken when it misses its bound by more than the first (lengths of the sheet, radians) and this part of
- * it. */
+/* A row counts as broken when it misses its bound by more than the first (lengths of the sheet, radians) and this part
+ * of it. */
 static const double BROKEN = 1e-9, BROKEN_PART = 1e-3;
-/* Times that broken rows are added: most steps need one to four. In the first of them of all that a corner or an edge would meet
- * one way, within 60 degrees, only the nearest: in a stack that is the next layer, which mostly keeps it from those behind. */
+/* Times that broken rows are added: most steps need one to four. In the first of them of all that a corner or an edge
+ * would meet one way, within 60 degrees, only the nearest: in a stack that is the next layer, which mostly keeps it
+ * from those behind. */
 static const int ROUNDS = 8, NEAREST_ROUNDS = 4;
 static const double ONE_WAY = 0.5;
 /* A compliance below this is too near to rounding to be told from none. */
@@ -156,8 +157,8 @@ static rg_status activate(rg_nearest *q, int32_t row, int soft)
     return RG_OK;
 }
 
-/* Flags: the row, 1, and its soft form, 2, that q->dz breaks and that are not active. Where it pushed as hard as the hardest
- * it would give by as much as its compliance says: what is broken by less is not worth a row. */
+/* Flags: the row, 1, and its soft form, 2, that q->dz breaks and that are not active. Where it pushed as hard as the
+ * hardest it would give by as much as its compliance says: what is broken by less is not worth a row. */
 static int broken(const rg_nearest *q, const rg_row *row, int with_soft)
 {
     const double value = rg_nearest_value(q, row);

@@ -15,7 +15,8 @@
 
 enum { RG_ROW_TERMS = 6 };
 
-/* n . sum weight[i] dp_v[i], or, with crease >= 0, weight[0] drho of it, or, with facet >= 0, sum weight[i] du of the ways
+/* n . sum weight[i] dp_v[i], or, with crease >= 0, weight[0] drho of it, or, with facet >= 0, sum weight[i] du of the
+ * ways
  * v[i]; and what it must be at least. */
 typedef struct rg_row {
     int32_t terms, crease, facet, v[RG_ROW_TERMS];
@@ -30,8 +31,8 @@ typedef struct rg_row {
     int32_t carried;       /* how n turns with what it is about, for the caller; 0: it does not */
     double base;           /* what the row is along the projected wish */
     int32_t at;            /* among the rows that are made, -1: not */
-    /* NULL, or who remembers, by a flag, that a row of the same pushed: then it is active from the start, else only when it
-     * is broken, whatever q->all says. */
+    /* NULL, or who remembers, by a flag, that a row of the same pushed: then it is active from the start, else only
+     * when it is broken, whatever q->all says. */
     unsigned char *pushed, pushed_by;
     int active;            /* flags: the row, 1, and its soft form, 2; 4 times them: what is broken of it */
     int closing;           /* non-zero: it pushed when it was solved without soft forms last */
@@ -72,8 +73,8 @@ rg_row *rg_nearest_add(rg_nearest *q, int32_t terms, const int32_t *v, const dou
 rg_row *rg_nearest_add_bound(rg_nearest *q, int32_t i, double sign);
 /* What a row is along q->dz, after rg_nearest_solve. */
 double rg_nearest_value(const rg_nearest *q, const rg_row *row);
-/* q->dz: out. wish[n], NULL: none. r[rows of A]: what closure is off. with_soft: the soft forms too. Keeps the rows that are
- * made from one call to the next, until rg_nearest_clear. RG_ENOMEM. */
+/* q->dz: out. wish[n], NULL: none. r[rows of A]: what closure is off. with_soft: the soft forms too. Keeps the rows
+ * that are made from one call to the next, until rg_nearest_clear. RG_ENOMEM. */
 rg_status rg_nearest_solve(rg_nearest *q, const double *wish, const double *r, int with_soft);
 /* The same without rows. */
 void rg_nearest_project(rg_nearest *q, const double *wish, const double *r);

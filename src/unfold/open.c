@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-/* What rows are wished open by where creases open by OPEN of their angle: layers, nested creases, edges beside each other.
- * The second matters: a corner 2e-5 inside a crease that opens to 30 degrees is outside the wedge. */
+/* What rows are wished open by where creases open by OPEN of their angle: layers, nested creases, edges beside each
+ * other. The second matters: a corner 2e-5 inside a crease that opens to 30 degrees is outside the wedge. */
 static const double OPEN = 0.03, LAYER = 2e-3, INSIDE = 5e-4, BESIDE = 3e-5;
 static const double SOFT = 1e-5, SOFT_IN_PLANE = 0.03; /* compliance, and in the plane, as many times it */
 static const double BOUND = 1e-12;                     /* compliance of half a turn */
@@ -20,8 +20,8 @@ static const double STILL_AT_ONCE = 1e-4, CLOSED = 1e-12, CLOSED_ENOUGH = 1e-10;
 static const double NEAR = 6e-3;      /* pairs are looked at this near */
 static const double MAY_CLOSE = 0.7;  /* the part of its distance that a pair may come nearer by */
 static const double SIDE_HARD = 1e-8; /* compliance of what near parts ask while it opens */
-/* Repair: near parts are to be apart by so much, hard, or softly; in the plane by so many times it; less than this part of
- * it counts as touching. Compliances: apart, not nearer, softly. */
+/* Repair: near parts are to be apart by so much, hard, or softly; in the plane by so many times it; less than this part
+ * of it counts as touching. Compliances: apart, not nearer, softly. */
 static const double REPAIR_APART = 5e-5, REPAIR_APART_SOFTLY = 1e-3, REPAIR_INSIDE = 4, REPAIR_BESIDE = 0.4, TOUCHING = 0.5;
 static const double REPAIR_HARD = 1e-7, REPAIR_KEEP = 1e-9, REPAIR_SOFT = 1e-4;
 static const double REPAIR_MARGIN = 0.1; /* of the way's */

@@ -195,8 +195,8 @@ static rg_status ends_in_order(rg_passage *w, rg_course *course, int *yes)
     return s;
 }
 
-/* Followed from where facets are well apart: layers that are all but on each other may pass through each other where no state shows
- * it. *yes: out. */
+/* Followed from where facets are well apart: layers that are all but on each other may pass through each other where no
+ * state shows it. *yes: out. */
 static rg_status comes_in_order(rg_passage *w, int *yes)
 {
     const rg_track *p = &w->track;

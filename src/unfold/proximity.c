@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-/* An advance goes this part of what is safe, so that rounding can't make it unsafe; and ends when of the room that there was
- * this part is left. Layers that are very near each other and move together take many advances. */
+/* An advance goes this part of what is safe, so that rounding can't make it unsafe; and ends when of the room that
+ * there was this part is left. Layers that are very near each other and move together take many advances. */
 static const double SAFE = 0.9, MET = 0.05;
 static const int ADVANCES = 3000;
 
@@ -167,8 +167,8 @@ rg_status rg_proximity_find(rg_proximity *n, const rg_vec3 *p, double least, dou
 
 static double far_from(rg_vec3 a, rg_vec3 b) { return rg_vec3_length(rg_vec3_sub(a, b)); }
 
-/* No point of the one goes to or from a point of the other by more than this while all go from p to q: the largest distance of
- * their own moves from the mean move, on either side. */
+/* No point of the one goes to or from a point of the other by more than this while all go from p to q: the largest
+ * distance of their own moves from the mean move, on either side. */
 static double closing(const rg_close_pair *at, const rg_vec3 *p, const rg_vec3 *q)
 {
     const int split = at->kind == 0 ? 1 : 2;

@@ -4,8 +4,8 @@
 
 /* How far to look back at most before what comes to lie flat, so that it is almost flat; as render/lift.c does. */
 static const double LOOK_BACK = 10 * RG_DEG;
-/* What is less apart, summed over places, in parts of the sheet's size, may be on its wrong side there: it counts as no crossing. Only
- * of facets that never are more apart, what is above rounding tells. */
+/* What is less apart, summed over places, in parts of the sheet's size, may be on its wrong side there: it counts as no
+ * crossing. Only of facets that never are more apart, what is above rounding tells. */
 static const double APART[] = {1e-4, 1e-7};
 
 /* A facet's part that has the point of the pattern most inside. */

@@ -6,8 +6,8 @@
 static const double PARALLEL = 1e-3;
 /* The facets at two edges say which way is up as long as they are within 25 degrees of facing each other. */
 static const double FACING = 0.9;
-/* Where the closest point is on the rim of the facet, its normal tells the side if it is within 60 degrees of the shortest
- * line, or if that is too short to have a direction. */
+/* Where the closest point is on the rim of the facet, its normal tells the side if it is within 60 degrees of the
+ * shortest line, or if that is too short to have a direction. */
 static const double ACROSS = 0.5, NO_DIRECTION = 2e-5;
 
 rg_status rg_sides_init(rg_sides *s, const rg_memory *mem, const rg_mesh *m)
@@ -33,7 +33,8 @@ static signed char over(const rg_sides *s, int32_t f, int32_t g)
     return s->over[(size_t)f * (size_t)s->mesh->nf + (size_t)g];
 }
 
-/* What s->corner says from these values on: over the facet, or under it, and inside its folded edge; outside its edge. */
+/* What s->corner says from these values on: over the facet, or under it, and inside its folded edge; outside its
+ * edge. */
 enum { OVER_INSIDE = 10, UNDER_INSIDE = 13, ROUND_EDGE = 16 };
 /* A corner is on the rim of a facet within this (lengths of the sheet): drawings are rounded. */
 static const double ON_RIM = 1e-4;
@@ -74,8 +75,8 @@ static int32_t other_edge(const rg_mesh *m, int32_t g, int32_t v, int32_t e)
     return -1;
 }
 
-/* v is at the corner of f between its edges k and l: which of them its facets go round, from one over f to one under it, past
- * some that are beside f. All ways from over to under must say the same; else -1. */
+/* v is at the corner of f between its edges k and l: which of them its facets go round, from one over f to one under
+ * it, past some that are beside f. All ways from over to under must say the same; else -1. */
 static int round_which(const rg_sides *s, int32_t v, int32_t f, int k, int l, const rg_vec2 *x)
 {
     const rg_mesh *m = s->mesh;
@@ -102,7 +103,8 @@ static int round_which(const rg_sides *s, int32_t v, int32_t f, int k, int l, co
     return found;
 }
 
-/* A corner whose facets are partly over and partly under f goes round the edge of f that it lies on: ROUND_EDGE and which. */
+/* A corner whose facets are partly over and partly under f goes round the edge of f that it lies on: ROUND_EDGE and
+ * which. */
 static signed char goes_round(const rg_sides *s, int32_t v, int32_t f, const rg_vec2 *x)
 {
     const rg_mesh *m = s->mesh;
@@ -120,7 +122,8 @@ static signed char goes_round(const rg_sides *s, int32_t v, int32_t f, const rg_
     return 0;
 }
 
-/* v is over f, or under it, and lies on a folded edge of f, with facets between the two of that edge: it stays inside. */
+/* v is over f, or under it, and lies on a folded edge of f, with facets between the two of that edge: it stays
+ * inside. */
 static signed char lies_inside(const rg_sides *s, int32_t v, int32_t f, signed char side, const rg_vec2 *x)
 {
     const rg_mesh *m = s->mesh;

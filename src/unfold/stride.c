@@ -31,8 +31,8 @@ static const double SMALL_AREA = 0.5, AREA_FLOOR = 0.12;
 /* Of the step: else it went to another branch. */
 static const double MOST_CORRECTION = 0.7, ALWAYS_CORRECTED = 1e-3;
 static const double GAP = 0.1;           /* of its distance, that a pair must keep over a step */
-/* A pair is well apart from this distance on, and its side clear where the shortest line is within 60 degrees of the normal;
- * edges that are nearer to parallel (sine) have none. */
+/* A pair is well apart from this distance on, and its side clear where the shortest line is within 60 degrees of the
+ * normal; edges that are nearer to parallel (sine) have none. */
 static const double APART = 1e-5, STEEP = 0.5, PARALLEL = 1e-3;
 static const double IS_NORMAL = 1 - 1e-9; /* cosine: the shortest line is the normal, but for rounding */
 static const double WRONG_BY = 1e-5;     /* a glued pair may not be farther than that on its wrong side, and go on */
@@ -285,8 +285,8 @@ static double floor_of(const rg_stride *s)
     return s->end && s->end->keep ? fmin(s->dm, THICK * s->mean) : s->dm;
 }
 
-/* Non-zero: the first rows, which part what has crossed, part this pair the other way: it has leaked through, and what is
- * remembered of it is of the wrong side. */
+/* Non-zero: the first rows, which part what has crossed, part this pair the other way: it has leaked through, and what
+ * is remembered of it is of the wrong side. */
 static int has_leaked(const rg_stride *s, int32_t crossed, const rg_close_pair *at, rg_vec3 n)
 {
     for (int32_t k = 0; k < crossed; k++) {
@@ -339,8 +339,8 @@ static rg_status add_pair_rows(rg_stride *s)
     return status;
 }
 
-/* Of what a corner or an edge is near to one way, only the nearest pushes it up: in a stack that is the next layer, and what
- * is behind it is pushed by that. */
+/* Of what a corner or an edge is near to one way, only the nearest pushes it up: in a stack that is the next layer, and
+ * what is behind it is pushed by that. */
 static void push_nearest(rg_stride *s, int32_t first)
 {
     rg_nearest *q = &s->q;
@@ -434,8 +434,8 @@ static rg_status add_area_rows(rg_stride *s)
     return RG_OK;
 }
 
-/* n of a row, as it is turned where vertices are at p and facets in place: else a corner that slides on a facet that turns
- * would seem to leave it, or to go through. */
+/* n of a row, as it is turned where vertices are at p and facets in place: else a corner that slides on a facet that
+ * turns would seem to leave it, or to go through. */
 static rg_vec3 normal_at(const rg_stride *s, const rg_row *row, const rg_vec3 *p, const rg_place *place)
 {
     const int32_t *v = row->v;
@@ -569,7 +569,8 @@ static rg_status find_step(rg_stride *s, double *f)
     return RG_OK;
 }
 
-/* Goes f of q->dz, or half as far, and so on, whatever first is a step that paper can make. *halvings: out; -1: none is. */
+/* Goes f of q->dz, or half as far, and so on, whatever first is a step that paper can make. *halvings: out; -1: none
+ * is. */
 static rg_status go(rg_stride *s, double f, int *halvings)
 {
     const rg_linkage *P = s->P;

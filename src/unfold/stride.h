@@ -2,11 +2,12 @@
  * Paper    eqs. (10), (14), (15), (19); what section 4 leaves as future work
  * Uses  crossed.h proximity.h nearest.h sides.h end.h        Used by  home.c landing.c open.c passage.c track.c
  *
- * Each step wishes every crease on towards its target, and takes the nearest step that keeps the sheet closed and every near
- * pair apart: a velocity damper (Faverjon and Tournassoud, 1987) lets a pair close in by a part of its distance only. Below a
- * floor dm nothing comes nearer at all, and what is below is pushed up softly. The floor is what makes it go: with none, steps
- * shrink with the distances. It is lowered where the motion stalls, an interior point's homotopy in the thickness of paper.
- * A step is taken if it closes, and if conservative advancement meets nothing on the way; else it is halved. */
+ * Each step wishes every crease on towards its target, and takes the nearest step that keeps the sheet closed and every
+ * near pair apart: a velocity damper (Faverjon and Tournassoud, 1987) lets a pair close in by a part of its distance
+ * only. Below a floor dm nothing comes nearer at all, and what is below is pushed up softly. The floor is what makes it
+ * go: with none, steps shrink with the distances. It is lowered where the motion stalls, an interior point's homotopy
+ * in the thickness of paper. A step is taken if it closes, and if conservative advancement meets nothing on the way;
+ * else it is halved. */
 #ifndef RG_STRIDE_H
 #define RG_STRIDE_H
 
@@ -69,8 +70,8 @@ void rg_stride_area(const rg_linkage *P, int32_t f, rg_row *row);
 void rg_stride_scale(const rg_linkage *P, double give, double *scale);
 /* Creases of z[N] that are locked at half a turn turn less readily: closing knows of no bounds. */
 void rg_stride_hold(const rg_linkage *P, const double *z, double *scale);
-/* One step of Newton's method that closes z, which is off by `angle`; damped, as where equations all but depend on each other,
- * such as near flat, full steps overshoot. */
+/* One step of Newton's method that closes z, which is off by `angle`; damped, as where equations all but depend on each
+ * other, such as near flat, full steps overshoot. */
 void rg_stride_newton(rg_linkage *P, rg_nearest *q, double *z, double angle);
 /* So many of them at most: z is closed to `tol` or, returning zero, as near as it came. */
 int rg_stride_close(rg_linkage *P, rg_nearest *q, double *z, double tol, int32_t most);
