@@ -13,7 +13,8 @@ rg_status rg_course_init(const rg_mesh *m, rg_course *c)
     if (s == RG_OK) s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(c->worst, nv));
     for (int i = 0; i < 3; i++) {
         if (s == RG_OK)
-            s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(c->X[i], nv), RG_ARRAY(c->place[i], (size_t)m->nf), RG_ARRAY(c->x[i], nv));
+            s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(c->X[i], nv), RG_ARRAY(c->x[i], nv),
+                              RG_ARRAY(c->place[i], (size_t)m->nf));
         c->state[i] = (rg_plates_state){c->X[i], c->place[i], c->x[i]};
     }
     c->found = (rg_course_found){.first = -1, .time = 1, .facet = {-1, -1}, .deepest_state = -1,

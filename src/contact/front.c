@@ -16,9 +16,9 @@ rg_status rg_front_work_init(const rg_plates *p, rg_front_work *w)
 {
     memset(w, 0, sizeof *w);
     w->mem = p->mem;
-    const size_t nv = (size_t)p->mesh->nv, borders = (size_t)p->borders;
-    const rg_status s = RG_MEM_ARRAYS(&p->mem, RG_ARRAY(w->normal, (size_t)p->mesh->nf), RG_ARRAY(w->from, nv), RG_ARRAY(w->to, nv),
-                                      RG_ARRAY(w->order, borders), RG_ARRAY(w->low, borders), RG_ARRAY(w->high, borders));
+    const size_t nf = (size_t)p->mesh->nf, nv = (size_t)p->mesh->nv, n = (size_t)p->borders;
+    const rg_status s = RG_MEM_ARRAYS(&p->mem, RG_ARRAY(w->normal, nf), RG_ARRAY(w->from, nv), RG_ARRAY(w->to, nv),
+                                      RG_ARRAY(w->order, n), RG_ARRAY(w->low, n), RG_ARRAY(w->high, n));
     for (int32_t i = 0; s == RG_OK && i < p->borders; i++) w->order[i] = i;
     return s;
 }

@@ -347,11 +347,10 @@ static int by_pair(const void *a, const void *b)
 }
 
 /* On which side the second was as the step before ended; none: not known. */
-static rg_vec3 side_before(const sweep *s, int32_t a, int32_t b)
+static rg_vec3 side_before(const rg_sweep_work *w, int32_t a, int32_t b)
 {
-    const rg_sweep_side key = {{a, b}, {0, 0, 0}};
-    const rg_sweep_side *at = s->w->n_before ? bsearch(&key, s->w->before, (size_t)s->w->n_before, sizeof key,
-                                                       by_pair) : NULL;
+    const rg_sweep_side key = {{a, b}, {0, 0, 0}}, *at = NULL;
+    if (w->n_before) at = bsearch(&key, w->before, (size_t)w->n_before, sizeof key, by_pair);
     return at ? at->axis : (rg_vec3){0, 0, 0};
 }
 
@@ -380,7 +379,7 @@ static void advance(sweep *s, int32_t a, int32_t b, int32_t corner)
 {
     pair *m = &s->m;
     const double limit = -s->depth;
-    rg_vec3 side = side_before(s, a, b);
+    rg_vec3 side = side_before(s->w, a, b);
     best now = {0, -INFINITY, side};
     double t = 0;
     s->found.pairs++;
@@ -496,7 +495,7 @@ static int stays_away(sweep *s, int32_t a, int32_t b, double arm)
     const double sign = most % 2 ? -1 : 1;
     const rg_vec3 row[3] = {{R->c[0].x, R->c[1].x, R->c[2].x}, {R->c[0].y, R->c[1].y, R->c[2].y},
                             {R->c[0].z, R->c[1].z, R->c[2].z}};
-    const rg_vec3 u = rg_vec3_scale(sign, row[most / 2]), before = side_before(s, a, b);
+    const rg_vec3 u = rg_vec3_scale(sign, row[most / 2]), before = side_before(s->w, a, b);
     if (!is_none(before) && !(rg_vec3_dot(before, u) > 0.5)) return 0; /* to be looked at closely */
     if (!is_none(before)) keep_side(s, a, b, u);
     return 1;
@@ -645,9 +644,8 @@ void rg_sweep_forget_new(rg_sweep_work *w)
 {
     int32_t kept = 0;
     for (int32_t i = 0; i < w->n_now; i++) {
-        const rg_sweep_side *now = &w->now[i];
-        const rg_sweep_side *at = w->n_before ? bsearch(now, w->before, (size_t)w->n_before, sizeof *now, by_pair) : NULL;
-        if (at && rg_vec3_dot(at->axis, now->axis) > 0.5) w->now[kept++] = *now;
+        const rg_sweep_side now = w->now[i];
+        if (rg_vec3_dot(side_before(w, now.part[0], now.part[1]), now.axis) > 0.5) w->now[kept++] = now;
     }
     w->n_now = kept;
 }

@@ -20,7 +20,8 @@ static rg_status take(const rg_example *given, rg_example *out, rg_diag *why)
 {
     rg_example mine = usual_example();
     const size_t first = offsetof(rg_example, memory); /* as it was at first; nothing between is anybody's */
-    const rg_status s = given ? rg_take(&mine, sizeof mine, given, given->size, given->size == first ? first : sizeof mine, why) : RG_OK;
+    const size_t least = given && given->size == first ? first : sizeof mine;
+    const rg_status s = given ? rg_take(&mine, sizeof mine, given, given->size, least, why) : RG_OK;
     if (s != RG_OK) return s;
     if (!(mine.side >= 0 && mine.side <= 1e9) || !(mine.cell >= 0 && mine.cell <= 1e9) ||
         !(mine.unit >= 0 && mine.unit <= 1e9))

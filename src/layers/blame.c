@@ -108,8 +108,8 @@ static int32_t grow(const search *s, int32_t *list, int32_t n)
     return n;
 }
 
-rg_status rg_blame_find(rg_blame *b, const rg_memory *mem, const rg_mesh *m, const rg_flat *f, const rg_cells *c, const int32_t *near,
-                        int32_t n)
+rg_status rg_blame_find(rg_blame *b, const rg_memory *mem, const rg_mesh *m, const rg_flat *f, const rg_cells *c,
+                        const int32_t *near, int32_t n)
 {
     search s = {.mem = *mem, .m = m, .f = f, .c = c, .b = b};
     s.status = RG_MEM_ARRAYS(mem, RG_ARRAY(s.in, (size_t)f->nf), RG_ARRAY(s.over_start, (size_t)c->faces.count + 1),

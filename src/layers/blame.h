@@ -12,13 +12,14 @@
 
 typedef struct rg_blame {
     int32_t *facet, count; /* rising */
-    rg_rule rule;          /* what fails of them at once; RG_RULE_TRANSITIVITY too where only trying all orders shows it */
+    /* What fails of them at once; RG_RULE_TRANSITIVITY too where only trying all orders shows it. */
+    rg_rule rule;
     int by_trying;         /* non-zero: only trying all orders shows it */
 } rg_blame;
 
 /* Of a sheet that has no order. near[n]: facets where it showed, from which the search goes outwards.
  * facet of *b: room for all; count 0: not found within the work that this may take. RG_ENOMEM. */
-rg_status rg_blame_find(rg_blame *b, const rg_memory *mem, const rg_mesh *m, const rg_flat *f, const rg_cells *c, const int32_t *near,
-                        int32_t n);
+rg_status rg_blame_find(rg_blame *b, const rg_memory *mem, const rg_mesh *m, const rg_flat *f, const rg_cells *c,
+                        const int32_t *near, int32_t n);
 
 #endif

@@ -89,7 +89,8 @@ static int lies_along(rg_vec2 p, rg_vec2 q, rg_vec2 a, rg_vec2 b, double tol)
 {
     const rg_vec2 d = rg_vec2_sub(q, p), pa = rg_vec2_sub(a, p), pb = rg_vec2_sub(b, p);
     const double n = rg_vec2_length(d), middle = (rg_vec2_dot(d, pa) + rg_vec2_dot(d, pb)) / 2;
-    return fabs(rg_vec2_cross(d, pa)) <= tol * n && fabs(rg_vec2_cross(d, pb)) <= tol * n && middle > 0 && middle < n * n;
+    if (!(fabs(rg_vec2_cross(d, pa)) <= tol * n && fabs(rg_vec2_cross(d, pb)) <= tol * n)) return 0;
+    return middle > 0 && middle < n * n;
 }
 
 typedef struct list { int32_t *item; size_t count, room; } list;
@@ -109,22 +110,26 @@ static int has_edge(const rg_flat *f, const int32_t *edge, size_t n, int32_t g)
     return 0;
 }
 
-static rg_status walk_segments(rg_cells *c, const rg_mesh *m, const rg_flat *f, const box *of_facet, const rg_stop *stop, list *along, list *across)
+static rg_status walk_segments(rg_cells *c, const rg_mesh *m, const rg_flat *f, const box *of_facet, const rg_stop *stop,
+                               list *along, list *across)
 {
     rg_status s = RG_OK;
     box *of_edge = rg_mem_array(&c->mem, (size_t)m->ne, sizeof *of_edge);
     if (!of_edge) return RG_ENOMEM;
     for (int32_t e = 0; e < m->ne; e++) of_edge[e] = box_of(f->x[m->edge[e][0]], f->x[m->edge[e][1]]);
     for (int32_t i = 0; s == RG_OK && i < c->graph.ne; i++) {
-        const rg_vec2 a = c->graph.X[c->graph.E[i].v[0]], b = c->graph.X[c->graph.E[i].v[1]], x = {(a.x + b.x) / 2, (a.y + b.y) / 2};
+        const rg_vec2 a = c->graph.X[c->graph.E[i].v[0]], b = c->graph.X[c->graph.E[i].v[1]];
+        const rg_vec2 x = {(a.x + b.x) / 2, (a.y + b.y) / 2};
         const size_t first = along->count;
         if (rg_stop_asked(stop)) s = RG_EFORMAT;
         for (int32_t e = 0; s == RG_OK && e < m->ne; e++) {
             if (f->beside[e][0] == f->beside[e][1] || !in_box(&of_edge[e], x, NEAR * c->tol)) continue;
-            if (lies_along(f->x[m->edge[e][0]], f->x[m->edge[e][1]], a, b, NEAR * c->tol)) s = append(&c->mem, along, e);
+            const rg_vec2 from = f->x[m->edge[e][0]], to = f->x[m->edge[e][1]];
+            if (lies_along(from, to, a, b, NEAR * c->tol)) s = append(&c->mem, along, e);
         }
         for (int32_t g = 0; s == RG_OK && g < f->nf; g++)
-            if (in_box(&of_facet[g], x, 0) && !has_edge(f, along->item + first, along->count - first, g) && inside(m, f, g, x))
+            if (in_box(&of_facet[g], x, 0) && !has_edge(f, along->item + first, along->count - first, g) &&
+                inside(m, f, g, x))
                 s = append(&c->mem, across, g);
         c->along_start[i + 1] = (int32_t)along->count;
         c->across_start[i + 1] = (int32_t)across->count;
@@ -162,7 +167,7 @@ static double best_point(const rg_vec2 *corner, int32_t n, double *scratch, rg_v
     for (int32_t k = 1; k < n; k++) {
         const double y = (level[k - 1] + level[k]) / 2;
         int32_t cuts = 0;
-        if (!(level[k] - level[k - 1] > 2 * best)) continue; /* no point of that line is farther from both levels' corners */
+        if (!(level[k] - level[k - 1] > 2 * best)) continue; /* no point of that line is farther from these levels */
         for (int32_t i = 0; i < n; i++) {
             const rg_vec2 a = corner[i], b = corner[(i + 1) % n];
             if ((a.y > y) != (b.y > y)) cut[cuts++] = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
@@ -179,7 +184,8 @@ static double best_point(const rg_vec2 *corner, int32_t n, double *scratch, rg_v
     return best;
 }
 
-static rg_status walk_cells(rg_cells *c, const rg_mesh *m, const rg_flat *f, const box *of_facet, const rg_stop *stop, list *over)
+static rg_status walk_cells(rg_cells *c, const rg_mesh *m, const rg_flat *f, const box *of_facet, const rg_stop *stop,
+                            list *over)
 {
     rg_vec2 *corner;
     double *scratch;
@@ -201,7 +207,8 @@ static rg_status walk_cells(rg_cells *c, const rg_mesh *m, const rg_flat *f, con
     return s;
 }
 
-rg_status rg_cells_init(rg_cells *c, const rg_memory *mem, const rg_mesh *m, const rg_flat *f, const rg_stop *stop, rg_diag *why)
+rg_status rg_cells_init(rg_cells *c, const rg_memory *mem, const rg_mesh *m, const rg_flat *f, const rg_stop *stop,
+                        rg_diag *why)
 {
     list along = {0}, across = {0}, over = {0};
     memset(c, 0, sizeof *c);
@@ -212,7 +219,8 @@ rg_status rg_cells_init(rg_cells *c, const rg_memory *mem, const rg_mesh *m, con
     const size_t edges = (size_t)c->graph.ne, faces = (size_t)c->faces.count;
     box *of_facet;
     s = RG_MEM_ARRAYS(mem, RG_ARRAY(of_facet, (size_t)f->nf), RG_ARRAY(c->along_start, edges + 1),
-                      RG_ARRAY(c->across_start, edges + 1), RG_ARRAY(c->over_start, faces + 1), RG_ARRAY(c->point, faces));
+                      RG_ARRAY(c->across_start, edges + 1), RG_ARRAY(c->over_start, faces + 1),
+                      RG_ARRAY(c->point, faces));
     for (int32_t g = 0; s == RG_OK && g < f->nf; g++) {
         of_facet[g] = (box){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
         for (int32_t j = f->start[g]; j < f->start[g + 1]; j++) {

@@ -26,7 +26,8 @@ typedef struct rg_cells {
 
 /* m, f: as folded flat; f->state is RG_FLAT_END. RG_EFORMAT: lines lie too close to tell apart, why->text; RG_ENOMEM.
  * Owner: the caller, rg_cells_free, also after a failure. */
-rg_status rg_cells_init(rg_cells *c, const rg_memory *mem, const rg_mesh *m, const rg_flat *f, const rg_stop *stop, rg_diag *why);
+rg_status rg_cells_init(rg_cells *c, const rg_memory *mem, const rg_mesh *m, const rg_flat *f, const rg_stop *stop,
+                        rg_diag *why);
 void rg_cells_free(rg_cells *c);
 
 #endif

@@ -45,27 +45,31 @@ static rg_status add(maker *w, rg_constraint_case c, const int32_t (*of)[2], int
     return s;
 }
 
+static rg_constraint_case case_of(rg_rule rule, const taco *p, int32_t third, int32_t fourth, int32_t edge, int32_t at)
+{
+    return (rg_constraint_case){.rule = rule, .facet = {p->a, p->b, third, fourth}, .edge = {p->edge, edge}, .segment = at};
+}
+
 static rg_status taco_taco(maker *w, const taco *p, const taco *q, int32_t at)
 {
     if (p->edge > q->edge) {
         const taco *swap = p;
         p = q, q = swap;
     }
-    const rg_constraint_case c = {.rule = RG_RULE_TACO_TACO, .facet = {p->a, p->b, q->a, q->b}, .edge = {p->edge, q->edge}, .segment = at};
-    return add(w, c, (const int32_t[][2]){{p->a, q->a}, {p->b, q->a}, {p->a, q->b}, {p->b, q->b}}, 4);
+    return add(w, case_of(RG_RULE_TACO_TACO, p, q->a, q->b, q->edge, at),
+               (const int32_t[][2]){{p->a, q->a}, {p->b, q->a}, {p->a, q->b}, {p->b, q->b}}, 4);
 }
 
 static rg_status taco_tortilla(maker *w, const taco *p, int32_t t, int32_t edge, int32_t at)
 {
-    const rg_constraint_case c = {.rule = RG_RULE_TACO_TORTILLA, .facet = {p->a, p->b, t, -1}, .edge = {p->edge, edge}, .segment = at};
-    return add(w, c, (const int32_t[][2]){{p->a, t}, {p->b, t}}, 2);
+    return add(w, case_of(RG_RULE_TACO_TORTILLA, p, t, -1, edge, at), (const int32_t[][2]){{p->a, t}, {p->b, t}}, 2);
 }
 
 /* u, v: the other tortilla left and right; v -1: the same facet. */
 static rg_status tortilla_tortilla(maker *w, const taco *p, int32_t u, int32_t v, int32_t edge, int32_t at)
 {
-    const rg_constraint_case c = {.rule = RG_RULE_TORTILLA_TORTILLA, .facet = {p->a, p->b, u, v}, .edge = {p->edge, edge}, .segment = at};
-    return add(w, c, (const int32_t[][2]){{p->a, u}, {p->b, v < 0 ? u : v}}, 2);
+    return add(w, case_of(RG_RULE_TORTILLA_TORTILLA, p, u, v, edge, at),
+               (const int32_t[][2]){{p->a, u}, {p->b, v < 0 ? u : v}}, 2);
 }
 
 static rg_status cases_at(maker *w, const place *q)
@@ -83,7 +87,8 @@ static rg_status cases_at(maker *w, const place *q)
     for (int32_t i = 0; s == RG_OK && i < q->flats; i++) {
         for (int32_t j = i + 1; s == RG_OK && j < q->flats; j++)
             s = tortilla_tortilla(w, &q->flat[i], q->flat[j].a, q->flat[j].b, q->flat[j].edge, at);
-        for (int32_t j = 0; s == RG_OK && j < q->crossings; j++) s = tortilla_tortilla(w, &q->flat[i], q->across[j], -1, -1, at);
+        for (int32_t j = 0; s == RG_OK && j < q->crossings; j++)
+            s = tortilla_tortilla(w, &q->flat[i], q->across[j], -1, -1, at);
     }
     return s;
 }
@@ -119,7 +124,8 @@ static int by_facets(const void *a, const void *b)
 
 static int is_same(const rg_constraint_case *p, const rg_constraint_case *q)
 {
-    return p->rule == q->rule && memcmp(p->facet, q->facet, sizeof p->facet) == 0 && memcmp(p->edge, q->edge, sizeof p->edge) == 0;
+    return p->rule == q->rule && memcmp(p->facet, q->facet, sizeof p->facet) == 0 &&
+           memcmp(p->edge, q->edge, sizeof p->edge) == 0;
 }
 
 static void drop_doubles(rg_constraints *k)
@@ -165,8 +171,8 @@ static rg_status find_hinges(rg_constraints *k, const rg_mesh *m, const rg_flat 
     return RG_OK;
 }
 
-rg_status rg_constraints_init(rg_constraints *k, const rg_memory *mem, const rg_mesh *m, const rg_flat *f, const rg_cells *c,
-                              const rg_pairs *p)
+rg_status rg_constraints_init(rg_constraints *k, const rg_memory *mem, const rg_mesh *m, const rg_flat *f,
+                              const rg_cells *c, const rg_pairs *p)
 {
     memset(k, 0, sizeof *k);
     k->mem = *mem;

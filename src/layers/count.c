@@ -15,7 +15,7 @@ typedef struct counter {
     rg_orders *o;
     int32_t *list;        /* parts, each after its length, as far as `used` */
     size_t used, room;
-    uint64_t *open;       /* [nf][words] as rows of pairs: those of the list that is being divided that are in no part yet */
+    uint64_t *open;       /* [nf][words] as rows of pairs: those of the list being divided that are in no part yet */
     int32_t *weight;      /* [pairs] lent */
     int learns;           /* non-zero: weights are gathered, and orders found are kept in `found` */
     signed char *found;   /* [pairs] */
@@ -138,7 +138,10 @@ static uint64_t count_rest(counter *c, size_t first, int32_t n, uint64_t cap)
     divide(c, &first, n);
     const size_t end = c->used;
     /* All is known down here: the last time that is said of a part's pairs, it is of an order that stands. */
-    for (int32_t j = c->settled; c->learns && begin == end && j < c->o->known; j++) c->found[c->o->trail[j]] = c->o->value[c->o->trail[j]];
+    for (int32_t j = c->settled; c->learns && begin == end && j < c->o->known; j++) {
+        const int32_t pair = c->o->trail[j];
+        c->found[pair] = c->o->value[pair];
+    }
     for (size_t at = begin; total && at < end; at += 1 + (size_t)c->list[at])
         total = product(total, count_part(c, at + 1, c->list[at], total < cap ? (cap - 1) / total + 1 : 1));
     c->used = begin;
@@ -232,7 +235,8 @@ static rg_status count_by_size(rg_parts *q, counter *c, int64_t work)
     sized *part = rg_mem_array(&q->mem, (size_t)q->count, sizeof *part);
     if (!part) return RG_ENOMEM;
     size_t head = 0;
-    for (int32_t i = 0; i < q->count; i++, head += 1 + (size_t)c->list[head]) part[i] = (sized){c->list[head], i, head + 1};
+    for (int32_t i = 0; i < q->count; i++, head += 1 + (size_t)c->list[head])
+        part[i] = (sized){c->list[head], i, head + 1};
     qsort(part, (size_t)q->count, sizeof *part, by_size);
     c->limit = c->o->work + work;
     c->out_of_work = 0;
@@ -265,7 +269,8 @@ static int has_order(counter *c, size_t first, int32_t n, int64_t work)
     }
 }
 
-rg_status rg_parts_init(rg_parts *q, const rg_memory *mem, rg_orders *o, int64_t work, rg_count_result *result, int32_t *at)
+rg_status rg_parts_init(rg_parts *q, const rg_memory *mem, rg_orders *o, int64_t work, rg_count_result *result,
+                        int32_t *at)
 {
     counter c;
     memset(q, 0, sizeof *q);
@@ -350,7 +355,8 @@ static void choose_part_near(counter *c, size_t first, int32_t n, const double *
     if (!goes_on(c) || !rg_orders_set(c->o, c->list[first], value) || !rg_orders_propagate(c->o)) return;
     divide(c, &first, n);
     const size_t end = c->used;
-    for (size_t at = begin; goes_on(c) && at < end; at += 1 + (size_t)c->list[at]) choose_part_near(c, at + 1, c->list[at], wish);
+    for (size_t at = begin; goes_on(c) && at < end; at += 1 + (size_t)c->list[at])
+        choose_part_near(c, at + 1, c->list[at], wish);
     c->used = begin;
 }
 

@@ -20,7 +20,7 @@ typedef struct rg_parts {
     uint64_t *counted;     /* [count] how many there are; where `more`, at least */
     unsigned char *more;   /* [count] non-zero: there are more, counting them was given up */
     signed char *found;    /* [pairs] an order of each part, the one numbered 0 where `more` and orders is 1 */
-    int32_t *weight;       /* [pairs] how often each was in the way while the first order was looked for; then it stays */
+    int32_t *weight;       /* [pairs] how often each was in the way as the first order was looked for; then it stays */
 } rg_parts;
 
 typedef enum rg_count_result { RG_COUNT_DONE, RG_COUNT_NONE, RG_COUNT_UNSOLVED } rg_count_result;
@@ -28,7 +28,8 @@ typedef enum rg_count_result { RG_COUNT_DONE, RG_COUNT_NONE, RG_COUNT_UNSOLVED }
 /* Of what is not known in o, which is propagated. NONE: part `*at` has no order. UNSOLVED: the work ran out before an
  * order of each part was found. work: of finding an order of each, and again of counting all, as o->work counts it.
  * RG_ENOMEM. Owner: the caller, rg_parts_free, also after a failure. */
-rg_status rg_parts_init(rg_parts *q, const rg_memory *mem, rg_orders *o, int64_t work, rg_count_result *result, int32_t *at);
+rg_status rg_parts_init(rg_parts *q, const rg_memory *mem, rg_orders *o, int64_t work, rg_count_result *result,
+                        int32_t *at);
 void rg_parts_free(rg_parts *q);
 /* Makes part i of o known: order `which` of it, which < q->orders[i]. RG_ENOMEM. */
 rg_status rg_parts_choose(const rg_parts *q, rg_orders *o, int32_t i, uint64_t which);

@@ -41,7 +41,7 @@ static void list_edges(rg_flat *f, const rg_mesh *m)
     for (int32_t e = 0; e < m->ne; e++)
         for (int side = 0; side < 2; side++)
             f->beside[e][side] = m->edge_facet[e][side] < 0 ? -1 : f->facet_of[m->edge_facet[e][side]];
-    for (int pass = 0; pass < 2; pass++) { /* counted one to the right; then each start moves to its end, one to the right again */
+    for (int pass = 0; pass < 2; pass++) { /* counted one to the right; then each start moves to its end, again so */
         for (int32_t e = 0; e < m->ne; e++) {
             if (f->beside[e][0] == f->beside[e][1]) continue;
             for (int side = 0; side < 2; side++) {
@@ -63,7 +63,8 @@ static rg_status find_middles(rg_flat *f, const rg_mesh *m)
     rg_vec2 all = {0, 0};
     double whole = 0, best = INFINITY;
     for (int32_t i = 0; i < m->nf; i++) {
-        const int32_t *v = m->facet_vertex + m->facet_start[i], n = m->facet_start[i + 1] - m->facet_start[i], g = f->facet_of[i];
+        const int32_t *v = m->facet_vertex + m->facet_start[i], n = m->facet_start[i + 1] - m->facet_start[i];
+        const int32_t g = f->facet_of[i];
         for (int32_t j = 2; j < n; j++) {
             const rg_vec2 a = m->X[v[0]], b = m->X[v[j - 1]], c = m->X[v[j]];
             const double w = rg_vec2_turn(a, b, c) / 2;
@@ -111,7 +112,8 @@ static rg_isometry reflected(const rg_isometry *q, rg_vec2 a, rg_vec2 b)
 {
     const rg_vec2 d = rg_vec2_sub(b, a);
     const double n = rg_vec2_dot(d, d), cos2 = (d.x * d.x - d.y * d.y) / n, sin2 = 2 * d.x * d.y / n;
-    const rg_isometry mirror = {{{cos2, sin2}, {sin2, -cos2}}, {a.x - cos2 * a.x - sin2 * a.y, a.y - sin2 * a.x + cos2 * a.y}};
+    const rg_vec2 t = {a.x - cos2 * a.x - sin2 * a.y, a.y - sin2 * a.x + cos2 * a.y};
+    const rg_isometry mirror = {{{cos2, sin2}, {sin2, -cos2}}, t};
     rg_isometry r;
     r.t = rg_isometry_apply(q, mirror.t);
     for (int k = 0; k < 2; k++) {

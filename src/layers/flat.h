@@ -32,7 +32,7 @@ typedef struct rg_flat {
     int32_t *start, *edge; /* [nf + 1], mesh edges round each facet, added ones left out */
     int32_t (*beside)[2];  /* [mesh ne] as edge_facet of the mesh, of the facets here; both the same: an added crease */
     signed char *up;       /* [nf] +1: the front is up, as it is for facet `root`; -1: the back */
-    signed char *turn;     /* [mesh ne] 0: border, or stays flat; +1 valley, -1 mountain, RG_TURN_EITHER: folded either way */
+    signed char *turn;     /* [mesh ne] 0: border, or stays flat; +1 valley, -1 mountain, RG_TURN_EITHER */
     rg_isometry *place;    /* [nf] from the pattern to the plane */
     rg_vec2 *x;            /* [mesh nv] vertices in the plane: the mean over their facets */
     rg_vec2 *middle;       /* [nf] a facet's centroid, in the pattern */

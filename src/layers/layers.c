@@ -2,6 +2,7 @@
 #include "base/status.h"
 #include "base/text.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -69,20 +70,30 @@ static rg_vec2 own(const rg_layers *l, rg_vec2 x)
     return (rg_vec2){fabs(x.x) < least ? 0 : x.x, fabs(y) < least ? 0 : y};
 }
 
+/* More of the reason. */
+static void say_more(rg_layers *l, const char *format, ...)
+{
+    const size_t used = strlen(l->info.reason);
+    va_list args;
+    va_start(args, format);
+    rg_text_with(l->info.reason + used, sizeof l->info.reason - used, format, args);
+    va_end(args);
+}
+
 /* "the facets at (x, y), ... cannot be put in order: WHY": as many as are named, and how many more. */
 static void name_facets(rg_layers *l, const int32_t *facet, int32_t n)
 {
     rg_layers_info *i = &l->info;
     const int32_t named = n < RG_LAYERS_NAMED ? n : RG_LAYERS_NAMED;
-    size_t used = (size_t)rg_text(i->reason, sizeof i->reason, "the facets at");
+    rg_text(i->reason, sizeof i->reason, "the facets at");
     for (int32_t k = 0; k < named; k++) {
         const rg_vec2 at = l->flat.middle[facet[k]], x = own(l, at);
         l->where[k] = facet[k];
         l->where_at[k][0] = at.x, l->where_at[k][1] = l->y_down ? 0 - at.y : at.y;
-        if (k < IN_WORDS) used += (size_t)rg_text(i->reason + used, sizeof i->reason - used, "%s (%.6g, %.6g)", k ? "," : "", x.x, x.y);
+        if (k < IN_WORDS) say_more(l, "%s (%.6g, %.6g)", k ? "," : "", x.x, x.y);
     }
-    if (n > IN_WORDS) used += (size_t)rg_text(i->reason + used, sizeof i->reason - used, " and %d more", (int)(n - IN_WORDS));
-    rg_text(i->reason + used, sizeof i->reason - used, " cannot be put in order: %s", in_words(i->rule));
+    if (n > IN_WORDS) say_more(l, " and %d more", (int)(n - IN_WORDS));
+    say_more(l, " cannot be put in order: %s", in_words(i->rule));
     i->where_count = named;
     i->where = l->where;
     i->where_at = (const double(*)[2])l->where_at;
@@ -126,8 +137,8 @@ static void say_not_flat(rg_layers *l)
     const int32_t *v = l->mesh.edge[l->flat.at_edge];
     const rg_vec2 a = own(l, l->mesh.X[v[0]]), b = own(l, l->mesh.X[v[1]]);
     l->info.state = RG_LAYERS_NOT_FLAT;
-    rg_text(l->info.reason, sizeof l->info.reason, "the crease from (%.6g, %.6g) to (%.6g, %.6g) ends neither flat nor folded by half a turn",
-             a.x, a.y, b.x, b.y);
+    rg_text(l->info.reason, sizeof l->info.reason,
+            "the crease from (%.6g, %.6g) to (%.6g, %.6g) ends neither flat nor folded by half a turn", a.x, a.y, b.x, b.y);
 }
 
 /* The product of the parts as decimal digits. */
@@ -187,13 +198,17 @@ static rg_status solve(rg_layers *l)
     s = rg_parts_init(&l->parts, &l->mem, &l->orders, MOST_WORK, &result, &part);
     if (s != RG_OK) return s;
     l->info.parts = l->parts.count;
-    if (result == RG_COUNT_NONE) return say_none(l, "all together", l->pairs.facet[l->parts.pair[l->parts.start[part]]], 2);
-    if (result == RG_COUNT_UNSOLVED) say_unsolved(l, "the orders are too many to look through");
-    else return write_count(l);
+    if (result == RG_COUNT_NONE) {
+        const int32_t first = l->parts.pair[l->parts.start[part]];
+        return say_none(l, "all together", l->pairs.facet[first], 2);
+    }
+    if (result != RG_COUNT_UNSOLVED) return write_count(l);
+    say_unsolved(l, "the orders are too many to look through");
     return RG_OK;
 }
 
-rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, const rg_memory *mem, const rg_stop *stop, rg_layers **layers, rg_diag *why)
+rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, const rg_memory *mem, const rg_stop *stop,
+                            rg_layers **layers, rg_diag *why)
 {
     rg_layers *l = rg_mem_array(mem, 1, sizeof *l);
     rg_diag close = {0, ""};
@@ -206,7 +221,8 @@ rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, c
     l->info.facets = l->flat.nf;
     if (s == RG_OK && l->flat.state == RG_FLAT_ANGLE) say_not_flat(l);
     else if (s == RG_OK && l->flat.state == RG_FLAT_OPEN) say_open(l);
-    else if (s == RG_OK && l->flat.state == RG_FLAT_UNTOLD) say_unsolved(l, "which of the undriven creases fold could not be told");
+    else if (s == RG_OK && l->flat.state == RG_FLAT_UNTOLD)
+        say_unsolved(l, "which of the undriven creases fold could not be told");
     else if (s == RG_OK) {
         s = rg_cells_init(&l->cells, mem, &l->mesh, &l->flat, stop, &close);
         if (s == RG_OK) s = rg_pairs_init(&l->pairs, mem, &l->cells, l->flat.nf, stop);
@@ -216,7 +232,9 @@ rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, c
         if (s == RG_OK) s = solve(l);
         if (s == RG_EFORMAT) {
             s = RG_OK;
-            say_unsolved(l, rg_stop_asked(stop) ? "interrupted" : "folded flat, lines are too many or too close together to tell what lies on what");
+            say_unsolved(l, rg_stop_asked(stop) ? "interrupted"
+                                                : "folded flat, lines are too many or too close together to tell what lies on "
+                                                  "what");
         }
     }
     if (s != RG_OK) {
@@ -269,7 +287,8 @@ rg_status rg_layers_choose(rg_layers *l, const uint64_t *which)
     for (int32_t i = 0; which && i < l->parts.count; i++)
         if (which[i] >= l->parts.orders[i]) return RG_EARG;
     rg_orders_undo(&l->orders, l->settled);
-    for (int32_t i = 0; s == RG_OK && i < l->parts.count; i++) s = rg_parts_choose(&l->parts, &l->orders, i, which ? which[i] : 0);
+    for (int32_t i = 0; s == RG_OK && i < l->parts.count; i++)
+        s = rg_parts_choose(&l->parts, &l->orders, i, which ? which[i] : 0);
     return s;
 }
 
@@ -317,7 +336,8 @@ int rg_layers_above_of_mesh(const rg_layers *l, int32_t i, int32_t j)
 {
     const int32_t f = l->flat.facet_of[i], g = l->flat.facet_of[j];
     const int above = rg_layers_above(l, f, g);
-    const int whole = l->flat.part_start[f + 1] - l->flat.part_start[f] == 1 && l->flat.part_start[g + 1] - l->flat.part_start[g] == 1;
+    const int32_t *part = l->flat.part_start;
+    const int whole = part[f + 1] - part[f] == 1 && part[g + 1] - part[g] == 1;
     return above && (whole || (apart(l, i, j) < -l->cells.tol && apart(l, j, i) < -l->cells.tol)) ? above : 0;
 }
 
@@ -327,7 +347,8 @@ typedef struct climb {
     int32_t *queue;  /* [nf] those with a level, and those that can get one */
     int32_t *ring;   /* [nf] scratch: facets of a circle */
     int32_t *mark;   /* [nf] */
-    unsigned char *seen; /* [pairs] one of the two is the topmost or the lowest facet somewhere where both are: a mistake would be seen */
+    /* [pairs] one of the two is the topmost or the lowest facet somewhere where both are: a mistake would be seen */
+    unsigned char *seen;
     int32_t head, tail;
 } climb;
 

@@ -160,7 +160,7 @@ rg_status rg_pairs_init(rg_pairs *p, const rg_memory *mem, const rg_cells *c, in
             }
     }
     if (status == RG_OK) status = number_pairs(p);
-    if (status == RG_OK && !(p->common_start = rg_mem_array(mem, (size_t)p->count + 1, sizeof *p->common_start))) status = RG_ENOMEM;
+    if (status == RG_OK) status = RG_MEM_ARRAYS(mem, RG_ARRAY(p->common_start, (size_t)p->count + 1));
     if (status == RG_OK) status = find_common(p, s, stacks, stop);
     rg_mem_free(mem, s);
     return status;

@@ -123,7 +123,8 @@ int rg_orders_set_hinges(rg_orders *o)
     for (int32_t i = 0; i < o->pairs->count; i++) {
         if (!k->hinge[i]) continue;
         if (k->hinge[i] != 2 && rg_orders_set(o, i, k->hinge[i])) continue;
-        o->conflict = (rg_conflict){RG_RULE_HINGE, {o->pairs->facet[i][0], o->pairs->facet[i][1], -1, -1}, 2, {k->hinge_edge[i], -1}};
+        const int32_t *facet = o->pairs->facet[i];
+        o->conflict = (rg_conflict){RG_RULE_HINGE, {facet[0], facet[1], -1, -1}, 2, {k->hinge_edge[i], -1}};
         return 0;
     }
     return 1;

@@ -93,8 +93,10 @@ static void part(search *s, int32_t of)
     const double length = rg_vec2_length(d);
     for (int32_t v = 0; v < m->nv; v++) s->off[v] = rg_vec2_cross(d, rg_vec2_sub(f->x[v], x[0])) / length;
     for (int32_t g = 0; g < f->nf; g++) s->body[g] = g;
-    for (int32_t e = 0; e < m->ne; e++)
-        if (f->beside[e][0] >= 0 && f->beside[e][1] >= 0 && !is_cut(s, e)) rg_class_join(s->body, f->beside[e][0], f->beside[e][1]);
+    for (int32_t e = 0; e < m->ne; e++) {
+        const int32_t *g = f->beside[e];
+        if (g[0] >= 0 && g[1] >= 0 && !is_cut(s, e)) rg_class_join(s->body, g[0], g[1]);
+    }
     for (int32_t g = f->nf - 1; g >= 0; g--) s->first[g] = -1;
     for (int32_t g = f->nf - 1; g >= 0; g--) {
         const int32_t b = s->body[g] = rg_class_of(s->body, g);
@@ -114,7 +116,10 @@ static void part(search *s, int32_t of)
     }
 }
 
-static int above(const search *s, int32_t f, int32_t g) { return s->q->above[(size_t)f * (size_t)s->q->nf + (size_t)g]; }
+static int above(const search *s, int32_t f, int32_t g)
+{
+    return s->q->above[(size_t)f * (size_t)s->q->nf + (size_t)g];
+}
 
 static int32_t put_in(search *s, int32_t body, int32_t n)
 {

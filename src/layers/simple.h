@@ -19,7 +19,7 @@ typedef struct rg_simple_fold {
     int32_t creases;    /* how many it makes */
     int up;             /* the layers go over (+1) or under (-1) the others, as `above` of the base means it */
     int over;           /* the same seen with the front of flat.root up: +1 a valley fold, -1 a mountain fold */
-    rg_vec2 a, b;       /* the stretch of the line that its creases are on, in the plane of flat.h as all is folded before */
+    rg_vec2 a, b;       /* the stretch of the line of its creases, in the plane of flat.h as all is folded before */
     unsigned char *moves; /* [nf] facets that turn */
 } rg_simple_fold;
 

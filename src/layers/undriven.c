@@ -70,7 +70,8 @@ static void leave_flat(const rg_mesh *m, int32_t k, signed char *turn)
 
 rg_status rg_undriven_decide(const rg_mesh *m, signed char *turn, int32_t *at, int *guessed)
 {
-    unsigned char *open = rg_mem_array(&m->mem, (size_t)m->M, 1); /* vertices with creases untold, or not looked at yet */
+    /* Vertices with creases untold, or not looked at yet. */
+    unsigned char *open = rg_mem_array(&m->mem, (size_t)m->M, 1);
     if (!open) return RG_ENOMEM;
     *at = -1, *guessed = 0;
     for (int32_t k = 0; k < m->M; k++) open[k] = 1;

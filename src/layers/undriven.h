@@ -1,5 +1,6 @@
 /* undriven.h -- which of the creases without a target are folded where the sheet lies flat, and which are flat.
- * Source   Kawasaki's theorem: round a vertex that folds flat, angles between folded creases add up to nothing with signs in turn
+ * Source   Kawasaki's theorem: round a vertex that folds flat, angles between folded creases, with signs in turn, add up to
+ *          nothing
  * Uses  mesh.h        Used by  flat.c */
 #ifndef RG_LAYERS_UNDRIVEN_H
 #define RG_LAYERS_UNDRIVEN_H
@@ -8,7 +9,8 @@
 
 enum { RG_TURN_UNTOLD = 3, RG_TURN_EITHER = 2 };
 
-/* turn[m->ne]: in and out, 0: flat; +1, -1: valley, mountain; RG_TURN_UNTOLD becomes 0 or RG_TURN_EITHER: folded either way.
+/* turn[m->ne]: in and out, 0: flat; +1, -1: valley, mountain; RG_TURN_UNTOLD becomes 0 or, folded either way,
+ * RG_TURN_EITHER.
  * Vertices that leave no choice are decided first; then the others, with as few folded creases as they allow.
  *   at       out, an interior vertex (of the mesh) that cannot close; -1: each can
  *   guessed  out, non-zero: another choice might have closed there

@@ -4,7 +4,8 @@
 static void join_at_vertices(const rg_mesh *m, int32_t *up)
 {
     for (int32_t k = 0; k < m->M; k++)
-        for (int32_t j = m->loop_start[k] + 1; j < m->loop_start[k + 1]; j++) rg_class_join(up, m->loop_crease[j - 1], m->loop_crease[j]);
+        for (int32_t j = m->loop_start[k] + 1; j < m->loop_start[k + 1]; j++)
+            rg_class_join(up, m->loop_crease[j - 1], m->loop_crease[j]);
 }
 
 static void join_at_added(const rg_mesh *m, int32_t *up)

@@ -119,7 +119,10 @@ rg_status rg_mesh_connect(rg_mesh *m)
     for (int32_t e = 0; e < m->ne; e++)
         if (m->edge_crease[e] < 0) inner[m->edge[e][0]] = inner[m->edge[e][1]] = 0;
     for (int32_t v = 0; v < m->nv; v++) m->M += inner[v];
-    for (int32_t i = 0; i < m->N; i++) spokes += inner[m->edge[m->crease_edge[i]][0]] + inner[m->edge[m->crease_edge[i]][1]];
+    for (int32_t i = 0; i < m->N; i++) {
+        const int32_t *v = m->edge[m->crease_edge[i]];
+        spokes += inner[v[0]] + inner[v[1]];
+    }
     s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->inner_vertex, (size_t)m->M), RG_ARRAY(m->loop_start, (size_t)m->M + 1),
                       RG_ARRAY(m->loop_crease, (size_t)spokes), RG_ARRAY(m->loop_theta, (size_t)spokes));
     if (s == RG_OK) s = walk_loops(m, inner);

@@ -13,7 +13,8 @@ static rg_status copy_edges(const rg_pattern *p, rg_mesh *m)
     m->X = p->X;
     m->still = p->still;
     rg_status s = RG_MEM_COPIES(&m->mem, RG_ARRAY(m->X, (size_t)p->nv), RG_ARRAY(m->still, ne));
-    if (s == RG_OK) s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->edge, ne), RG_ARRAY(m->assignment, ne), RG_ARRAY(m->target, ne));
+    if (s != RG_OK) return s;
+    s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->edge, ne), RG_ARRAY(m->assignment, ne), RG_ARRAY(m->target, ne));
     for (int32_t e = 0; s == RG_OK && e < p->ne; e++) {
         memcpy(m->edge[e], p->E[e].v, sizeof m->edge[e]);
         m->assignment[e] = p->E[e].assignment;

@@ -117,7 +117,8 @@ static void cut_chain(const rg_polygon *p, int32_t i, int32_t k, rg_polygon_work
         if (!(a.sharp < INFINITY && b.sharp < INFINITY)) continue;
         const double least = rg_polygon_least_sine(p, i, j, k);
         if (!(least > 0)) continue;
-        const rg_polygon_cost c = {a.whole + b.whole + leaves_whole(p, i, j, k), fmax(fmax(a.sharp, b.sharp), 1 / least)};
+        const double sharp = fmax(fmax(a.sharp, b.sharp), 1 / least);
+        const rg_polygon_cost c = {a.whole + b.whole + leaves_whole(p, i, j, k), sharp};
         if (!is_less(c, best)) continue;
         best = c;
         w->apex[i * p->n + k] = j;

@@ -92,6 +92,12 @@ static void find_orbits(int32_t order, int32_t n, const int32_t *to, int32_t *or
     for (int32_t i = 0; i < n; i++) orbit[i] = rg_class_of(orbit, i);
 }
 
+static rg_vec2 turned(const rg_symmetry *G, int32_t g, rg_vec2 d)
+{
+    const double(*A)[2] = (const double(*)[2])G->A[g];
+    return (rg_vec2){A[0][0] * d.x + A[0][1] * d.y, A[1][0] * d.x + A[1][1] * d.y};
+}
+
 static void measure_off(rg_symmetry *G, const rg_mesh *m)
 {
     for (int32_t g = 0; g < G->order; g++) {
@@ -99,8 +105,8 @@ static void measure_off(rg_symmetry *G, const rg_mesh *m)
         for (int32_t e = 0; e < m->ne; e++) {
             const int32_t a = m->edge[e][0], b = m->edge[e][1];
             const rg_vec2 d = rg_vec2_sub(m->X[b], m->X[a]), there = rg_vec2_sub(m->X[vertex[b]], m->X[vertex[a]]);
-            const rg_vec2 turned = {G->A[g][0][0] * d.x + G->A[g][0][1] * d.y, G->A[g][1][0] * d.x + G->A[g][1][1] * d.y};
-            G->off = fmax(G->off, fabs(atan2(rg_vec2_cross(turned, there), rg_vec2_dot(turned, there))));
+            const rg_vec2 image = turned(G, g, d);
+            G->off = fmax(G->off, fabs(atan2(rg_vec2_cross(image, there), rg_vec2_dot(image, there))));
         }
     }
 }
@@ -126,7 +132,8 @@ static rg_status move_all(rg_symmetry *G, const rg_mesh *m)
 
 /* ----------------------------------------------------------------------------------- the group of a drawing ---- */
 
-typedef struct place { double angle; int32_t n; } place; /* an element's angle, 0 ... 2 pi, and its number among the maps */
+/* An element's angle, 0 ... 2 pi, and its number among the maps. */
+typedef struct place { double angle; int32_t n; } place;
 
 static int by_angle(const void *a, const void *b)
 {
@@ -210,8 +217,10 @@ static rg_status adopt(rg_symmetry *G, const rg_memory *mem, const rg_mesh *m, c
     if (s != RG_OK) return s;
     G->turns = turns;
     G->middle = all->middle;
-    for (int32_t g = 0; g < G->order; g++)
-        memcpy(G->vertex + (size_t)g * nv, of_vertices(all, g < turns ? turn[g].n : mirror[g - turns].n), nv * sizeof *G->vertex);
+    for (int32_t g = 0; g < G->order; g++) {
+        const int32_t n = g < turns ? turn[g].n : mirror[g - turns].n;
+        memcpy(G->vertex + (size_t)g * nv, of_vertices(all, n), nv * sizeof *G->vertex);
+    }
     fill_matrices(G, mirror);
     s = move_all(G, m);
     if (s != RG_OK) rg_symmetry_free(G);
@@ -229,7 +238,8 @@ static rg_status only_nothing(rg_symmetry *G, const rg_memory *mem, const rg_mes
 }
 
 /* Within tol. *found: zero if that makes no group. */
-static rg_status find_within(rg_symmetry *G, const rg_memory *mem, const rg_mesh *m, const rg_edge *E, double tol, int *found)
+static rg_status find_within(rg_symmetry *G, const rg_memory *mem, const rg_mesh *m, const rg_edge *E, double tol,
+                             int *found)
 {
     rg_maps all;
     *found = 0;
@@ -256,9 +266,11 @@ rg_status rg_symmetry_find(rg_symmetry *G, const rg_memory *mem, const rg_mesh *
     memset(G, 0, sizeof *G);
     rg_edge *E = rg_mem_array(mem, (size_t)m->ne, sizeof *E);
     if (!E) return RG_ENOMEM;
-    for (int32_t e = 0; e < m->ne; e++) E[e] = (rg_edge){{m->edge[e][0], m->edge[e][1]}, m->assignment[e], m->target[e], 0, e};
+    for (int32_t e = 0; e < m->ne; e++)
+        E[e] = (rg_edge){{m->edge[e][0], m->edge[e][1]}, m->assignment[e], m->target[e], 0, e};
     rg_status s = RG_OK;
-    for (int k = 0; s == RG_OK && !found && k < SAME_PLACES; k++) s = find_within(G, mem, m, E, SAME_PLACE[k] * m->size, &found);
+    for (int k = 0; s == RG_OK && !found && k < SAME_PLACES; k++)
+        s = find_within(G, mem, m, E, SAME_PLACE[k] * m->size, &found);
     if (s == RG_OK && !found) s = only_nothing(G, mem, m);
     rg_mem_free(mem, E);
     return s;
@@ -282,8 +294,9 @@ rg_status rg_symmetry_on(rg_symmetry *out, const rg_symmetry *G, const rg_mesh *
 static void copy_element(rg_symmetry *out, int32_t to, const rg_symmetry *G, int32_t g)
 {
     memcpy(out->A[to], G->A[g], sizeof *G->A);
-    struct { int32_t *to, *from; size_t n; } of[] = {{out->vertex, G->vertex, (size_t)G->nv}, {out->edge, G->edge, (size_t)G->ne},
-                                                     {out->crease, G->crease, (size_t)G->N}, {out->facet, G->facet, (size_t)G->nf}};
+    const struct { int32_t *to, *from; size_t n; } of[] = {
+        {out->vertex, G->vertex, (size_t)G->nv}, {out->edge, G->edge, (size_t)G->ne},
+        {out->crease, G->crease, (size_t)G->N}, {out->facet, G->facet, (size_t)G->nf}};
     for (int i = 0; i < 4; i++)
         memcpy(of[i].to + (size_t)to * of[i].n, of[i].from + (size_t)g * of[i].n, of[i].n * sizeof(int32_t));
 }
@@ -360,10 +373,7 @@ void rg_symmetry_mean_vectors(const rg_symmetry *G, rg_vec2 *d)
             mean.x += (A[0][0] * there.x + A[1][0] * there.y) / G->order;
             mean.y += (A[0][1] * there.x + A[1][1] * there.y) / G->order;
         }
-        for (size_t g = 0; g < (size_t)G->order; g++) {
-            const double(*A)[2] = (const double(*)[2])G->A[g];
-            d[G->vertex[g * nv + v]] = (rg_vec2){A[0][0] * mean.x + A[0][1] * mean.y, A[1][0] * mean.x + A[1][1] * mean.y};
-        }
+        for (int32_t g = 0; g < G->order; g++) d[G->vertex[(size_t)g * nv + v]] = turned(G, g, mean);
     }
 }
 

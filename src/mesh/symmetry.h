@@ -13,11 +13,11 @@
 typedef struct rg_symmetry {
     rg_memory mem;
     int32_t order;        /* elements, 1: nothing but the one by nothing, which is number 0 */
-    int32_t turns;        /* the first so many are turns, by even steps from 0; the others are mirrors: none or as many */
+    int32_t turns;        /* the first so many are turns, by even steps from 0; the others mirrors: none or as many */
     int32_t nv, ne, N, nf;
     rg_vec2 middle;       /* what they leave where it is */
     double off;           /* radians: the most that the direction of an edge, turned, differs from that of its image */
-    double (*A)[2][2];    /* [order] A_g, orthogonal, about the middle: a group to rounding, also where the drawing is not */
+    double (*A)[2][2];    /* [order] A_g, orthogonal, about the middle: a group also where the drawing is not quite */
     int32_t *vertex;      /* [order][nv] vertex[g nv + v] = g(v) */
     int32_t *edge;        /* [order][ne] */
     int32_t *crease;      /* [order][N] */
@@ -43,11 +43,12 @@ typedef struct rg_subgroup { int32_t every, mirror, order; } rg_subgroup;
 int32_t rg_symmetry_subgroups(const rg_symmetry *G, rg_subgroup *list, int32_t most);
 
 /* Facets as rg_triangulate_some cuts them, so that *out has the symmetry too: of every orbit the first facet is cut, if
- * which[that one], and the others are its images. One that some of G take to itself is cut across by a diagonal and all its
- * images at once, the shortest that do not cross each other; what no such diagonals divide stays whole, which loses nothing:
- * the corners of a facet across a mirror come in pairs whose joins are square to the mirror plane, so they are in one plane
- * in every state that has the symmetry. G NULL, or of order 1: as without. */
-rg_status rg_triangulate_orbits(const rg_mesh *m, const rg_symmetry *G, const unsigned char *which, int shorter, rg_mesh *out);
+ * which[that one], and the others are its images. One that some of G take to itself is cut across by a diagonal and all
+ * its images at once, the shortest that do not cross each other; what no such diagonals divide stays whole, which loses
+ * nothing: the corners of a facet across a mirror come in pairs whose joins are square to the mirror plane, so they are in
+ * one plane in every state that has the symmetry. G NULL, or of order 1: as without. */
+rg_status rg_triangulate_orbits(const rg_mesh *m, const rg_symmetry *G, const unsigned char *which, int shorter,
+                                rg_mesh *out);
 
 /* x[N]: every orbit of creases gets its mean. What is alike already is left to the bit. Allocates nothing; no more than
  * rounding changes when it is done again. */

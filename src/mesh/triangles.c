@@ -59,7 +59,8 @@ rg_status rg_triangles_init(const rg_memory *memory, const rg_mesh *m, rg_triang
     if (s != RG_OK) return s;
     const size_t nf = (size_t)m->nf, nt = (size_t)T.nf;
     int32_t *owner;
-    s = RG_MEM_ARRAYS(&mem, RG_ARRAY(owner, 2 * nt), RG_ARRAY(t->start, nf + 1), RG_ARRAY(t->v, nt), RG_ARRAY(t->largest, nf));
+    s = RG_MEM_ARRAYS(&mem, RG_ARRAY(owner, 2 * nt), RG_ARRAY(t->start, nf + 1), RG_ARRAY(t->v, nt),
+                      RG_ARRAY(t->largest, nf));
     if (s == RG_OK) {
         find_owners(m, &T, owner, owner + nt);
         sort_by_owner(m, &T, owner, t);

@@ -44,7 +44,8 @@ static void remove_corner(rg_polygon *p, double *of, int32_t i, int32_t diagonal
 static void put_ear(rg_mesh *m, const rg_polygon *p, int32_t i, int32_t diagonal)
 {
     const int32_t before = (i + p->n - 1) % p->n, after = (i + 1) % p->n;
-    rg_polygon_add_triangle(m, (int32_t[]){p->v[before], p->v[i], p->v[after]}, (int32_t[]){p->e[before], p->e[i], diagonal});
+    rg_polygon_add_triangle(m, (int32_t[]){p->v[before], p->v[i], p->v[after]},
+                            (int32_t[]){p->e[before], p->e[i], diagonal});
 }
 
 /* What is left of a facet, as a facet. */
@@ -158,7 +159,8 @@ static int may_cross_facet(const cutter *c, int32_t f, int32_t i, int32_t j)
  * it off unsplit after all. */
 static double score_across(const rg_polygon *p, int32_t i, int32_t j)
 {
-    const double length = rg_vec2_length(rg_vec2_sub(p->X[p->v[j]], p->X[p->v[i]])), least = rg_polygon_least_sine_at(p, i, j);
+    const double length = rg_vec2_length(rg_vec2_sub(p->X[p->v[j]], p->X[p->v[i]]));
+    const double least = rg_polygon_least_sine_at(p, i, j);
     double s = least >= SLIVER ? length : OF_SLIVER * length / least;
     if (p->inside[i] || p->inside[j]) s /= OF_INSIDE;
     if ((j - i == 2 && p->inside[i + 1]) || (p->n - j + i == 2 && p->inside[(j + 1) % p->n])) s *= OF_INSIDE;
@@ -347,8 +349,8 @@ static rg_status cut_all(const rg_mesh *m, const rg_symmetry *G, int split, cons
 }
 
 /* Once. next: as tell_next, with room for one more than there are corners; NULL: nobody asks. */
-static rg_status triangulate(const rg_mesh *m, const rg_symmetry *G, int split, const unsigned char *which, unsigned char *next,
-                             rg_mesh *out)
+static rg_status triangulate(const rg_mesh *m, const rg_symmetry *G, int split, const unsigned char *which,
+                             unsigned char *next, rg_mesh *out)
 {
     int32_t most = 3, more = 0;
     for (int32_t f = 0; f < m->nf; f++) {
@@ -363,8 +365,8 @@ static rg_status triangulate(const rg_mesh *m, const rg_symmetry *G, int split, 
     out->nv = m->nv;
     out->ne = m->ne;
     out->added = m->added;
-    rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(out->X, (size_t)m->nv), RG_ARRAY(out->edge, ne), RG_ARRAY(out->assignment, ne),
-                                RG_ARRAY(out->target, ne), RG_ARRAY(out->facet_start, nf + 1),
+    rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(out->X, (size_t)m->nv), RG_ARRAY(out->edge, ne),
+                                RG_ARRAY(out->assignment, ne), RG_ARRAY(out->target, ne), RG_ARRAY(out->facet_start, nf + 1),
                                 RG_ARRAY(out->facet_vertex, corners), RG_ARRAY(out->facet_edge, corners));
     if (s == RG_OK && m->still) s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(out->still, ne));
     if (s == RG_OK) {
@@ -389,7 +391,8 @@ rg_status rg_triangulate_some(const rg_mesh *m, const unsigned char *which, int 
     return triangulate(m, NULL, !shorter, which, NULL, out);
 }
 
-rg_status rg_triangulate_orbits(const rg_mesh *m, const rg_symmetry *G, const unsigned char *which, int shorter, rg_mesh *out)
+rg_status rg_triangulate_orbits(const rg_mesh *m, const rg_symmetry *G, const unsigned char *which, int shorter,
+                                rg_mesh *out)
 {
     if (!G || G->order == 1) return rg_triangulate_some(m, which, shorter, out);
     const size_t corners = (size_t)m->facet_start[m->nf];

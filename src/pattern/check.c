@@ -12,7 +12,8 @@ void rg_check_sectors(const struct rg_pattern *p, int32_t v, double *theta)
     const int32_t *star = p->star + p->star_start[v], n = p->star_start[v + 1] - p->star_start[v];
     for (int32_t i = 0; i < n; i++) {
         const rg_edge *e = &p->E[star[i]], *f = &p->E[star[(i + 1) % n]];
-        const rg_vec2 a = rg_vec2_sub(p->X[e->v[e->v[0] == v]], p->X[v]), b = rg_vec2_sub(p->X[f->v[f->v[0] == v]], p->X[v]);
+        const rg_vec2 a = rg_vec2_sub(p->X[e->v[e->v[0] == v]], p->X[v]);
+        const rg_vec2 b = rg_vec2_sub(p->X[f->v[f->v[0] == v]], p->X[v]);
         const double turn = atan2(rg_vec2_cross(a, b), rg_vec2_dot(a, b));
         theta[i] = turn > 0 ? turn : turn + 2 * RG_PI;
     }

@@ -1,5 +1,5 @@
 /* check.h -- can a vertex fold flat: degree, Kawasaki's theorem, Maekawa's theorem, big-little-big.
- * Paper    section 3.3, eq. (16) is Kawasaki's        Uses  pattern.h        Used by  facets.c build.c closed.c info.c */
+ * Paper    section 3.3, eq. (16) is Kawasaki's        Uses  pattern.h        Used by  facets.c build.c closed.c */
 #ifndef RG_CHECK_H
 #define RG_CHECK_H
 

@@ -19,11 +19,17 @@ static void far_end(const struct rg_pattern *p, int32_t v, int32_t e, double x[2
     x[1] = at.y;
 }
 
+/* As rg_closed_inside, of edges a, c, b with these angles between them. */
+static int inside_of(const struct rg_pattern *p, int32_t a, int32_t c, int32_t b, double ac, double cb)
+{
+    return rg_closed_inside(p->E[a].assignment, p->E[c].assignment, p->E[b].assignment, ac, cb);
+}
+
 /* Whether the assignments alone leave it possible: the angles of most vertices are not asked for. */
 static int may_close(const struct rg_pattern *p, const int32_t *star, int32_t n)
 {
     for (int32_t i = 0; i < n; i++)
-        if (rg_closed_inside(p->E[star[i]].assignment, p->E[star[(i + 1) % n]].assignment, p->E[star[(i + 2) % n]].assignment, 0, 0)) return 1;
+        if (inside_of(p, star[i], star[(i + 1) % n], star[(i + 2) % n], 0, 0)) return 1;
     return 0;
 }
 
@@ -40,12 +46,13 @@ rg_status rg_closed_find(struct rg_pattern *p)
         int found = 0;
         for (int32_t i = 0; s == RG_OK && i < n; i++) {
             const int32_t next = (i + 1) % n, a = star[i], c = star[next], b = star[(i + 2) % n];
-            const int inside = rg_closed_inside(p->E[a].assignment, p->E[c].assignment, p->E[b].assignment, theta[i], theta[next]);
+            const int inside = inside_of(p, a, c, b, theta[i], theta[next]);
             if (!inside) continue;
             s = RG_MEM_GROW(&p->mem, p->closed, room, (size_t)p->closed_triples + 1);
             if (s != RG_OK) break;
             rg_closed *closed = &p->closed[p->closed_triples++];
-            *closed = (rg_closed){.vertex = v, .x = p->X[v].x, .y = p->X[v].y, .inside_angle = inside == 1 ? theta[i] : theta[next]};
+            *closed = (rg_closed){.vertex = v, .x = p->X[v].x, .y = p->X[v].y,
+                                  .inside_angle = inside == 1 ? theta[i] : theta[next]};
             far_end(p, v, a, closed->a);
             far_end(p, v, c, closed->c);
             far_end(p, v, b, closed->b);

@@ -31,7 +31,11 @@ static void sort(spoke *s, int32_t n)
     for (int32_t i = 1; i < n; i++) {
         const spoke one = s[i];
         int32_t k = i;
-        for (; k > 0 && (s[k - 1].turn > one.turn || (s[k - 1].turn == one.turn && s[k - 1].e > one.e)); k--) s[k] = s[k - 1];
+        for (; k > 0; k--) {
+            const spoke *p = &s[k - 1];
+            if (!(p->turn > one.turn || (p->turn == one.turn && p->e > one.e))) break;
+            s[k] = *p;
+        }
         s[k] = one;
     }
 }

@@ -56,9 +56,9 @@ static rg_status warn_loose(const rg_graph *g, rg_lines *lines, const loose *l)
     const double digit = pow(10, floor(log10(part)) - 1);
     const double merge = ceil(part / digit * (1 + 1e-9)) * digit;
     if (is_vertex)
-        return rg_lines_warn(lines, g->E[l->e].where, "a loose end at (%.6g, %.6g) is left out: the next line is %.2g away, a corner %.2g; "
-                             "--merge %.2g joins them",
-                             at.x, at.y, l->line, far, merge);
+        return rg_lines_warn(lines, g->E[l->e].where,
+                             "a loose end at (%.6g, %.6g) is left out: the next line is %.2g away, a corner %.2g; "
+                             "--merge %.2g joins them", at.x, at.y, l->line, far, merge);
     return rg_lines_warn(lines, g->E[l->e].where,
                          "a loose end at (%.6g, %.6g) is left out: the next line is %.2g away; --merge %.2g joins them",
                          at.x, at.y, far, merge);

@@ -112,7 +112,8 @@ static int move_vertices(search *s, const rg_map *g)
 {
     s->tries++;
     /* Most drawings have no symmetry, and do not have to be put in order to see it. */
-    if (!s->sorted && s->tries <= TRIES_UNSORTED && !(is_there(s, image(s, g, s->nv / 2)) && is_there(s, image(s, g, s->nv / 3)))) return 0;
+    const int few = !s->sorted && s->tries <= TRIES_UNSORTED;
+    if (few && !(is_there(s, image(s, g, s->nv / 2)) && is_there(s, image(s, g, s->nv / 3)))) return 0;
     sort(s);
     for (int32_t v = 0; v < s->nv; v++) {
         const int32_t to = vertex_at(s, image(s, g, v));
@@ -179,7 +180,7 @@ static rg_status try_all(rg_maps *g, search *s)
     const rg_vec2 x = from_middle(s, furthest);
     const double far = rg_vec2_length(x);
     if (!(far > 2 * s->tol)) return RG_OK;
-    for (int32_t n = 0; n <= s->nv && moved < MOST_MOVED; n++) { /* to itself first, so that the one by nothing is the first */
+    for (int32_t n = 0; n <= s->nv && moved < MOST_MOVED; n++) { /* to itself first: the one by nothing is number 0 */
         const int32_t v = n == 0 ? furthest : n - 1;
         const rg_vec2 y = from_middle(s, v);
         if (!(fabs(y.x) + fabs(y.y) >= far - 2 * s->tol)) continue; /* most lie nearer */

@@ -10,7 +10,7 @@ enum { MOST_BASES = 8 };
 /* Directions go round at this angle, where nobody draws. */
 static const double SEAM = 1.2345;
 
-typedef struct item { double angle, away; int32_t e; } item;                   /* away: from the middle of the drawing */
+typedef struct item { double angle, away; int32_t e; } item; /* away: from the middle of the drawing */
 typedef struct event { double t; int32_t vertex, e; int begins; } event;       /* an end of an edge along the base */
 typedef struct piece { int32_t e, v[2]; double t; } piece;                     /* t: along the edge */
 typedef struct heap { int32_t *e, n; } heap;                                   /* the first of them on top */
@@ -42,8 +42,8 @@ rg_status rg_overlap_warn(rg_lines *lines, const rg_vec2 *X, const rg_edge *keep
     const char p = keep->assignment, q = other->assignment;
     if (rg_overlap_rank(p) != 1 || rg_overlap_rank(q) != 1 || p == q || (*told)++ >= MOST_WARNINGS) return RG_OK;
     const rg_vec2 at = rg_lines_own(lines, X[keep->v[0]], 0);
-    return rg_lines_warn(lines, other->where, "mountain and valley drawn on one line from (%.6g, %.6g): the first one stays", at.x,
-                         at.y);
+    return rg_lines_warn(lines, other->where,
+                         "mountain and valley drawn on one line from (%.6g, %.6g): the first one stays", at.x, at.y);
 }
 
 rg_status rg_overlap_warn_more(rg_lines *lines, int told)
@@ -83,7 +83,12 @@ static int32_t top(sweep *s, int kind)
 
 static int kind_of(char assignment)
 {
-    return assignment == RG_BORDER ? BORDERS : assignment == RG_MOUNTAIN ? MOUNTAINS : assignment == RG_VALLEY ? VALLEYS : OTHERS;
+    switch (assignment) {
+    case RG_BORDER: return BORDERS;
+    case RG_MOUNTAIN: return MOUNTAINS;
+    case RG_VALLEY: return VALLEYS;
+    default: return OTHERS;
+    }
 }
 
 /* -------------------------------------------------------------------------------------------------- sweep ---- */
@@ -101,7 +106,8 @@ static int by_place(const void *a, const void *b)
 /* The edge that stays from vertex u to v, which comes next along d. */
 static rg_status stretch(sweep *s, int32_t u, int32_t v, rg_vec2 d)
 {
-    const int32_t border = top(s, BORDERS), m = top(s, MOUNTAINS), y = top(s, VALLEYS), first = m < 0 || (y >= 0 && y < m) ? y : m;
+    const int32_t border = top(s, BORDERS), m = top(s, MOUNTAINS), y = top(s, VALLEYS);
+    const int32_t first = m < 0 || (y >= 0 && y < m) ? y : m;
     const int32_t e = border >= 0 ? border : first >= 0 ? first : top(s, OTHERS);
     if (e < 0 || u == v) return RG_OK;
     const rg_vec2 along = way(s, e);
@@ -247,7 +253,8 @@ static rg_status put_together(sweep *s, rg_edge **E, int32_t *ne, size_t *room)
     return RG_OK;
 }
 
-rg_status rg_overlap_resolve(rg_lines *lines, const rg_vec2 *X, double tol, double size, rg_edge **E, int32_t *ne, size_t *room)
+rg_status rg_overlap_resolve(rg_lines *lines, const rg_vec2 *X, double tol, double size, rg_edge **E, int32_t *ne,
+                             size_t *room)
 {
     const rg_memory *mem = &lines->mem;
     const size_t n = (size_t)*ne;

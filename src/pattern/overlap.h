@@ -18,6 +18,7 @@ rg_status rg_overlap_warn_more(rg_lines *lines, int told);
 /* Cuts edges that overlap along a line, as far as they are within the tolerance of it, at each other's ends, and keeps
  * one for each stretch. *E, *ne, *room: the edges, put anew in their order. X: vertices. n log n. RG_ENOMEM leaves *E
  * as it was. */
-rg_status rg_overlap_resolve(rg_lines *lines, const rg_vec2 *X, double tol, double size, rg_edge **E, int32_t *ne, size_t *room);
+rg_status rg_overlap_resolve(rg_lines *lines, const rg_vec2 *X, double tol, double size, rg_edge **E, int32_t *ne,
+                             size_t *room);
 
 #endif

@@ -46,7 +46,7 @@ struct rg_pattern {
     char *letter;         /* [ne] */
     double *target;       /* [ne] */
     int32_t *where;       /* [ne] */
-    int32_t *facet_start, *facet_vertex, *facet_edge; /* facet_edge[j] joins facet_vertex[j] to the next one of that facet */
+    int32_t *facet_start, *facet_vertex, *facet_edge; /* facet_edge[j] joins facet_vertex[j] to the facet's next one */
     rg_closed *closed;    /* every closed triple, by vertex */
     int32_t closed_triples;
     rg_unfoldable *unfoldable;

@@ -58,8 +58,10 @@ static int32_t outmost(const drawing *d, const int32_t *parts, int32_t count, in
         const part *q = &d->part[parts[i]];
         if (parts[i] == v || !(q->area < d->part[v].area) || !encloses(d, q, d->g->X[v])) continue;
         int inside = 0;
-        for (int32_t j = 0; j < count && !inside; j++)
-            inside = parts[j] != parts[i] && d->part[parts[j]].area < q->area && encloses(d, &d->part[parts[j]], d->g->X[parts[i]]);
+        for (int32_t j = 0; j < count && !inside; j++) {
+            const part *other = &d->part[parts[j]];
+            inside = parts[j] != parts[i] && other->area < q->area && encloses(d, other, d->g->X[parts[i]]);
+        }
         if (!inside) return parts[i];
     }
     return v;
@@ -112,7 +114,8 @@ static rg_status take_one(drawing *d, rg_graph *g, int32_t sheet)
     return RG_OK;
 }
 
-rg_status rg_pieces_find(rg_graph *g, const rg_lines *lines, int32_t take, rg_walk *walk, rg_piece **piece, int32_t *pieces, rg_diag *why)
+rg_status rg_pieces_find(rg_graph *g, const rg_lines *lines, int32_t take, rg_walk *walk, rg_piece **piece,
+                         int32_t *pieces, rg_diag *why)
 {
     drawing d = {.g = g, .faces = &walk->faces};
     *piece = NULL;

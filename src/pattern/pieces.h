@@ -10,6 +10,7 @@
  * *piece: out, [*pieces] in the order of the file, the caller's, also after a failure. `take` above 0: only that one,
  * from 1, stays in the graph, whose size becomes its. walk: out, of the graph where all of it stays, the caller's, also
  * after a failure. RG_EARG: there is no such sheet, why->text; RG_ENOMEM. */
-rg_status rg_pieces_find(rg_graph *g, const rg_lines *lines, int32_t take, rg_walk *walk, rg_piece **piece, int32_t *pieces, rg_diag *why);
+rg_status rg_pieces_find(rg_graph *g, const rg_lines *lines, int32_t take, rg_walk *walk, rg_piece **piece,
+                         int32_t *pieces, rg_diag *why);
 
 #endif

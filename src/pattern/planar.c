@@ -41,12 +41,14 @@ typedef struct splitter {
     size_t room;
     unsigned char *fresh; /* [ne] not looked at yet: what was, crosses nothing that was */
     int32_t fresh_count;
-    unsigned char *touched; /* [vertices] an edge was cut there, or one that was cut ends there, in this round; NULL: all may be */
+    /* [vertices] an edge was cut there, or one that was cut ends there, in this round; NULL: all may be */
+    unsigned char *touched;
     double exact;         /* a cut that is no farther off its line than this leaves it where it was */
     int32_t looked_at;    /* vertices below this one as well */
     cut *cuts;
     size_t cut_count, cut_room;
-    int32_t (*parent)[2]; /* of vertices from `looked_at` on: the two edges that it was found to be the crossing of, which are cut */
+    /* Of vertices from `looked_at` on: the two edges that it was found to be the crossing of, which are cut. */
+    int32_t (*parent)[2];
     size_t parent_room;
     const char *too_many; /* of what: RG_EFORMAT */
     const rg_reading *ask; /* its progress, whether to go on; NULL: nobody */
@@ -110,8 +112,8 @@ static int register_edge(splitter *s, int32_t e, visit what)
     for (int32_t i = first; i <= last; i++) {
         double y0 = a.y, y1 = b.y;
         if (b.x - a.x > pad) { /* the part of it in this column */
-            double left = fmax(a.x, s->origin.x + i * s->cell - pad), right = fmin(b.x, s->origin.x + (i + 1) * s->cell + pad);
-            double slope = (b.y - a.y) / (b.x - a.x);
+            const double left = fmax(a.x, s->origin.x + i * s->cell - pad);
+            const double right = fmin(b.x, s->origin.x + (i + 1) * s->cell + pad), slope = (b.y - a.y) / (b.x - a.x);
             y0 = a.y + slope * (left - a.x);
             y1 = a.y + slope * (right - a.x);
         }
@@ -154,7 +156,10 @@ static rg_status count_near(splitter *s, int32_t *list, int32_t *n)
     const int few = s->fresh_count < s->ne / FEW && padding(s) < s->cell;
     place *at = few ? rg_mem_array(&s->mem, (size_t)nv, sizeof *at) : NULL;
     rg_status status = !few ? RG_OK : !at ? RG_ENOMEM : widen(s, &near);
-    for (int32_t v = 0; status == RG_OK && few && v < nv; v++) at[v] = (place){(int16_t)column(s, s->points.X[v].x), (int16_t)row(s, s->points.X[v].y)};
+    for (int32_t v = 0; status == RG_OK && few && v < nv; v++) {
+        const rg_vec2 x = s->points.X[v];
+        at[v] = (place){(int16_t)column(s, x.x), (int16_t)row(s, x.y)};
+    }
     for (int32_t e = 0; status == RG_OK && e < s->ne; e++) {
         if (few) {
             const place p = at[s->E[e].v[0]], q = at[s->E[e].v[1]];
@@ -225,7 +230,8 @@ static rg_status cross(splitter *s, int32_t e, int32_t f, int32_t c)
 {
     const int32_t *p = s->E[e].v, *q = s->E[f].v;
     const rg_vec2 *X = s->points.X, a = X[p[0]], b = X[p[1]], u = X[q[0]], v = X[q[1]];
-    const double au = rg_vec2_turn(u, v, a), bu = rg_vec2_turn(u, v, b), ua = rg_vec2_turn(a, b, u), va = rg_vec2_turn(a, b, v);
+    const double au = rg_vec2_turn(u, v, a), bu = rg_vec2_turn(u, v, b);
+    const double ua = rg_vec2_turn(a, b, u), va = rg_vec2_turn(a, b, v);
     if (!((au < 0) != (bu < 0) && (ua < 0) != (va < 0))) return RG_OK;
     const double t = au / (au - bu);
     if (!(t >= 0 && t <= 1)) return RG_OK;
@@ -266,12 +272,13 @@ static rg_status find_crossings(splitter *s)
         pairs += n * (n - 1) / 2;
     }
     if (pairs > MOST_PAIRS) return s->too_many = "lines in one place", RG_EFORMAT;
-    const double from = s->progress;
+    const double from = s->progress, left = (ENDS - from) / 2; /* later rounds share the rest */
+    const double all = (double)(pairs + s->start[cells] + 1);
     int64_t seen = 0;
     for (int32_t c = 0; c < cells; c++)
         for (int32_t i = s->start[c]; i < s->start[c + 1]; i++) {
             seen += s->start[c + 1] - i;
-            s->progress = from + (ENDS - from) / 2 * fmin(1, (double)seen / (double)(pairs + s->start[cells] + 1)); /* later rounds share the rest */
+            s->progress = from + left * fmin(1, (double)seen / all);
             const rg_status asked = done(s, s->start[c + 1] - i);
             if (asked != RG_OK) return asked;
             const int32_t e = s->in[i], is_fresh = s->fresh[e];
@@ -290,7 +297,7 @@ static int is_junction(const splitter *s, const rg_edge *e, rg_vec2 x)
 {
     const rg_vec2 a = s->points.X[e->v[0]], d = rg_vec2_sub(s->points.X[e->v[1]], a), r = rg_vec2_sub(x, a);
     const double along = rg_vec2_dot(r, d), from = rg_vec2_dot(r, r), off = rg_vec2_cross(d, r), tol = s->points.tol;
-    if (!(along > 0) || off * off > tol * tol * rg_vec2_dot(d, d) * (1 + 1e-9)) return 0; /* most are: no root is drawn for them */
+    if (!(along > 0) || off * off > tol * tol * rg_vec2_dot(d, d) * (1 + 1e-9)) return 0; /* most are */
     const double length = rg_vec2_length(d);
     if (!(along < length * length) || !(fabs(off) <= tol * length)) return 0;
     /* Both parts must be shorter than the whole: a vertex beside an end would be cut in again and again. */
@@ -311,7 +318,8 @@ static rg_status find_junctions(splitter *s, int32_t known)
         const int32_t c = cell_of(s, x);
         for (int32_t i = s->start[c]; i < s->start[c + 1]; i++) {
             const int32_t e = s->in[i];
-            if (!(v >= s->looked_at || s->fresh[e]) || is_parent(s, v, e, known) || !is_junction(s, &s->E[e], x)) continue;
+            const int is_new = v >= s->looked_at || s->fresh[e];
+            if (!is_new || is_parent(s, v, e, known) || !is_junction(s, &s->E[e], x)) continue;
             rg_status status = add_cut(s, e, v);
             if (status != RG_OK) return status;
         }
@@ -434,7 +442,10 @@ static int by_end(const void *a, const void *b)
 static int32_t lower(const rg_edge *e) { return e->v[0] < e->v[1] ? e->v[0] : e->v[1]; }
 
 /* Of two edges with the same ends, one is new. */
-static int may_be_double(const splitter *s, const rg_edge *e) { return !s->touched || (s->touched[e->v[0]] && s->touched[e->v[1]]); }
+static int may_be_double(const splitter *s, const rg_edge *e)
+{
+    return !s->touched || (s->touched[e->v[0]] && s->touched[e->v[1]]);
+}
 
 /* Those that may be doubles by their lower vertex, then by the other one. start[nv + 2]: out, where those of a vertex
  * begin. */
@@ -555,7 +566,8 @@ static rg_status add_lines(splitter *s, rg_lines *lines, const rg_reading *setti
     if (status == RG_OK) status = settle(s, lines, &told);
     if (status == RG_OK && told > MOST_WARNINGS)
         status = rg_lines_warn(lines, 0, "%d more lines without length are left out", told - MOST_WARNINGS);
-    if (status == RG_OK && cuts) status = rg_lines_warn(lines, first_cut, "%d cuts of the folded model are left out", (int)cuts);
+    if (status == RG_OK && cuts)
+        status = rg_lines_warn(lines, first_cut, "%d cuts of the folded model are left out", (int)cuts);
     return status;
 }
 
@@ -576,10 +588,12 @@ static int crosses_too_often(const splitter *s)
     for (int i = 0; i < PAIRS_LOOKED_AT; i++) {
         const int32_t *p = s->E[pick(&state, s->ne)].v, *q = s->E[pick(&state, s->ne)].v;
         const rg_vec2 *X = s->points.X, a = X[p[0]], b = X[p[1]], u = X[q[0]], v = X[q[1]];
-        crossing += rg_vec2_turn(u, v, a) * rg_vec2_turn(u, v, b) < 0 && rg_vec2_turn(a, b, u) * rg_vec2_turn(a, b, v) < 0;
+        crossing += rg_vec2_turn(u, v, a) * rg_vec2_turn(u, v, b) < 0 &&
+                    rg_vec2_turn(a, b, u) * rg_vec2_turn(a, b, v) < 0;
     }
-    const double cuts = (double)s->ne * (double)s->ne * crossing / PAIRS_LOOKED_AT; /* two a crossing, which is of n^2 / 2 pairs */
-    return crossing >= TO_MEAN_ANYTHING && cuts > 2.0 * MOST_CUTS; /* guessed at twice what may be, it is not by chance */
+    /* Two a crossing, which is of n^2 / 2 pairs. Guessed at twice what may be, it is not by chance. */
+    const double cuts = (double)s->ne * (double)s->ne * crossing / PAIRS_LOOKED_AT;
+    return crossing >= TO_MEAN_ANYTHING && cuts > 2.0 * MOST_CUTS;
 }
 
 static rg_status look(splitter *s, rg_vec2 low, rg_vec2 high)
@@ -595,14 +609,16 @@ static rg_status look(splitter *s, rg_vec2 low, rg_vec2 high)
 
 static rg_status planarise(splitter *s, rg_lines *lines, rg_vec2 low, rg_vec2 high, rg_diag *why)
 {
-    rg_status status = rg_overlap_resolve(lines, s->points.X, s->points.tol, fmax(high.x - low.x, high.y - low.y), &s->E, &s->ne, &s->room);
-    if (status == RG_OK && !(s->fresh = rg_mem_array(&s->mem, (size_t)s->ne, 1))) status = RG_ENOMEM;
+    const double size = fmax(high.x - low.x, high.y - low.y);
+    rg_status status = rg_overlap_resolve(lines, s->points.X, s->points.tol, size, &s->E, &s->ne, &s->room);
+    if (status == RG_OK) status = RG_MEM_ARRAYS(&s->mem, RG_ARRAY(s->fresh, (size_t)s->ne));
     if (status == RG_OK) memset(s->fresh, 1, (size_t)s->ne), s->fresh_count = s->ne;
     if (status == RG_OK) status = merge_doubles(s, lines);
     if (status == RG_OK && crosses_too_often(s)) s->too_many = "crossings", status = RG_EFORMAT;
     for (int round = 0; status == RG_OK && s->ne > 0; round++) {
         if (round == MOST_ROUNDS)
-            return rg_fail(RG_EFORMAT, why, 0, "lines lie too close together to tell crossings apart: try another --merge");
+            return rg_fail(RG_EFORMAT, why, 0,
+                           "lines lie too close together to tell crossings apart: try another --merge");
         if (s->fresh_count == 0) break;
         status = look(s, low, high);
         if (status != RG_OK || !s->cut_count) break;
@@ -614,7 +630,8 @@ static rg_status planarise(splitter *s, rg_lines *lines, rg_vec2 low, rg_vec2 hi
 }
 
 /* settings NULL: of every line, loose ends too. */
-static rg_status graph(rg_lines *lines, const rg_reading *settings, double merge, const rg_reading *ask, rg_graph *g, rg_diag *why)
+static rg_status graph(rg_lines *lines, const rg_reading *settings, double merge, const rg_reading *ask, rg_graph *g,
+                       rg_diag *why)
 {
     memset(g, 0, sizeof *g);
     g->mem = lines->mem;
@@ -626,9 +643,11 @@ static rg_status graph(rg_lines *lines, const rg_reading *settings, double merge
             high = (rg_vec2){fmax(high.x, x.x), fmax(high.y, x.y)};
         }
     g->size = high.x >= low.x ? fmax(high.x - low.x, high.y - low.y) : 0;
-    if (!isfinite(g->size * g->size)) return rg_fail(RG_EFORMAT, why, 0, "the coordinates are too large to compute with");
+    if (!isfinite(g->size * g->size))
+        return rg_fail(RG_EFORMAT, why, 0, "the coordinates are too large to compute with");
     if (!(g->size > 0)) return RG_OK;
-    if (g->size < 1e-100) return rg_fail(RG_EFORMAT, why, 0, "the whole drawing is smaller than 1e-100: too small to compute with");
+    if (g->size < 1e-100)
+        return rg_fail(RG_EFORMAT, why, 0, "the whole drawing is smaller than 1e-100: too small to compute with");
 
     splitter s = {.mem = g->mem, .ask = ask, .progress = BEGINS};
     rg_status status = rg_points_init(&s.points, &s.mem, low, g->size, merge * g->size);

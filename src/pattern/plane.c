@@ -94,8 +94,8 @@ rg_status rg_plane_lend(struct rg_pattern *p)
         rg_faces_free(&faces);
     }
     p->plane = (rg_plane){.vertices = p->nv, .edges = p->ne, .facets = p->plane.facets, .at = (const double(*)[2])p->X,
-                          .ends = (const int32_t(*)[2])p->ends, .assignment = p->letter, .target = p->target, .line = p->where,
-                          .facet_start = p->facet_start, .facet_vertex = p->facet_vertex};
+                          .ends = (const int32_t(*)[2])p->ends, .assignment = p->letter, .target = p->target,
+                          .line = p->where, .facet_start = p->facet_start, .facet_vertex = p->facet_vertex};
     return s;
 }
 

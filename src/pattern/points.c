@@ -64,7 +64,8 @@ static rg_status rehash(rg_points *p, size_t heads)
 rg_status rg_points_add(rg_points *p, rg_vec2 x, int32_t *vertex)
 {
     const double reach = p->tol + ROUNDING * p->cell;
-    const int64_t left = column(p, x.x - reach), right = column(p, x.x + reach), low = row(p, x.y - reach), high = row(p, x.y + reach);
+    const int64_t left = column(p, x.x - reach), right = column(p, x.x + reach);
+    const int64_t low = row(p, x.y - reach), high = row(p, x.y + reach);
     double best = INFINITY;
     int32_t found = -1;
     for (int64_t i = left; i <= right; i++)
@@ -79,7 +80,8 @@ rg_status rg_points_add(rg_points *p, rg_vec2 x, int32_t *vertex)
             }
     if (found >= 0) {
         p->merged_max = fmax(p->merged_max, best);
-        p->spread[found].sum = (rg_vec2){p->spread[found].sum.x + (x.x - p->X[found].x), p->spread[found].sum.y + (x.y - p->X[found].y)};
+        p->spread[found].sum.x += x.x - p->X[found].x;
+        p->spread[found].sum.y += x.y - p->X[found].y;
         p->spread[found].count++;
         *vertex = found;
         return RG_OK;

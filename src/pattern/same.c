@@ -22,10 +22,13 @@ static int32_t farthest(const rg_pattern *p, const rg_pattern *q, double *off)
     int32_t worst = -1;
     *off = 0;
     for (int32_t v = 0; v < p->nv; v++) {
+        if (!p->rim[v]) continue;
         double nearest = INFINITY;
-        for (int32_t e = 0; p->rim[v] && e < q->ne; e++)
-            if (q->E[e].assignment == RG_BORDER) nearest = fmin(nearest, rg_vec2_off_segment(q->X[q->E[e].v[0]], q->X[q->E[e].v[1]], p->X[v]));
-        if (!p->rim[v] || nearest <= *off) continue;
+        for (int32_t e = 0; e < q->ne; e++) {
+            if (q->E[e].assignment != RG_BORDER) continue;
+            nearest = fmin(nearest, rg_vec2_off_segment(q->X[q->E[e].v[0]], q->X[q->E[e].v[1]], p->X[v]));
+        }
+        if (nearest <= *off) continue;
         *off = nearest;
         worst = v;
     }
@@ -40,7 +43,8 @@ static double drawn_to(const rg_pattern *p)
 
 rg_status rg_pattern_same_sheet(const rg_pattern *first, const rg_pattern *other, rg_diag *why)
 {
-    if (!other->info.is_disk) return rg_fail(RG_ESHEET, why, 0, "not one sheet without holes: %s", other->info.not_disk);
+    if (!other->info.is_disk)
+        return rg_fail(RG_ESHEET, why, 0, "not one sheet without holes: %s", other->info.not_disk);
     if (!first->info.is_disk) return rg_fail(RG_ESHEET, why, 0, "the first state is not one sheet without holes");
     const double tol = TWO_DRAWINGS * fmax(drawn_to(first), drawn_to(other)) * first->info.size;
     double of_other, of_first;
@@ -48,12 +52,16 @@ rg_status rg_pattern_same_sheet(const rg_pattern *first, const rg_pattern *other
     if (of_other <= tol && of_first <= tol) return RG_OK;
 
     const box a = box_of(first), b = box_of(other);
-    const rg_vec2 of_a = rg_vec2_sub(a.high, a.low), of_b = rg_vec2_sub(b.high, b.low), moved = rg_vec2_sub(b.low, a.low);
+    const rg_vec2 of_a = rg_vec2_sub(a.high, a.low), of_b = rg_vec2_sub(b.high, b.low);
+    const rg_vec2 moved = rg_vec2_sub(b.low, a.low);
     if (!(fabs(of_a.x - of_b.x) <= tol && fabs(of_a.y - of_b.y) <= tol))
-        return rg_fail(RG_ESHEET, why, 0, "not the sheet of the first state: %.6g x %.6g, and the first is %.6g x %.6g", of_b.x, of_b.y,
+        return rg_fail(RG_ESHEET, why, 0,
+                       "not the sheet of the first state: %.6g x %.6g, and the first is %.6g x %.6g", of_b.x, of_b.y,
                        of_a.x, of_a.y);
     if (!(rg_vec2_length(moved) <= tol))
-        return rg_fail(RG_ESHEET, why, 0, "not the sheet of the first state: it lies (%.6g, %.6g) away", moved.x, moved.y);
+        return rg_fail(RG_ESHEET, why, 0, "not the sheet of the first state: it lies (%.6g, %.6g) away", moved.x,
+                       moved.y);
     const rg_vec2 at = of_other >= of_first ? other->X[v] : first->X[w];
-    return rg_fail(RG_ESHEET, why, 0, "not the sheet of the first state: their borders differ at (%.6g, %.6g)", at.x, at.y);
+    return rg_fail(RG_ESHEET, why, 0, "not the sheet of the first state: their borders differ at (%.6g, %.6g)", at.x,
+                   at.y);
 }

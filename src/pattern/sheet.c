@@ -15,7 +15,8 @@ static void refuse(rg_pattern_info *info, const rg_lines *lines, const char *wha
     rg_text(info->not_disk, sizeof info->not_disk, "%s at (%.6g, %.6g)", what, at.x, at.y);
     const size_t n = strlen(info->not_disk);
     if (info->sheets > 1)
-        rg_text(info->not_disk + n, sizeof info->not_disk - n, "; --sheet N takes one of the %d, in the order of the file", (int)info->sheets);
+        rg_text(info->not_disk + n, sizeof info->not_disk - n,
+                "; --sheet N takes one of the %d, in the order of the file", (int)info->sheets);
 }
 
 /* Is x within the outer border of a piece? It is when a ray from it crosses that border an odd number of times. */
@@ -42,7 +43,8 @@ static int has_border(const rg_graph *g, const rg_faces *f, int32_t piece)
 }
 
 /* The outer border of each piece: its edges, its vertices. More than one piece, a vertex passed twice: not a disk. */
-static rg_status find_rim(const rg_graph *g, const rg_faces *f, unsigned char *rim, unsigned char *outer, const rg_lines *lines, rg_pattern_info *info)
+static void find_rim(const rg_graph *g, const rg_faces *f, unsigned char *rim, unsigned char *outer, const rg_lines *lines,
+                     rg_pattern_info *info)
 {
     int32_t sheet = -1, other = -1;
     for (int32_t k = 0; k < f->count; k++) {
@@ -54,28 +56,29 @@ static rg_status find_rim(const rg_graph *g, const rg_faces *f, unsigned char *r
             other = k;
         }
     }
-    for (int vertices = 0; vertices < 2; vertices++) /* a line passed twice also makes a vertex passed twice: it is told first */
+    for (int vertices = 0; vertices < 2; vertices++) /* a line passed twice makes a vertex passed twice: it comes first */
         for (int32_t k = 0; k < f->count; k++) {
             if (!(f->area[k] < 0)) continue;
             int32_t h = f->first[k];
             do {
                 const int32_t v = rg_tail(g->E, h);
                 unsigned char *passed = vertices ? &rim[v] : &outer[h >> 1];
-                if (*passed) refuse(info, lines, vertices ? "the border touches itself" : "two parts hang together by one line only", g->X[v]);
+                const char *what = vertices ? "the border touches itself" : "two parts hang together by one line only";
+                if (*passed) refuse(info, lines, what, g->X[v]);
                 *passed = 1;
                 h = f->next[h];
             } while (h != f->first[k]);
         }
-    if (other < 0) return RG_OK;
+    if (other < 0) return;
     const rg_vec2 at = g->X[rg_tail(g->E, f->first[other])];
     refuse(info, lines, !encloses(g, f, sheet, at) ? "more than one piece of paper: another one"
                  : has_border(g, f, other) ? "a hole in the paper, with a corner"
                                            : "lines that hang together with nothing else, one of them", at);
-    return RG_OK;
 }
 
 /* Facets must be simple polygons, and nothing inside the sheet may be a border. */
-static rg_status check_inside(const rg_graph *g, const rg_faces *f, const unsigned char *outer, const rg_lines *lines, rg_pattern_info *info)
+static rg_status check_inside(const rg_graph *g, const rg_faces *f, const unsigned char *outer, const rg_lines *lines,
+                              rg_pattern_info *info)
 {
     int32_t *seen = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *seen);
     if (!seen) return RG_ENOMEM;
@@ -94,7 +97,8 @@ static rg_status check_inside(const rg_graph *g, const rg_faces *f, const unsign
         if (twice >= 0) refuse(info, lines, "a facet touches itself", g->X[twice]);
     }
     for (int32_t e = 0; e < g->ne; e++)
-        if (g->E[e].assignment == RG_BORDER && !outer[e]) refuse(info, lines, "a slit in the paper (a border line inside)", g->X[g->E[e].v[0]]);
+        if (g->E[e].assignment == RG_BORDER && !outer[e])
+            refuse(info, lines, "a slit in the paper (a border line inside)", g->X[g->E[e].v[0]]);
     rg_mem_free(&g->mem, seen);
     return RG_OK;
 }
@@ -112,7 +116,8 @@ static double off_line(const rg_graph *g, int32_t v, const rg_edge *e, const rg_
  * far v may be off it. */
 static int join(const rg_graph *g, int32_t v, const rg_edge *e, const rg_edge *f, double tol, rg_edge *joined)
 {
-    const rg_vec2 x = g->X[v], a = rg_vec2_sub(x, g->X[e->v[e->v[0] == v]]), b = rg_vec2_sub(g->X[f->v[f->v[0] == v]], x);
+    const rg_vec2 x = g->X[v], a = rg_vec2_sub(x, g->X[e->v[e->v[0] == v]]);
+    const rg_vec2 b = rg_vec2_sub(g->X[f->v[f->v[0] == v]], x);
     const double turn = rg_vec2_cross(a, b);
     if (e->assignment != f->assignment && !plain(e->assignment) && !plain(f->assignment)) return 0;
     const int same = e->target == f->target || (isnan(e->target) && isnan(f->target));
@@ -176,12 +181,14 @@ static rg_status assign_border(rg_graph *g, const unsigned char *outer, rg_lines
     }
     info->lost_creases += mended;
     at = rg_lines_own(lines, at, g->size);
-    return mended ? rg_lines_warn(lines, first, "%d creases on the outside of the sheet are taken for its border, the first from (%.6g, %.6g)",
-                                  (int)mended, at.x, at.y)
-                  : RG_OK;
+    if (!mended) return RG_OK;
+    return rg_lines_warn(lines, first,
+                         "%d creases on the outside of the sheet are taken for its border, the first from (%.6g, %.6g)",
+                         (int)mended, at.x, at.y);
 }
 
-rg_status rg_sheet_from_graph(rg_graph *g, rg_walk *walk, double tol, rg_lines *lines, rg_pattern_info *info, unsigned char **rim_out)
+rg_status rg_sheet_from_graph(rg_graph *g, rg_walk *walk, double tol, rg_lines *lines, rg_pattern_info *info,
+                              unsigned char **rim_out)
 {
     const rg_faces *faces = &walk->faces;
     unsigned char *rim, *outer;
@@ -197,7 +204,7 @@ rg_status rg_sheet_from_graph(rg_graph *g, rg_walk *walk, double tol, rg_lines *
             info->is_disk = 0;
             rg_text(info->not_disk, sizeof info->not_disk, "no lines that enclose a sheet");
         }
-        s = find_rim(g, faces, rim, outer, lines, info);
+        find_rim(g, faces, rim, outer, lines, info);
     }
     if (s == RG_OK) s = check_inside(g, faces, outer, lines, info);
     if (s == RG_OK) s = assign_border(g, outer, lines, info);

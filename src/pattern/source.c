@@ -100,9 +100,7 @@ rg_status rg_source_copy(const rg_source *s, const rg_memory *mem, rg_source *ou
 
 void rg_source_free(rg_source *s)
 {
-    if (s->mem.resize) {
-        RG_MEM_FREE(&s->mem, s->vertex, s->edge, s->where, s->face_start, s->face_vertex, s->memo);
-    }
+    if (s->mem.resize) RG_MEM_FREE(&s->mem, s->vertex, s->edge, s->where, s->face_start, s->face_vertex, s->memo);
     if (s->frame) s->keeper->free(s->frame);
     memset(s, 0, sizeof *s);
 }
@@ -116,14 +114,16 @@ rg_status rg_source_follow(rg_source *s, int32_t nv, const int32_t *vertex, int3
         RG_MEM_FREE(&s->mem, of_vertex, of_edge, where);
         return RG_ENOMEM;
     }
-    for (int32_t v = 0; of_vertex && v < nv; v++) of_vertex[v] = vertex[v] >= 0 && vertex[v] < s->nv ? s->vertex[vertex[v]] : -1;
+    for (int32_t v = 0; of_vertex && v < nv; v++) {
+        const int32_t was = vertex[v];
+        of_vertex[v] = was >= 0 && was < s->nv ? s->vertex[was] : -1;
+    }
     for (int32_t e = 0; e < ne; e++) {
         const int known = edge[e] >= 0 && edge[e] < s->ne;
         if (of_edge) of_edge[e] = known ? s->edge[edge[e]] : -1;
         if (where) where[e] = known ? s->where[edge[e]] : 0;
     }
-    void *old[] = {s->vertex, s->edge, s->where};
-    for (int i = 0; i < 3; i++) rg_mem_free(&s->mem, old[i]);
+    RG_MEM_FREE(&s->mem, s->vertex, s->edge, s->where);
     s->vertex = of_vertex, s->edge = of_edge, s->where = where;
     s->nv = nv, s->ne = ne;
     return RG_OK;
@@ -181,7 +181,8 @@ static rg_status file_faces(const rg_source *s, face *list)
     return RG_OK;
 }
 
-rg_status rg_source_faces(const rg_source *s, int32_t nf, const int32_t *facet_start, const int32_t *facet_vertex, int32_t *source)
+rg_status rg_source_faces(const rg_source *s, int32_t nf, const int32_t *facet_start, const int32_t *facet_vertex,
+                          int32_t *source)
 {
     for (int32_t f = 0; f < nf; f++) source[f] = -1;
     if (s->faces == 0 || !s->vertex) return RG_OK;

@@ -21,6 +21,7 @@ rg_status rg_source_copy(const rg_source *s, const rg_memory *mem, rg_source *ou
 rg_status rg_source_follow(rg_source *s, int32_t nv, const int32_t *vertex, int32_t ne, const int32_t *edge);
 void rg_source_free(rg_source *s);
 /* source[nf]: out, the face of the file that has the vertices of each facet, -1: none. RG_ENOMEM. */
-rg_status rg_source_faces(const rg_source *s, int32_t nf, const int32_t *facet_start, const int32_t *facet_vertex, int32_t *source);
+rg_status rg_source_faces(const rg_source *s, int32_t nf, const int32_t *facet_start, const int32_t *facet_vertex,
+                          int32_t *source);
 
 #endif

@@ -98,7 +98,8 @@ static void over_hinge(const rg_place *from, const rg_hinge *h, double c, double
 {
     const rg_vec3 *R = from->R.c;
     const rg_vec2 u = h->u;
-    rg_vec3 e = rg_vec3_axpy(u.x, R[0], rg_vec3_scale(u.y, R[1])), m = rg_vec3_axpy(u.x, R[1], rg_vec3_scale(-u.y, R[0]));
+    const rg_vec3 e = rg_vec3_axpy(u.x, R[0], rg_vec3_scale(u.y, R[1]));
+    const rg_vec3 m = rg_vec3_axpy(u.x, R[1], rg_vec3_scale(-u.y, R[0]));
     rg_vec3 turned = rg_vec3_axpy(c, m, rg_vec3_scale(s, R[2]));
     to->R.c[2] = rg_vec3_axpy(c, R[2], rg_vec3_scale(-s, m));
     to->R.c[0] = rg_vec3_axpy(u.x, e, rg_vec3_scale(-u.y, turned));
@@ -180,4 +181,11 @@ rg_vec3 rg_pose_area(const rg_mesh *m, int32_t f, const rg_vec3 *x)
         n = rg_vec3_add(n, rg_vec3_cross(rg_vec3_sub(x[m->facet_vertex[j]], base),
                                          rg_vec3_sub(x[m->facet_vertex[j + 1]], base)));
     return rg_vec3_scale(0.5, n);
+}
+
+rg_vec3 rg_pose_normal(const rg_mesh *m, int32_t f, const rg_vec3 *x)
+{
+    const rg_vec3 n = rg_pose_area(m, f, x);
+    const double length = rg_vec3_length(n);
+    return length > 0 ? rg_vec3_scale(1 / length, n) : (rg_vec3){0, 0, 1};
 }

@@ -20,7 +20,8 @@ typedef struct rg_tree {
     int32_t *via;    /* [nf] edge over which facet f is reached, -1 for the fixed facet */
     rg_hinge *hinge; /* [nf] in that order */
     int32_t nv;
-    int32_t *corner_start, *corner_facet; /* [nv + 1]: the facets at each vertex, the one nearest the root first: it places it */
+    /* [nv + 1]: the facets at each vertex; the one nearest the root comes first, and places it. */
+    int32_t *corner_start, *corner_facet;
 } rg_tree;
 
 /* fixed_facet -1: the one nearest the centre of the sheet. RG_EARG: no such facet. */
@@ -41,5 +42,7 @@ double rg_pose_strain(const rg_mesh *m, const rg_vec2 *X, const rg_vec3 *x);
 /* Newell's normal of facet f with vertices at x[nv], as long as its area: right for any facet, also where corners lie
  * in a line. */
 rg_vec3 rg_pose_area(const rg_mesh *m, int32_t f, const rg_vec3 *x);
+/* The same, unit; along z where there is none. */
+rg_vec3 rg_pose_normal(const rg_mesh *m, int32_t f, const rg_vec3 *x);
 
 #endif

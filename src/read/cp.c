@@ -36,7 +36,8 @@ static rg_status add(rg_lines *out, const field *f, int n, int32_t where, rg_dia
     double x[4];
     if (!rg_number_whole(f[0].s, f[0].n, &code) || code < 0)
         return rg_fail(RG_EFORMAT, why, where,
-                       "line type \"%.*s\" is no whole number: 1 border, 2 mountain, 3 valley, 4 auxiliary", show(f), f[0].s);
+                       "line type \"%.*s\" is no whole number: 1 border, 2 mountain, 3 valley, 4 auxiliary", show(f),
+                       f[0].s);
     if (n != FIELDS) return rg_fail(RG_EFORMAT, why, where, "%d fields, not the five of `type x1 y1 x2 y2`", n);
     for (int i = 0; i < 4; i++)
         if (!rg_number_parse(f[i + 1].s, f[i + 1].n, &x[i]))
@@ -66,7 +67,8 @@ rg_status rg_cp_read(const void *bytes, size_t size, const rg_memory *mem, const
         said++;
         status = add(out, f, n, where, why);
     }
-    if (status == RG_OK && !said) status = rg_fail(RG_EFORMAT, why, 0, size ? "no lines in the file" : "the file is empty");
+    if (status == RG_OK && !said)
+        status = rg_fail(RG_EFORMAT, why, 0, size ? "no lines in the file" : "the file is empty");
     if (status != RG_OK) rg_lines_free(out);
     return status;
 }

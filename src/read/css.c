@@ -58,7 +58,8 @@ static rg_status untold(const source *q, const char *at, size_t n)
     return rg_lines_warn(q->out, line_of(q, at), "style: \"%s\" is not understood and passed over", shown);
 }
 
-static rg_status add_rules(rg_css *css, const source *q, const char *selectors, size_t n, const char *body, size_t body_n)
+static rg_status add_rules(rg_css *css, const source *q, const char *selectors, size_t n, const char *body,
+                           size_t body_n)
 {
     for (size_t from = 0; from <= n;) {
         size_t length = rg_select_comma(selectors + from, n - from);
@@ -72,7 +73,8 @@ static rg_status add_rules(rg_css *css, const source *q, const char *selectors, 
             continue;
         }
         if (css->rules == RG_CSS_MOST_RULES)
-            return rg_fail(RG_EFORMAT, q->why, line_of(q, selector), "more than %d rules of style", (int)RG_CSS_MOST_RULES);
+            return rg_fail(RG_EFORMAT, q->why, line_of(q, selector), "more than %d rules of style",
+                           (int)RG_CSS_MOST_RULES);
         s = RG_MEM_GROW(&css->mem, css->rule, css->room, (size_t)css->rules + 1);
         if (s != RG_OK) return s;
         css->rule[css->rules++] = (rg_rule){selector, body, length, body_n, weight};
@@ -96,7 +98,8 @@ static int begins(const char *s, const char *word) { return strncmp(s, word, str
 /* @rules that say nothing of how a line is drawn. */
 static int is_harmless(const char *s)
 {
-    static const char *const words[] = {"@font-face", "@keyframes", "@-webkit-keyframes", "@charset", "@namespace", "@page"};
+    static const char *const words[] = {"@font-face", "@keyframes", "@-webkit-keyframes", "@charset", "@namespace",
+                                        "@page"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (begins(s, words[i])) return 1;
     return 0;
@@ -114,7 +117,7 @@ static int is_for_screens(const char *s)
 static const char *pass_at(const source *q, const char *s, rg_status *status)
 {
     const size_t head = strcspn(s, "{;");
-    if (s[head] == '{' && is_for_screens(s)) return s + head + 1; /* its own } is passed over as one that closes nothing */
+    if (s[head] == '{' && is_for_screens(s)) return s + head + 1; /* its own } is passed over, as it closes nothing */
     if (!is_harmless(s)) *status = untold(q, s, head);
     if (s[head] == '{') s = block_end(s + head);
     else s += head;
@@ -138,7 +141,8 @@ rg_status rg_css_add(rg_css *css, const rg_xml_node *style, rg_lines *l, rg_diag
         const char *body = strchr(at, '{');
         if (!body) break;
         const char *end = block_end(body);
-        if (memchr(body + 1, '{', (size_t)(end - body - 1))) status = untold(&q, at, (size_t)(end - at)); /* rules in rules */
+        const int is_nested = memchr(body + 1, '{', (size_t)(end - body - 1)) != NULL;
+        if (is_nested) status = untold(&q, at, (size_t)(end - at));
         else status = add_rules(css, &q, at, (size_t)(body - at), body + 1, (size_t)(end - body - 1));
         at = *end ? end + 1 : end;
     }

@@ -154,7 +154,8 @@ static rg_status no_vertex(const reader *r, const char *key, int32_t i, size_t k
 {
     int64_t n;
     if (!rg_value_integer(v, &n)) return bad(r, "%s[%d][%d]: no vertex number", key, (int)i, (int)k);
-    return bad(r, "%s[%d][%d]: there is no vertex %lld, they end at %d", key, (int)i, (int)k, (long long)n, (int)r->nv - 1);
+    return bad(r, "%s[%d][%d]: there is no vertex %lld, they end at %d", key, (int)i, (int)k, (long long)n,
+               (int)r->nv - 1);
 }
 
 static rg_status edges(reader *r)
@@ -289,8 +290,8 @@ static rg_status flatten(reader *r)
         const int32_t v = pairs ? pair[2 * p.at] : 0, w = pairs ? pair[2 * p.at + 1] : 0;
         rg_mem_free(&r->out->mem, pair);
         r->is_folded = 1;
-        return bad(r, "vertices_coords: a folded form, its vertices do not lie in one plane: flat, the line from vertex %d to %d would be %.3g"
-                      " shorter; a crease pattern is needed", (int)v, (int)w, p.change);
+        return bad(r, "vertices_coords: a folded form, its vertices do not lie in one plane: flat, the line from vertex %d "
+                      "to %d would be %.3g shorter; a crease pattern is needed", (int)v, (int)w, p.change);
     }
     rg_mem_free(&r->out->mem, pair);
     if (!(r->X = rg_mem_array(&r->out->mem, (size_t)r->nv, sizeof *r->X))) return RG_ENOMEM;
@@ -299,7 +300,8 @@ static rg_status flatten(reader *r)
         r->X[i] = (rg_vec2){rg_vec3_dot(p.e1, r->space[i]), r->out->y_down ? -y : y};
     }
     if (flat == 2) return RG_OK;
-    return warn(r, "vertices_coords: they are off a plane by up to %.3g, and taken for flat: no line is changed by more than %.3g", p.off, p.change);
+    return warn(r, "vertices_coords: they are off a plane by up to %.3g, and taken for flat: no line is changed by more "
+                   "than %.3g", p.off, p.change);
 }
 
 /* --------------------------------------------------------------------------------------------------- faces ---- */
@@ -466,8 +468,8 @@ static int draws_down(const reader *r)
 static rg_status warn_of_side(reader *r)
 {
     if (r->nf > 0 || r->s->flip || draws_down(r) || is_ours(r)) return RG_OK;
-    return warn(r, "faces_vertices: there are none, so that nothing says which side is seen: y is taken to point up; --flip if the model"
-                   " comes out as in a mirror");
+    return warn(r, "faces_vertices: there are none, so that nothing says which side is seen: y is taken to point up; "
+                   "--flip if the model comes out as in a mirror");
 }
 
 static rg_status say(rg_lines *l, const rg_value *v, char **to)
@@ -481,9 +483,9 @@ static rg_status metadata(reader *r)
 {
     rg_lines *l = r->out;
     struct { const char *key; char **to; } keys[] = {
-        {"file_title", &l->title}, {"frame_title", &l->title}, {"file_author", &l->author}, {"frame_author", &l->author},
-        {"file_description", &l->memo}, {"frame_description", &l->memo}, {"rigami:editor", &l->editor},
-        {"rigami:reference", &l->reference}};
+        {"file_title", &l->title}, {"frame_title", &l->title}, {"file_author", &l->author},
+        {"frame_author", &l->author}, {"file_description", &l->memo}, {"frame_description", &l->memo},
+        {"rigami:editor", &l->editor}, {"rigami:reference", &l->reference}};
     rg_status s = RG_OK;
     for (size_t i = 0; s == RG_OK && i < sizeof keys / sizeof *keys; i++) {
         s = say(l, rg_value_get(r->frame, keys[i].key), keys[i].to);
@@ -507,13 +509,14 @@ static rg_status warn_of_states(reader *r)
     for (size_t i = 0; r->s->file_frame < 0 && i < n && i < MOST_FRAMES_TRIED; i++) {
         const rg_value *one = rg_value_at(frames, i);
         const int says = rg_value_get(one, "edges_foldAngle") || rg_value_get(one, "edges_assignment");
-        if (!says || !rg_value_is_true(rg_value_get(one, "frame_inherit")) || rg_value_get(one, "vertices_coords")) continue;
+        const int inherits = rg_value_is_true(rg_value_get(one, "frame_inherit"));
+        if (!says || !inherits || rg_value_get(one, "vertices_coords")) continue;
         if (!states++) first = (int32_t)i + 1;
         last = (int32_t)i + 1;
     }
     if (states == 0) return RG_OK;
-    return warn(r, "file_frames: %d frames are states of the sheet that are not looked at; --frame %d-%d goes through them", (int)states, (int)first,
-                (int)last);
+    return warn(r, "file_frames: %d frames are states of the sheet that are not looked at; --frame %d-%d goes through them",
+                (int)states, (int)first, (int)last);
 }
 
 static rg_status warn_folded(reader *r)
@@ -540,7 +543,8 @@ static reader *last_part(reader *r)
 /* What of a frame says how the sheet is folded, whatever else it says of where that brings it; NULL: no memory. */
 static rg_value *state_of(const rg_value *frame)
 {
-    static const char *const keys[] = {"edges_foldAngle", "edges_foldAngles", "edges_assignment", "frame_title", "frame_description"};
+    static const char *const keys[] = {"edges_foldAngle", "edges_foldAngles", "edges_assignment", "frame_title",
+                                       "frame_description"};
     rg_value *one = rg_value_overlay(NULL, frame);
     for (const void *k = NULL; one && (k = rg_value_next(frame, k));) {
         size_t i = 0;
@@ -555,8 +559,10 @@ static rg_status resolve(reader *r, int64_t number, int as_state)
 {
     const size_t frames = rg_value_count(rg_value_get(r->root, "file_frames"));
     for (int64_t at = number;;) {
-        if (at < 0 || at > (int64_t)frames) return bad(last_part(r), "frame_parent: there is no frame %lld", (long long)at);
-        if (r->parts == MOST_INHERITED) return bad(last_part(r), "frame_parent: frames inherit from each other without end");
+        if (at < 0 || at > (int64_t)frames)
+            return bad(last_part(r), "frame_parent: there is no frame %lld", (long long)at);
+        if (r->parts == MOST_INHERITED)
+            return bad(last_part(r), "frame_parent: frames inherit from each other without end");
         const rg_value *one = frame_at(r, at);
         r->part[r->parts++] = (int32_t)at;
         if (rg_value_kind(one) != RG_KIND_OBJECT) return bad(last_part(r), "the frame is no object");
@@ -581,7 +587,8 @@ static rg_status resolve(reader *r, int64_t number, int as_state)
 static int has_drawing(const reader *r)
 {
     const rg_value *edges = rg_value_get(r->frame, "edges_vertices"), *faces = rg_value_get(r->frame, "faces_vertices");
-    return rg_value_count(rg_value_get(r->frame, "vertices_coords")) > 0 && rg_value_count(edges) + rg_value_count(faces) > 0;
+    return rg_value_count(rg_value_get(r->frame, "vertices_coords")) > 0 &&
+           rg_value_count(edges) + rg_value_count(faces) > 0;
 }
 
 /* Whether the frame that was asked for says by itself how far each crease is folded. */
@@ -624,7 +631,8 @@ static rg_status choose(reader *r)
     const size_t frames = rg_value_count(rg_value_get(r->root, "file_frames"));
     const int32_t asked = r->s->file_frame;
     if (asked > 0 && (size_t)asked > frames)
-        return rg_fail(RG_EFORMAT, r->why, 0, "file_frames: there is no frame %d, the last one is %zu", (int)asked, frames);
+        return rg_fail(RG_EFORMAT, r->why, 0, "file_frames: there is no frame %d, the last one is %zu", (int)asked,
+                       frames);
     const int64_t last = frames < MOST_FRAMES_TRIED ? (int64_t)frames : MOST_FRAMES_TRIED;
     const int64_t from = asked >= 0 ? asked : 0, to = asked >= 0 ? asked : last;
     rg_diag first = {0, ""};
@@ -635,13 +643,14 @@ static rg_status choose(reader *r)
         r->is_state = is_state(r, asked);
         if (s == RG_OK && (asked >= 0 || has_drawing(r) || from == to)) s = read_frame(r);
         else if (s == RG_OK) s = bad(r, "no vertices_coords, or no edges_vertices and no faces_vertices");
-        if (s == RG_EFORMAT && r->is_folded && r->is_state && r->parts > 1) { /* where it is folded to, beside its angles */
+        if (s == RG_EFORMAT && r->is_folded && r->is_state && r->parts > 1) { /* it says where it is folded to, too */
             forget(r);
             s = resolve(r, i, 1);
             r->is_state = 1;
             if (s == RG_OK) s = read_frame(r);
         }
-        if (s == RG_OK || s == RG_ENOMEM || s == RG_ECANCELLED || (!r->is_folded && r->frame && has_drawing(r))) return s;
+        const int is_spoilt = !r->is_folded && r->frame && has_drawing(r);
+        if (s == RG_OK || s == RG_ENOMEM || s == RG_ECANCELLED || is_spoilt) return s;
         if (failed == RG_OK && r->why) first = *r->why;
         failed = s;
     }
@@ -655,7 +664,8 @@ rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, con
     rg_value *root = NULL;
     rg_lines_init(out, mem);
     out->stop = stop;
-    rg_status s = size ? rg_value_parse(bytes, size, stop, &root, why) : rg_fail(RG_EFORMAT, why, 0, "the file is empty");
+    rg_status s = size ? rg_value_parse(bytes, size, stop, &root, why)
+                       : rg_fail(RG_EFORMAT, why, 0, "the file is empty");
     if (s == RG_OK && rg_value_kind(root) != RG_KIND_OBJECT)
         s = rg_fail(RG_EFORMAT, why, 1, "JSON, but no FOLD: it is no object");
     reader r = {.out = out, .why = why, .s = settings, .text = bytes, .size = size, .root = root};
@@ -664,7 +674,7 @@ rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, con
     if (s == RG_EFORMAT && root && why) find_line(&r, why);
     for (int32_t i = 0; s == RG_OK && i < out->warnings; i++) find_line(&r, &out->warning[i]);
     if (s == RG_OK && keep) {
-        const char *const own[] = {"file_frames", "frame_parent", "frame_inherit"}; /* of a frame that is one of others */
+        static const char *const own[] = {"file_frames", "frame_parent", "frame_inherit"}; /* of one of several frames */
         for (int i = 0; r.part[0] > 0 && i < 3; i++) rg_value_drop(r.frame, own[i]);
         out->vertex = r.E;
         out->frame = r.frame;

@@ -15,8 +15,8 @@ static int same(const char *s, size_t n, const char *word, size_t word_n)
 }
 
 static const struct { const char *name; char assignment; } KINDS[] = {
-    {"border", RG_BORDER}, {"cut", RG_BORDER}, {"mountain", RG_MOUNTAIN}, {"valley", RG_VALLEY}, {"unassigned", RG_UNASSIGNED},
-    {"aux", RG_FLAT}, {"none", RG_LEFT_OUT}};
+    {"border", RG_BORDER}, {"cut", RG_BORDER}, {"mountain", RG_MOUNTAIN}, {"valley", RG_VALLEY},
+    {"unassigned", RG_UNASSIGNED}, {"aux", RG_FLAT}, {"none", RG_LEFT_OUT}};
 
 /* A KEY may have a = in it, a KIND has not. */
 char rg_kinds_letter(const rg_reading *s, int i)
@@ -32,7 +32,8 @@ rg_status rg_kinds_check(const rg_reading *s, rg_diag *why)
     if (s->kinds > RG_MOST_KINDS) return rg_fail(RG_EARG, why, 0, "more than %d kinds of lines", (int)RG_MOST_KINDS);
     for (int i = 0; i < s->kinds; i++)
         if (!rg_kinds_letter(s, i) || s->kind[i][0] == '=')
-            return rg_fail(RG_EARG, why, 0, "\"%.60s\" is not KEY=KIND, KIND one of border, cut, mountain, valley, unassigned, aux, none",
+            return rg_fail(RG_EARG, why, 0,
+                           "\"%.60s\" is not KEY=KIND, KIND one of border, cut, mountain, valley, unassigned, aux, none",
                            s->kind[i]);
     return RG_OK;
 }
@@ -64,8 +65,8 @@ static int same_colour(const char *key, size_t key_n, const char *name, size_t n
     const int number = n > 0 && strspn(b, "0123456789") == n;
     if (number) return index_of(name, n) > 0 && index_of(key, key_n) == index_of(name, n);
     const double half = 0.5 / 255;
-    return rg_colour_parse(a, &p, &alpha) && rg_colour_parse(b, &q, &alpha) && fabs(p.r - q.r) < half && fabs(p.g - q.g) < half &&
-           fabs(p.b - q.b) < half;
+    return rg_colour_parse(a, &p, &alpha) && rg_colour_parse(b, &q, &alpha) && fabs(p.r - q.r) < half &&
+           fabs(p.g - q.g) < half && fabs(p.b - q.b) < half;
 }
 
 /* ------------------------------------------------------------------------------------------------------ dashes ---- */
@@ -95,7 +96,8 @@ static int same_dash(const char *a, size_t a_n, const char *b, size_t b_n)
 
 int rg_kinds_find(const rg_reading *s, rg_trait_sort sort, const char *name, size_t n)
 {
-    static const char *const prefix[RG_TRAIT_SORTS][2] = {{"colour:", "color:"}, {"layer:", "name:"}, {"dash:", "linetype:"}};
+    static const char *const prefix[RG_TRAIT_SORTS][2] = {
+        {"colour:", "color:"}, {"layer:", "name:"}, {"dash:", "linetype:"}};
     for (int i = s->kinds - 1; n > 0 && i >= 0; i--) {
         const char *key = s->kind[i];
         size_t key_n = (size_t)(strrchr(key, '=') - key);
@@ -128,8 +130,8 @@ rg_status rg_kinds_warn_unused(const rg_reading *s, rg_lines *l)
             memcpy(there + n, l->trait[k].name, strlen(l->trait[k].name));
             n += strlen(l->trait[k].name);
         }
-        status = rg_lines_warn(l, 0, "--line %.40s: no line is of that colour, layer, name or dash; there are: %s", s->kind[i],
-                               n ? there : "none in this format");
+        status = rg_lines_warn(l, 0, "--line %.40s: no line is of that colour, layer, name or dash; there are: %s",
+                               s->kind[i], n ? there : "none in this format");
     }
     return status;
 }
@@ -139,8 +141,8 @@ char rg_kinds_of_name(const char *name, size_t n)
     static const struct { const char *word; char assignment; } words[] = {
         {"mountain", RG_MOUNTAIN}, {"valley", RG_VALLEY}, {"unassigned", RG_UNASSIGNED}, {"aux", RG_FLAT},
         {"facet", RG_FLAT}, {"flat", RG_FLAT}, {"construction", RG_FLAT}, {"guide", RG_FLAT}, {"annotation", RG_FLAT},
-        {"dimension", RG_FLAT}, {"notes", RG_FLAT}, {"defpoints", RG_FLAT}, {"cut", RG_BORDER}, {"border", RG_BORDER}, {"boundary", RG_BORDER},
-        {"contour", RG_BORDER}, {"outline", RG_BORDER}};
+        {"dimension", RG_FLAT}, {"notes", RG_FLAT}, {"defpoints", RG_FLAT}, {"cut", RG_BORDER},
+        {"border", RG_BORDER}, {"boundary", RG_BORDER}, {"contour", RG_BORDER}, {"outline", RG_BORDER}};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         const size_t word = strlen(words[i].word);
         for (size_t at = 0; at + word <= n; at++)

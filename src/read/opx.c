@@ -64,19 +64,23 @@ static rg_status line_value(reader *r, const rg_xml_node *entry, const rg_xml_no
         if (!is(v, "void") || !value) continue;
         if (strcmp(property, "type") == 0) {
             if (!is(value, "int") || !whole(text(value), &type))
-                return rg_fail(RG_EFORMAT, r->why, line_of(value), "line type \"%.40s\" is no whole number", text(value));
+                return rg_fail(RG_EFORMAT, r->why, line_of(value), "line type \"%.40s\" is no whole number",
+                               text(value));
             if (type < 0 || type > 9 || letters[type] == '.')
                 return rg_fail(RG_EFORMAT, r->why, line_of(value), "line type %ld is not one of 0 1 2 3 4 9", type);
         }
         for (int i = 0; i < 4; i++) {
             if (strcmp(property, names[i]) != 0) continue;
             if (!number(text(value), &x[i]))
-                return rg_fail(RG_EFORMAT, r->why, line_of(value), "%s is \"%.40s\", which is no number", names[i], text(value));
+                return rg_fail(RG_EFORMAT, r->why, line_of(value), "%s is \"%.40s\", which is no number", names[i],
+                               text(value));
             if (!isfinite(x[i])) bad = names[i];
         }
     }
     int where = line_of(entry);
-    if (bad) return rg_lines_warn(r->out, where, "line %s dropped: its %s is not a finite number", attribute(entry, "index"), bad);
+    if (bad)
+        return rg_lines_warn(r->out, where, "line %s dropped: its %s is not a finite number", attribute(entry, "index"),
+                             bad);
     return rg_lines_add(r->out, (rg_vec2){x[0], -x[1]}, (rg_vec2){x[2], -x[3]}, letters[type], where);
 }
 
@@ -91,8 +95,8 @@ static rg_status array_value(reader *r, const rg_xml_node *array)
         const rg_xml_node *object = child(e);
         if (!object || is(object, "null")) continue;
         if (!is(object, "object"))
-            return rg_fail(RG_EFORMAT, r->why, line_of(object), "entry %ld of the lines is a <%.40s>, not an object", index,
-                           rg_xml_name(object));
+            return rg_fail(RG_EFORMAT, r->why, line_of(object), "entry %ld of the lines is a <%.40s>, not an object",
+                           index, rg_xml_name(object));
         rg_status s = line_value(r, e, object);
         if (s != RG_OK) return s;
     }
@@ -109,7 +113,8 @@ static rg_status property(reader *r, const char *name, const rg_xml_node *value)
     if (strcmp(name, "mainVersion") == 0) {
         long version;
         if (whole(text(value), &version) && version > KNOWN_VERSION)
-            return rg_lines_warn(l, line_of(value), "written by a newer ORIPA (main version %ld): parts may be missed", version);
+            return rg_lines_warn(l, line_of(value), "written by a newer ORIPA (main version %ld): parts may be missed",
+                                 version);
     }
     for (int i = 0; i < 5; i++) {
         if (strcmp(name, strings[i].name) != 0 || !is(value, "string")) continue;

@@ -13,10 +13,12 @@ static int point(const rg_value *v, rg_vec2 *x)
 {
     const char *text = rg_value_text(v), *comma = text ? strchr(text, ',') : NULL;
     if (comma)
-        return rg_number_parse(text, (size_t)(comma - text), &x->x) && rg_number_parse(comma + 1, strlen(comma + 1), &x->y);
-    if (rg_value_kind(v) == RG_KIND_LIST)
-        return rg_value_count(v) == 2 && rg_value_number(rg_value_at(v, 0), &x->x) && rg_value_number(rg_value_at(v, 1), &x->y);
-    return rg_value_number(rg_value_get(v, "x"), &x->x) && rg_value_number(rg_value_get(v, "y"), &x->y);
+        return rg_number_parse(text, (size_t)(comma - text), &x->x) &&
+               rg_number_parse(comma + 1, strlen(comma + 1), &x->y);
+    const int is_list = rg_value_kind(v) == RG_KIND_LIST;
+    if (is_list && rg_value_count(v) != 2) return 0;
+    return rg_value_number(is_list ? rg_value_at(v, 0) : rg_value_get(v, "x"), &x->x) &&
+           rg_value_number(is_list ? rg_value_at(v, 1) : rg_value_get(v, "y"), &x->y);
 }
 
 /* By its number, whether that stands alone or behind a name. */
@@ -51,9 +53,12 @@ static rg_status lines(const rg_value *list, const char *text, size_t size, rg_l
     for (size_t i = 0; s == RG_OK && i < n; i++) {
         const rg_value *one = rg_value_at(list, i);
         rg_vec2 a, b;
-        if (!point(rg_value_get(one, "a"), &a) || !point(rg_value_get(one, "b"), &b)) s = bad(text, size, i, "no two points a and b", why);
-        else if (!isfinite(a.x + a.y + b.x + b.y)) s = rg_lines_warn(out, where[i], "a line is dropped: a coordinate is not a finite number");
-        else s = rg_lines_add(out, (rg_vec2){a.x, -a.y}, (rg_vec2){b.x, -b.y}, assignment(rg_value_get(one, "color")), where[i]);
+        const char letter = assignment(rg_value_get(one, "color"));
+        if (!point(rg_value_get(one, "a"), &a) || !point(rg_value_get(one, "b"), &b))
+            s = bad(text, size, i, "no two points a and b", why);
+        else if (!isfinite(a.x + a.y + b.x + b.y))
+            s = rg_lines_warn(out, where[i], "a line is dropped: a coordinate is not a finite number");
+        else s = rg_lines_add(out, (rg_vec2){a.x, -a.y}, (rg_vec2){b.x, -b.y}, letter, where[i]);
     }
     rg_mem_free(&out->mem, where);
     return s;
@@ -64,7 +69,8 @@ static rg_status check_version(const rg_value *root, rg_diag *why)
 {
     const char *version = rg_value_text(rg_value_get(root, "@version"));
     if (!version || strcmp(version, "v1") == 0 || strncmp(version, "v1.", 3) == 0) return RG_OK;
-    return rg_fail(RG_EFORMAT, why, 1, "@version: \"%.40s\" is not known, v1 is: save it again as .fold or .cp", version);
+    return rg_fail(RG_EFORMAT, why, 1, "@version: \"%.40s\" is not known, v1 is: save it again as .fold or .cp",
+                   version);
 }
 
 rg_status rg_ori_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out,
@@ -74,7 +80,8 @@ rg_status rg_ori_read(const void *bytes, size_t size, const rg_memory *mem, cons
     rg_lines_init(out, mem);
     out->stop = stop;
     out->y_down = 1;
-    rg_status s = size ? rg_value_parse(bytes, size, stop, &root, why) : rg_fail(RG_EFORMAT, why, 0, "the file is empty");
+    rg_status s = size ? rg_value_parse(bytes, size, stop, &root, why)
+                       : rg_fail(RG_EFORMAT, why, 0, "the file is empty");
     if (s == RG_OK) s = check_version(root, why);
     if (s == RG_OK) s = lines(rg_value_get(root, "lineSegments"), bytes, size, out, why);
     const char *title = rg_value_text(rg_value_get(root, "title"));

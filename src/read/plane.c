@@ -35,7 +35,8 @@ static void across(rg_vec3 n, double exact, rg_level *p)
     p->e2 = rg_vec3_cross(n, p->e1);
 }
 
-int rg_plane_find(const rg_vec3 *x, int32_t n, const int32_t *pair, int32_t pairs, double exact, double tol, rg_level *p)
+int rg_plane_find(const rg_vec3 *x, int32_t n, const int32_t *pair, int32_t pairs, double exact, double tol,
+                  rg_level *p)
 {
     const rg_vec3 o = n ? x[0] : X;
     rg_vec3 d = {0, 0, 0}, normal = d;

@@ -114,7 +114,10 @@ static int has_key(text t, const char *key)
 static rg_format by_content(text t)
 {
     t = skip_blanks(t);
-    if (begins(t, "{")) return has_key(t, "\"lineSegments\"") && !has_key(t, "\"vertices_coords\"") ? RG_FORMAT_ORI : RG_FORMAT_FOLD;
+    if (begins(t, "{")) {
+        const int is_ori = has_key(t, "\"lineSegments\"") && !has_key(t, "\"vertices_coords\"");
+        return is_ori ? RG_FORMAT_ORI : RG_FORMAT_FOLD;
+    }
     if (begins(t, "<")) {
         const text root = find_root(t);
         return named(root, "java") ? RG_FORMAT_OPX : named(root, "svg") ? RG_FORMAT_SVG : RG_FORMAT_AUTO;
@@ -168,7 +171,8 @@ rg_status rg_read_format(const void *bytes, size_t size, const char *path, const
     if (*format == RG_FORMAT_AUTO) *format = by_content(t);
     if (*format == RG_FORMAT_AUTO) *format = rg_read_extension(path);
     if (*format != RG_FORMAT_AUTO) return RG_OK;
-    return rg_fail(RG_EFORMAT, why, 1, "not a crease pattern that is known: ORIPA's .opx, .cp, .fold, .svg, .dxf or .ori");
+    return rg_fail(RG_EFORMAT, why, 1,
+                   "not a crease pattern that is known: ORIPA's .opx, .cp, .fold, .svg, .dxf or .ori");
 }
 
 /* What can be computed with, and written in any format. */
@@ -178,7 +182,8 @@ static rg_status check_coordinates(const rg_lines *l, rg_diag *why)
         const rg_line *q = &l->line[i];
         const double x[4] = {q->a.x, q->a.y, q->b.x, q->b.y};
         for (int k = 0; k < 4; k++)
-            if (!(fabs(x[k]) <= RG_LARGEST_COORDINATE)) return rg_fail(RG_EFORMAT, why, q->where, "a coordinate of %g is too large to compute with", x[k]);
+            if (!(fabs(x[k]) <= RG_LARGEST_COORDINATE))
+                return rg_fail(RG_EFORMAT, why, q->where, "a coordinate of %g is too large to compute with", x[k]);
     }
     return RG_OK;
 }
@@ -268,7 +273,8 @@ static rg_status slurp(FILE *f, size_t most, const rg_memory *mem, char **bytes,
     return ferror(f) ? rg_fail(RG_EREAD, why, 0, "%s", errno ? strerror(errno) : "cannot be read") : RG_OK;
 }
 
-static rg_status read_file(const char *path, int is_bounded, const rg_memory *mem, char **bytes, size_t *size, rg_diag *why)
+static rg_status read_file(const char *path, int is_bounded, const rg_memory *mem, char **bytes, size_t *size,
+                           rg_diag *why)
 {
     const int is_standard = strcmp(path, "-") == 0;
     FILE *f = is_standard ? stdin : fopen(path, "rb");

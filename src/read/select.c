@@ -78,7 +78,8 @@ typedef struct simple { char kind; const char *name, *in; size_t name_n, in_n; }
 
 static int is_name(char c)
 {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || (unsigned char)c >= 128;
+    const int is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    return is_letter || (c >= '0' && c <= '9') || c == '-' || c == '_' || (unsigned char)c >= 128;
 }
 
 /* The next one at s[*i]; 0: it is none. */
@@ -119,8 +120,10 @@ static int among(const simple *q, const char *const *words)
     return 0;
 }
 
-static const char *const NEVER[] = {"hover", "focus", "active", "visited", "target", "focus-within", "focus-visible", NULL};
-static const char *const PLACES[] = {"root", "first-child", "last-child", "only-child", "first-of-type", "last-of-type", "only-of-type", NULL};
+static const char *const NEVER[] = {"hover", "focus", "active", "visited", "target", "focus-within", "focus-visible",
+                                    NULL};
+static const char *const PLACES[] = {"root", "first-child", "last-child", "only-child", "first-of-type", "last-of-type",
+                                     "only-of-type", NULL};
 static const char *const NTHS[] = {"nth-child", "nth-last-child", "nth-of-type", "nth-last-of-type", NULL};
 static const char *const LISTS[] = {"not", "is", "where", NULL};
 
@@ -256,7 +259,10 @@ static int matches_attribute(const simple *q, const rg_xml_node *node)
     switch (a.op) {
     case '=': return n == a.value_n && memcmp(has, a.value, n) == 0;
     case '~': return listed(has, a.value, a.value_n);
-    case '|': return n >= a.value_n && memcmp(has, a.value, a.value_n) == 0 && (n == a.value_n || has[a.value_n] == '-');
+    case '|': {
+        const int begins = n >= a.value_n && memcmp(has, a.value, a.value_n) == 0;
+        return begins && (n == a.value_n || has[a.value_n] == '-');
+    }
     case '^': return a.value_n > 0 && n >= a.value_n && memcmp(has, a.value, a.value_n) == 0;
     case '$': return a.value_n > 0 && n >= a.value_n && memcmp(has + n - a.value_n, a.value, a.value_n) == 0;
     default: break;

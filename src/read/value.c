@@ -102,7 +102,7 @@ static int is_well_formed(const char *s, const char *end)
 {
     nest n = {{0}, 0};
     s = skip_blanks(s, end);
-    if (s >= end || (*s != '[' && *s != '{')) return 0; /* other values are not read, so that it is the text and not memory */
+    if (s >= end || (*s != '[' && *s != '{')) return 0; /* other values are not read: it is the text, not memory */
     for (;;) { /* a value begins here */
         s = skip_blanks(s, end);
         if (s < end && (*s == '[' || *s == '{')) {

@@ -77,7 +77,8 @@ static rg_status parse(const void *bytes, size_t size, rg_xml_type type, const r
     } else if (!read) {
         const xmlError *e = xmlCtxtGetLastError(parser);
         const int n = e && e->message ? (int)strcspn(e->message, "\n") : 0;
-        s = rg_fail(RG_EFORMAT, why, e ? e->line : 0, "not well-formed XML: %.*s", n ? n : 7, n ? e->message : "unknown");
+        s = rg_fail(RG_EFORMAT, why, e ? e->line : 0, "not well-formed XML: %.*s", n ? n : 7,
+                    n ? e->message : "unknown");
     } else if (!xmlDocGetRootElement(read)) {
         s = rg_fail(RG_EFORMAT, why, 1, "XML without a root element");
     }
@@ -171,7 +172,8 @@ const char *rg_xml_text(const rg_xml_node *n)
 char *rg_xml_string(const rg_memory *mem, const rg_xml_node *n)
 {
     size_t length = 0, at = 0;
-    for (const xmlNode *c = rg_xml_child_piece(n); c; c = c->next) length += rg_xml_piece(c) ? strlen(rg_xml_piece(c)) : 0;
+    for (const xmlNode *c = rg_xml_child_piece(n); c; c = c->next)
+        length += rg_xml_piece(c) ? strlen(rg_xml_piece(c)) : 0;
     char *s = rg_mem_array(mem, length + 1, 1);
     for (const xmlNode *c = rg_xml_child_piece(n); s && c; c = c->next) {
         if (!rg_xml_piece(c)) continue;

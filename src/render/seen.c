@@ -10,8 +10,8 @@ rg_status rg_seen_init(const rg_memory *mem, const rg_mesh *m, rg_gl_vertex *cor
     *s = (rg_seen){.mem = *mem, .mesh = m, .corner = corner};
     for (int32_t f = 0; f < m->nf; f++)
         for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) corner[j].mark = 1 + (uint32_t)f;
-    return RG_MEM_ARRAYS(mem, RG_ARRAY(s->box, nf), RG_ARRAY(s->front, nf), RG_ARRAY(s->wide, nf), RG_ARRAY(s->light, nf),
-                         RG_ARRAY(s->paper, nf + 1));
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(s->box, nf), RG_ARRAY(s->front, nf), RG_ARRAY(s->wide, nf),
+                         RG_ARRAY(s->light, nf), RG_ARRAY(s->paper, nf + 1));
 }
 
 void rg_seen_free(rg_seen *s)
@@ -19,13 +19,6 @@ void rg_seen_free(rg_seen *s)
     if (!s->mem.resize) return;
     RG_MEM_FREE(&s->mem, s->box, s->front, s->wide, s->light, s->paper);
     memset(s, 0, sizeof *s);
-}
-
-static rg_vec3 normal_of(const rg_mesh *m, int32_t f, const rg_vec3 *x)
-{
-    const rg_vec3 n = rg_pose_area(m, f, x);
-    const double length = rg_vec3_length(n);
-    return length > 0 ? rg_vec3_scale(1 / length, n) : (rg_vec3){0, 0, 1};
 }
 
 /* Where the lamps are, along the camera's right, up and back: one from the upper left, a weaker one from the right.
@@ -55,7 +48,7 @@ static void shade(rg_seen *s, int32_t f, const rg_shot *shot, rg_vec3 lift, cons
 {
     const rg_mesh *m = s->mesh;
     const rg_camera *c = shot->camera;
-    rg_vec3 n = normal_of(m, f, shot->x);
+    rg_vec3 n = rg_pose_normal(m, f, shot->x);
     const rg_vec3 at = rg_vec3_add(shot->x[m->facet_vertex[m->facet_start[f]]], lift);
     s->front[f] = rg_vec3_dot(n, rg_vec3_sub(c->eye, at)) >= 0;
     if (!s->front[f]) n = rg_vec3_scale(-1, n);

@@ -9,8 +9,11 @@
 static const double DASH = 0.01;
 
 typedef struct kind { char assignment; const char *layer, *dashes; int colour; } kind;
-static const kind KINDS[] = {{RG_BORDER, "cut", "CONTINUOUS", 3}, {RG_MOUNTAIN, "score-mountain", "DASHDOT", 1}, {RG_VALLEY, "score-valley", "DASHED", 5},
-                             {RG_UNASSIGNED, "score-unassigned", "DOT", 6}, {RG_FLAT, "aux", "HIDDEN", 8}};
+static const kind KINDS[] = {{RG_BORDER, "cut", "CONTINUOUS", 3},
+                             {RG_MOUNTAIN, "score-mountain", "DASHDOT", 1},
+                             {RG_VALLEY, "score-valley", "DASHED", 5},
+                             {RG_UNASSIGNED, "score-unassigned", "DOT", 6},
+                             {RG_FLAT, "aux", "HIDDEN", 8}};
 enum { MOST_KINDS = sizeof KINDS / sizeof *KINDS };
 
 /* Lengths of dashes, in DASH; negative: not drawn, 0: a dot. */
@@ -36,7 +39,8 @@ static void pair(FILE *out, int code, double x)
 /* $INSUNITS; 0: none. */
 static int unit_code(double metres)
 {
-    static const struct { const char *name; int code; } codes[] = {{"in", 1}, {"mm", 4}, {"cm", 5}, {"m", 6}, {"um", 13}, {"nm", 12}};
+    static const struct { const char *name; int code; } codes[] = {{"in", 1}, {"mm", 4}, {"cm", 5},
+                                                                   {"m", 6}, {"um", 13}, {"nm", 12}};
     const char *name = rg_unit_name(metres);
     for (size_t i = 0; name && i < sizeof codes / sizeof *codes; i++)
         if (strcmp(name, codes[i].name) == 0) return codes[i].code;
@@ -55,8 +59,8 @@ static void tables(FILE *out, double dash)
         for (int k = 0; k < d->count; k++) pair(out, 49, d->length[k] * dash);
     }
     fprintf(out, "  0\nENDTAB\n  0\nTABLE\n  2\nLAYER\n 70\n%d\n", MOST_KINDS);
-    for (int i = 0; i < MOST_KINDS; i++)
-        fprintf(out, "  0\nLAYER\n  2\n%s\n 70\n0\n 62\n%d\n  6\n%s\n", KINDS[i].layer, KINDS[i].colour, KINDS[i].dashes);
+    for (const kind *k = KINDS; k < KINDS + MOST_KINDS; k++)
+        fprintf(out, "  0\nLAYER\n  2\n%s\n 70\n0\n 62\n%d\n  6\n%s\n", k->layer, k->colour, k->dashes);
     fputs("  0\nENDTAB\n  0\nENDSEC\n", out);
 }
 

@@ -64,7 +64,8 @@ static int among(const char *key, const char *const *keys)
 /* Whether what a key of the old frame says is still so. */
 static int holds(const rg_fold_sheet *s, const char *key, const rg_value *v)
 {
-    static const char *const topology[] = {"vertices_vertices", "vertices_edges", "vertices_faces", "faces_faces", NULL};
+    static const char *const topology[] = {"vertices_vertices", "vertices_edges", "vertices_faces", "faces_faces",
+                                           NULL};
     const int all = s->same_vertices && s->same_edges && s->same_faces;
     if (depth(v, RG_JSON_DEPTH) >= RG_JSON_DEPTH - 1) return 0;
     if (among(key, topology) || strcmp(key, "file_frames") == 0) return all;
@@ -88,9 +89,10 @@ int32_t rg_fold_put_rest(rg_json *j, const rg_value *frame, const rg_fold_sheet 
     for (const void *k = NULL; (k = rg_value_next(frame, k));) {
         const char *key = rg_value_key(k);
         if (among(key, ours)) continue;
-        const int is_old = strcmp(key, "edges_lengths") == 0 && rg_value_get(frame, "edges_length"); /* it has the new one too */
-        if (is_old || !holds(s, key, rg_value_under(k))) lost++;
-        else put(j, strcmp(key, "edges_lengths") == 0 ? "edges_length" : key, rg_value_under(k), 0); /* its name in 1.0 */
+        const int is_old = strcmp(key, "edges_lengths") == 0; /* a name of 1.0 */
+        const int is_twice = is_old && rg_value_get(frame, "edges_length");
+        if (is_twice || !holds(s, key, rg_value_under(k))) lost++;
+        else put(j, is_old ? "edges_length" : key, rg_value_under(k), 0);
     }
     return lost;
 }
@@ -189,7 +191,8 @@ rg_status rg_fold_write(const rg_lines *l, const rg_fold_sheet *sheet, const rg_
     if (sheet->nf > 0) s = put_faces(&j, l, sheet);
     if (l->metres > 0 && rg_unit_name(l->metres) && !rg_value_get(l->frame, "frame_unit"))
         rg_json_string(&j, "frame_unit", rg_unit_name(l->metres));
-    if (sheet->vertex_source) rg_fold_put_source(&j, "rigami:vertices_source", sheet->vertex_source, sheet->nv, sheet->nv);
+    if (sheet->vertex_source)
+        rg_fold_put_source(&j, "rigami:vertices_source", sheet->vertex_source, sheet->nv, sheet->nv);
     if (sheet->edge_source) rg_fold_put_source(&j, "rigami:edges_source", sheet->edge_source, sheet->ne, sheet->ne);
     *lost = rg_fold_put_rest(&j, l->frame, sheet, OURS);
     rg_json_close(&j);

@@ -67,7 +67,8 @@ static void add(entry *e, const char *s)
 
 static void add_property(entry *e, const char *name, const char *opening, const char *value, const char *closing)
 {
-    const char *part[] = {"       <void property=\"", name, "\">\n        ", opening, value, closing, "\n       </void>\n"};
+    const char *part[] = {"       <void property=\"", name, "\">\n        ", opening, value, closing,
+                          "\n       </void>\n"};
     for (int i = 0; i < 7; i++) add(e, part[i]);
 }
 
@@ -85,9 +86,10 @@ static void line(writer *w, int32_t index, const rg_line *l)
     static const char letters[] = "FBMVU....C"; /* by type code */
     const char *type = strchr(letters, l->assignment);
     entry e;
-    e.n = (size_t)snprintf(e.text, sizeof e.text, "     <void index=\"%d\">\n      <object class=\"oripa.OriLineProxy\">\n",
-                           (int)index);
-    if (type && type != letters) add_property(&e, "type", "<int>", (char[]){(char)('0' + (type - letters)), 0}, "</int>");
+    e.n = (size_t)snprintf(e.text, sizeof e.text,
+                           "     <void index=\"%d\">\n      <object class=\"oripa.OriLineProxy\">\n", (int)index);
+    const char digit[] = {type ? (char)('0' + (type - letters)) : 0, 0};
+    if (type && type != letters) add_property(&e, "type", "<int>", digit, "</int>");
     add_coordinate(&e, "x0", l->a.x);
     add_coordinate(&e, "x1", l->b.x);
     add_coordinate(&e, "y0", -l->a.y);
@@ -142,7 +144,7 @@ static void text(writer *w, const rg_memory *mem, const char *s, size_t n)
     for (char *c = copy; *c;) {
         const size_t bytes = rg_utf8_character((unsigned char *)c);
         if (bytes == 0) *c = '?';
-        else if (!rg_utf8_in_xml((unsigned char *)c, bytes)) memcpy(c, "\xEF\xBF\xBD", bytes); /* of three bytes: there are no others here */
+        else if (!rg_utf8_in_xml((unsigned char *)c, bytes)) memcpy(c, "\xEF\xBF\xBD", bytes); /* all here have three */
         c += bytes ? bytes : 1;
     }
     check(w, xmlTextWriterWriteString(w->xml, BAD_CAST copy));

@@ -85,7 +85,8 @@ static double open_drawing(FILE *out, const rg_lines *l)
             rg_number_print(c, high.x - low.x + 2 * margin), rg_number_print(d, high.y - low.y + 2 * margin));
     say(out, "<title>", l->title, "</title>\n");
     say(out, "<desc>", l->memo, "</desc>\n");
-    say(out, "<metadata><dc:creator xmlns:dc=\"http://purl.org/dc/elements/1.1/\">", l->author, "</dc:creator></metadata>\n");
+    say(out, "<metadata><dc:creator xmlns:dc=\"http://purl.org/dc/elements/1.1/\">", l->author,
+        "</dc:creator></metadata>\n");
     fputs("<g fill=\"none\" stroke-linecap=\"round\"", out);
     attribute(out, "stroke-width", STROKE * size);
     fputs(">\n", out);

@@ -63,7 +63,8 @@ rg_status rg_crossed_add(rg_crossed *c, const rg_linkage *P, rg_proximity *near,
         const rg_vec3 back = rg_vec3_scale(-1, h->axis);
         const support high[2] = {farthest(P, h->facet[0], h->axis), farthest(P, h->facet[1], h->axis)};
         const support low[2] = {farthest(P, h->facet[0], back), farthest(P, h->facet[1], back)};
-        const int up = high[0].at + low[1].at <= high[1].at + low[0].at ? 1 : 0; /* the one that is to go along the axis */
+        /* The one that is to go along the axis. */
+        const int up = high[0].at + low[1].at <= high[1].at + low[0].at ? 1 : 0;
         rg_close_pair at;
         if (!place(P, near, h->facet[up], &low[up], h->facet[!up], &high[!up], &at)) continue;
         rg_row *row = rg_nearest_add(q, 4, at.v, at.weight, h->axis);

@@ -42,12 +42,18 @@ typedef struct builder {
     int32_t lines;
 } builder;
 
-static int over(const builder *w, int32_t f, int32_t g) { return w->e->sides.over[(size_t)f * (size_t)w->m->nf + (size_t)g]; }
+static int over(const builder *w, int32_t f, int32_t g)
+{
+    return w->e->sides.over[(size_t)f * (size_t)w->m->nf + (size_t)g];
+}
 
 /* Where the order says so, whether they overlap there or not. */
 static int above(const builder *w, int32_t f, int32_t g) { return w->above(w->ctx, f, g); }
 
-static rg_vec2 towards(rg_vec2 a, rg_vec2 b, double t) { return (rg_vec2){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}; }
+static rg_vec2 towards(rg_vec2 a, rg_vec2 b, double t)
+{
+    return (rg_vec2){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+}
 
 static void cut(shape *s, rg_vec2 a, rg_vec2 b)
 {
@@ -228,11 +234,11 @@ static void find_behind(builder *w)
 {
     const rg_mesh *m = w->m;
     const rg_tree *t = &w->P->tree;
-    rg_sides *s = &w->e->sides;
+    rg_sides *sides = &w->e->sides;
     const rg_vec2 *x = w->e->x;
     for (int32_t v = 0; v < m->nv; v++)
         for (int32_t g = 0; g < m->nf; g++) {
-            unsigned char *flag = &s->corner_behind[(size_t)v * (size_t)m->nf + (size_t)g];
+            unsigned char *flag = &sides->corner_behind[(size_t)v * (size_t)m->nf + (size_t)g];
             const int32_t both[2] = {v, v};
             for (int32_t k = t->corner_start[v]; k < t->corner_start[v + 1] && !*flag && !has(w, g, v, v); k++)
                 *flag = (unsigned char)third_between(w, t->corner_facet[k], both, g, NULL, x[v]);
@@ -241,11 +247,13 @@ static void find_behind(builder *w)
         for (int32_t b = 0; b < a; b++) {
             const int32_t *v = m->edge[a], *u = m->edge[b];
             const double p = rg_vec2_turn(x[v[0]], x[v[1]], x[u[0]]), q = rg_vec2_turn(x[v[0]], x[v[1]], x[u[1]]);
-            if (!(p * q < 0) || !(rg_vec2_turn(x[u[0]], x[u[1]], x[v[0]]) * rg_vec2_turn(x[u[0]], x[u[1]], x[v[1]]) < 0)) continue;
-            unsigned char *flag = &s->edge_behind[(size_t)a * (size_t)m->ne + (size_t)b];
+            const double r = rg_vec2_turn(x[u[0]], x[u[1]], x[v[0]]), s = rg_vec2_turn(x[u[0]], x[u[1]], x[v[1]]);
+            if (!(p * q < 0) || !(r * s < 0)) continue;
+            const rg_vec2 at = towards(x[u[0]], x[u[1]], p / (p - q));
+            unsigned char *flag = &sides->edge_behind[(size_t)a * (size_t)m->ne + (size_t)b];
             for (int k = 0; k < 4 && !*flag; k++) {
                 const int32_t f = m->edge_facet[a][k / 2], g = m->edge_facet[b][k % 2];
-                if (f >= 0 && g >= 0) *flag = (unsigned char)third_between(w, f, v, g, u, towards(x[u[0]], x[u[1]], p / (p - q)));
+                if (f >= 0 && g >= 0) *flag = (unsigned char)third_between(w, f, v, g, u, at);
             }
         }
 }
@@ -311,6 +319,14 @@ static int all_in(const builder *w, const line *inner, const line *outer)
     return 1;
 }
 
+/* Flags: 1, one of these facets is over f; 2, one is under it. */
+static int sides_of(const builder *w, int32_t f, const int32_t *facet, int32_t n)
+{
+    int which = 0;
+    for (int32_t i = 0; i < n; i++) which |= over(w, facet[i], f) > 0 ? 1 : over(w, facet[i], f) < 0 ? 2 : 0;
+    return which;
+}
+
 /* Non-zero: at x, facets of the one are over those of the other, or a third one lies between: LAYER keeps them
  * apart. */
 static int are_apart(const builder *w, const int32_t *one, int32_t n, const line *l, rg_vec2 x)
@@ -320,9 +336,7 @@ static int are_apart(const builder *w, const int32_t *one, int32_t n, const line
             if (over(w, one[i], l->facet[k]) != 0) return 1;
     for (int32_t f = 0; f < w->m->nf; f++) {
         if (!covers(&w->triangle[f], x, ABOUT_INSIDE)) continue;
-        int mine = 0, its = 0;
-        for (int32_t i = 0; i < n; i++) mine |= over(w, one[i], f) > 0 ? 1 : over(w, one[i], f) < 0 ? 2 : 0;
-        for (int32_t k = 0; k < l->facets; k++) its |= over(w, l->facet[k], f) > 0 ? 1 : over(w, l->facet[k], f) < 0 ? 2 : 0;
+        const int mine = sides_of(w, f, one, n), its = sides_of(w, f, l->facet, l->facets);
         if (((mine & 1) && (its & 2)) || ((mine & 2) && (its & 1))) return 1;
     }
     return 0;
