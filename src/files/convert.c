@@ -96,8 +96,9 @@ static int32_t without_spurs(const rg_faces *f, int32_t k, int32_t *half)
 static rg_status find_faces(plane *p, const rg_memory *mem)
 {
     const int32_t ne = p->g.ne;
-    if (RG_MEM_ARRAYS(mem, RG_ARRAY(p->face_start, (size_t)p->faces.count + 1), RG_ARRAY(p->face_vertex, 2 * (size_t)ne),
-                      RG_ARRAY(p->face_edge, 2 * (size_t)ne)) != RG_OK) return RG_ENOMEM;
+    const size_t faces = (size_t)p->faces.count, sides = 2 * (size_t)ne;
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(p->face_start, faces + 1), RG_ARRAY(p->face_vertex, sides),
+                      RG_ARRAY(p->face_edge, sides)) != RG_OK) return RG_ENOMEM;
     for (int32_t k = 0, at = 0; k < p->faces.count; k++) {
         if (!(p->faces.area[k] > 0)) continue;
         const int32_t n = without_spurs(&p->faces, k, p->face_edge + at);

@@ -112,8 +112,9 @@ static rg_status read_frames(given *g)
     rg_motion *m = g->m;
     const size_t nv = (size_t)m->mesh.nv, N = (size_t)m->mesh.N;
     rg_vec3 *normal;
-    rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(normal, (size_t)m->mesh.nf), RG_ARRAY(m->space, (size_t)g->count * nv),
-                                RG_ARRAY(m->rho, (size_t)g->count * N), RG_ARRAY(m->frame, (size_t)g->count));
+    const size_t nf = (size_t)m->mesh.nf, frames = (size_t)g->count;
+    rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(normal, nf), RG_ARRAY(m->space, frames * nv),
+                                RG_ARRAY(m->rho, frames * N), RG_ARRAY(m->frame, frames));
     for (int32_t k = 0; s == RG_OK && k < g->count; k++) {
         rg_vec3 *x = m->space + (size_t)k * nv;
         double *rho = m->rho + (size_t)k * N;

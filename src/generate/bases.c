@@ -90,5 +90,6 @@ void rg_four_crane_draw(rg_sketch *d)
         rg_drawing_line(d, (rg_vec2){0, 0}, (rg_vec2){2 * side, 0}, RG_MOUNTAIN);
         rg_drawing_line(d, (rg_vec2){0, 0}, (rg_vec2){0, 2 * side}, RG_MOUNTAIN);
     }
-    rg_drawing_path(d, (rg_vec2[]){{-2, -2}, {0, -2}, {2, -2}, {2, 0}, {2, 2}, {0, 2}, {-2, 2}, {-2, 0}, {-2, -2}}, 9, RG_BORDER);
+    rg_drawing_path(d, (rg_vec2[]){{-2, -2}, {0, -2}, {2, -2}, {2, 0}, {2, 2}, {0, 2}, {-2, 2}, {-2, 0}, {-2, -2}}, 9,
+                    RG_BORDER);
 }

@@ -53,7 +53,8 @@ void rg_closed_split_draw(rg_sketch *d)
     }
     draw_ring(d, &r, on, over, (const char[]){RG_MOUNTAIN, RG_MOUNTAIN, RG_MOUNTAIN});
     for (int k = 0; k < 3; k++) {
-        const rg_vec2 a = r.on[k], b = r.over[k], corner = rg_meet(on[k], (rg_vec2){-a.y, a.x}, over[k], (rg_vec2){-b.y, b.x});
+        const rg_vec2 a = r.on[k], b = r.over[k];
+        const rg_vec2 corner = rg_meet(on[k], (rg_vec2){-a.y, a.x}, over[k], (rg_vec2){-b.y, b.x});
         rg_drawing_path(d, (rg_vec2[]){on[k], corner, over[k], on[(k + 1) % 3]}, 4, RG_BORDER);
     }
 }
@@ -66,7 +67,8 @@ void rg_closed_adjust_draw(rg_sketch *d)
     const rg_vec2 v[3] = {{0, 0}, {1, 0}, {0, 1 / sqrt(3)}};
     const ring r = ring_of(v);
     const rg_vec2 left = rg_meet(v[2], r.over[2], v[0], r.on[0]), top = rg_meet(v[1], r.over[1], v[2], r.on[2]);
-    const rg_vec2 below = along(v[0], r.over[0], 1), right = along(v[1], r.on[1], 1), corner = {0.75 * left.x, 0.75 * below.y};
+    const rg_vec2 below = along(v[0], r.over[0], 1), right = along(v[1], r.on[1], 1);
+    const rg_vec2 corner = {0.75 * left.x, 0.75 * below.y};
     draw_ring(d, &r, (rg_vec2[]){left, right, top}, (rg_vec2[]){below, top, left},
               (const char[]){RG_MOUNTAIN, RG_MOUNTAIN, RG_VALLEY});
     rg_drawing_path(d, (rg_vec2[]){left, corner, below, right, top, left}, 6, RG_BORDER);

@@ -65,14 +65,16 @@ static void draw_half(rg_sketch *d, int half, int folds)
     const rg_vec2 S = rg_meet(A, direction(22.5), O, UP), E = {-S.y, 0}; /* the bird base's vertices beside B */
     const rg_vec2 W = rg_meet(A, direction(11.25), S, rg_vec2_sub(B, S));
     const rg_vec2 Q = rg_meet(A, direction(33.75), O, UP);
-    const rg_vec2 R = rg_meet(Q, rg_vec2_sub(B, Q), S, rg_vec2_sub(E, S)); /* the fold is mirrored at S - O: it heads for B */
+    /* The fold is mirrored at S - O: it heads for B. */
+    const rg_vec2 R = rg_meet(Q, rg_vec2_sub(B, Q), S, rg_vec2_sub(E, S));
     draw_ray(d, half, 0, folds, B, RG_BORDER);
     draw_ray(d, half, 1, folds, W, RG_MOUNTAIN);
     draw_ray(d, half, 2, folds, S, RG_VALLEY);
     draw_ray(d, half, 3, folds, Q, RG_VALLEY);
     if (half % 2 == 0) draw_ray(d, half, RAYS, folds, O, RG_MOUNTAIN);
     for (int f = 0; f < folds; f++)
-        for (int k = 0; k < RAYS; k++) line(d, half, crossing(&neck[f], k), crossing(&neck[f], k + 1), neck[f].assignment[k]);
+        for (int k = 0; k < RAYS; k++)
+            line(d, half, crossing(&neck[f], k), crossing(&neck[f], k + 1), neck[f].assignment[k]);
     line(d, half, W, R, RG_VALLEY);
     line(d, half, R, Q, RG_MOUNTAIN);
     line(d, half, S, W, RG_VALLEY);

@@ -45,9 +45,10 @@ enum { KINDS = sizeof kinds / sizeof *kinds };
 
 const char *const *rg_generate_kinds(void)
 {
-    static const char *const names[] = {"miura", "waterbomb", "hypar", "boxpleat", "yoshimura", "resch", "kresling", "random",
-                                        "preliminary", "waterbomb-base", "fish", "bird", "frog", "four-crane", "open-sink",
-                                        "crane", "tatou", "closed-split", "closed-adjust", NULL};
+    static const char *const names[] = {"miura", "waterbomb", "hypar", "boxpleat", "yoshimura", "resch", "kresling",
+                                        "random", "preliminary", "waterbomb-base", "fish", "bird", "frog",
+                                        "four-crane", "open-sink", "crane", "tatou", "closed-split", "closed-adjust",
+                                        NULL};
     return names;
 }
 
@@ -102,7 +103,8 @@ rg_status rg_generate_example(const char *name, const rg_example *e, const rg_me
     if (s == RG_OK) s = check_number(name, 'M', &k->m, &m, why);
     if (s == RG_OK) s = check_angle(k, &angle, why);
     if (s != RG_OK) return s;
-    if (e->cell > 0 && k->part == 0) return rg_fail(RG_EARG, why, 0, "%s has no parts of one size: say how large the sheet is", name);
+    if (e->cell > 0 && k->part == 0)
+        return rg_fail(RG_EARG, why, 0, "%s has no parts of one size: say how large the sheet is", name);
     rg_sketch d = {.lines = out, .n = n, .m = m, .angle = angle};
     k->draw(&d);
     rg_drawing_fit(&d, e->side, k->part > 0 ? e->cell / k->part : 0);
@@ -113,7 +115,8 @@ rg_status rg_generate_example(const char *name, const rg_example *e, const rg_me
     return rg_fail(s, why, 0, "out of memory");
 }
 
-rg_status rg_generate_lines(const char *name, int32_t n, int32_t m, double angle, const rg_memory *mem, rg_lines *out, rg_diag *why)
+rg_status rg_generate_lines(const char *name, int32_t n, int32_t m, double angle, const rg_memory *mem, rg_lines *out,
+                            rg_diag *why)
 {
     return rg_generate_example(name, &(rg_example){.n = n, .m = m, .angle = angle}, mem, out, why);
 }

@@ -16,7 +16,8 @@ void rg_tatou_draw(rg_sketch *d)
 {
     for (int q = 0; q < 4; q++) {
         const rg_vec2 corner = turned((rg_vec2){1, 0}, q);
-        const rg_vec2 far = turned((rg_vec2){1, 2}, q), near = turned((rg_vec2){2, 0}, q), sheet = turned((rg_vec2){2, 2}, q);
+        const rg_vec2 far = turned((rg_vec2){1, 2}, q), near = turned((rg_vec2){2, 0}, q);
+        const rg_vec2 sheet = turned((rg_vec2){2, 2}, q);
         rg_drawing_line(d, corner, turned((rg_vec2){0, 1}, q), RG_VALLEY);
         rg_drawing_line(d, corner, far, RG_MOUNTAIN);
         rg_drawing_line(d, corner, near, RG_VALLEY);

@@ -24,7 +24,8 @@ void rg_yoshimura_draw(rg_sketch *d)
             for (int side = -1; side <= 1; side += 2) {
                 const double top = x + side * 0.5;
                 const int whole = j % 2 == 0 || (x > 0 && x < d->n); /* not the corner of a half triangle */
-                if (whole && top >= 0 && top <= d->n) rg_drawing_line(d, (rg_vec2){x, y}, (rg_vec2){top, up}, RG_MOUNTAIN);
+                if (whole && top >= 0 && top <= d->n)
+                    rg_drawing_line(d, (rg_vec2){x, y}, (rg_vec2){top, up}, RG_MOUNTAIN);
             }
         }
     }

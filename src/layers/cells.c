@@ -110,8 +110,8 @@ static int has_edge(const rg_flat *f, const int32_t *edge, size_t n, int32_t g)
     return 0;
 }
 
-static rg_status walk_segments(rg_cells *c, const rg_mesh *m, const rg_flat *f, const box *of_facet, const rg_stop *stop,
-                               list *along, list *across)
+static rg_status walk_segments(rg_cells *c, const rg_mesh *m, const rg_flat *f, const box *of_facet,
+                               const rg_stop *stop, list *along, list *across)
 {
     rg_status s = RG_OK;
     box *of_edge = rg_mem_array(&c->mem, (size_t)m->ne, sizeof *of_edge);

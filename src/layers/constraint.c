@@ -47,7 +47,8 @@ static rg_status add(maker *w, rg_constraint_case c, const int32_t (*of)[2], int
 
 static rg_constraint_case case_of(rg_rule rule, const taco *p, int32_t third, int32_t fourth, int32_t edge, int32_t at)
 {
-    return (rg_constraint_case){.rule = rule, .facet = {p->a, p->b, third, fourth}, .edge = {p->edge, edge}, .segment = at};
+    return (rg_constraint_case){
+        .rule = rule, .facet = {p->a, p->b, third, fourth}, .edge = {p->edge, edge}, .segment = at};
 }
 
 static rg_status taco_taco(maker *w, const taco *p, const taco *q, int32_t at)

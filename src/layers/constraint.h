@@ -1,11 +1,11 @@
 /* constraint.h -- what creases that lie on each other, or run through facets, ask of the order of facets.
- * Source   H. Akitaya, E. Demaine, J. Ku et al., taco-taco, taco-tortilla, tortilla-tortilla conditions; transitivity is
- *          in pairs.h
+ * Source   H. Akitaya, E. Demaine, J. Ku et al., taco-taco, taco-tortilla, tortilla-tortilla conditions; transitivity
+ *          is in pairs.h
  * Uses  pairs.h        Used by  propagate.c
  *
- * A taco is two facets at a folded crease, on one side of its line; a tortilla goes on across the line, as one facet or as
- * two at a crease that stays flat. Let o(f, g) be +1 where g lies above f, -1 below. Then, all of these facets having a
- * common place:
+ * A taco is two facets at a folded crease, on one side of its line; a tortilla goes on across the line, as one facet or
+ * as two at a crease that stays flat. Let o(f, g) be +1 where g lies above f, -1 below. Then, all of these facets
+ * having a common place:
  *   taco A B, taco C D, one side     o(A,C) o(B,C) o(A,D) o(B,D) = 1    of C, D none or both lie between A and B
  *   taco A B, tortilla T             o(A,T) o(B,T) = 1                  T is not between A and B
  *   tortillas T T', U U'             o(T,U) o(T',U') = 1                they do not cross
@@ -27,7 +27,7 @@ typedef struct rg_constraint_case {
     rg_rule rule;
     /* taco A B, taco C D; taco A B, tortilla T (-1); tortilla T T', U U', or U and -1: one facet on both sides */
     int32_t facet[4];
-    int32_t edge[2];     /* of the mesh: that of the first two, and of the others; -1: none, it runs through the facet */
+    int32_t edge[2];     /* of the mesh: of the first two, and of the others; -1: none, it runs through the facet */
     int32_t segment;     /* of the cells, one of those along which it holds */
     int32_t pair[4], n;  /* 2 or 4 */
     signed char sign;    /* the product of their orders: +1 where the second facet of a pair lies above the first */

@@ -138,7 +138,8 @@ static void say_not_flat(rg_layers *l)
     const rg_vec2 a = own(l, l->mesh.X[v[0]]), b = own(l, l->mesh.X[v[1]]);
     l->info.state = RG_LAYERS_NOT_FLAT;
     rg_text(l->info.reason, sizeof l->info.reason,
-            "the crease from (%.6g, %.6g) to (%.6g, %.6g) ends neither flat nor folded by half a turn", a.x, a.y, b.x, b.y);
+            "the crease from (%.6g, %.6g) to (%.6g, %.6g) ends neither flat nor folded by half a turn", a.x, a.y,
+            b.x, b.y);
 }
 
 /* The product of the parts as decimal digits. */
@@ -207,8 +208,8 @@ static rg_status solve(rg_layers *l)
     return RG_OK;
 }
 
-rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, const rg_memory *mem, const rg_stop *stop,
-                            rg_layers **layers, rg_diag *why)
+rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, const rg_memory *mem,
+                            const rg_stop *stop, rg_layers **layers, rg_diag *why)
 {
     rg_layers *l = rg_mem_array(mem, 1, sizeof *l);
     rg_diag close = {0, ""};
@@ -232,9 +233,8 @@ rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, c
         if (s == RG_OK) s = solve(l);
         if (s == RG_EFORMAT) {
             s = RG_OK;
-            say_unsolved(l, rg_stop_asked(stop) ? "interrupted"
-                                                : "folded flat, lines are too many or too close together to tell what lies on "
-                                                  "what");
+            const char *crowded = "folded flat, lines are too many or too close together to tell what lies on what";
+            say_unsolved(l, rg_stop_asked(stop) ? "interrupted" : crowded);
         }
     }
     if (s != RG_OK) {

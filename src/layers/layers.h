@@ -28,8 +28,8 @@ struct rg_layers {
 
 /* Of a sheet whose creases end at angle[m->N], radians; NAN: not said. m: triangulated or not; it is copied. y_down:
  * the file's y runs the other way, in which places are told. RG_OK whatever is found, see l->info; RG_ENOMEM. */
-rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, const rg_memory *mem, const rg_stop *stop,
-                            rg_layers **layers, rg_diag *why);
+rg_status rg_layers_of_mesh(const rg_mesh *m, const double *angle, int y_down, const rg_memory *mem,
+                            const rg_stop *stop, rg_layers **layers, rg_diag *why);
 
 /* Sets l->orders.value to the order whose parts have the numbers which[l->parts.count] (NULL: all 0). RG_ENOMEM;
  * RG_EARG: there is none. Scratch of the handle is used: one thread at a time. */
@@ -48,10 +48,10 @@ static inline int rg_layers_above(const rg_layers *l, int32_t f, int32_t g)
 
 /* The same of facets i and j of the mesh that the layers were made of, which parts of the facets here may be. */
 int rg_layers_above_of_mesh(const rg_layers *l, int32_t i, int32_t j);
-/* level[l->flat.nf]: out, after a choice: 0 the lowest; every facet is higher than all that it lies on. Returns how many
- * levels there are. Where facets lie on each other in a circle, as the flaps of a closed box do, it is cut where few pairs
- * come to be the wrong way round: `cuts` (may be NULL) says how often. Two facets that overlap still have different levels.
- * RG_ENOMEM: -1. */
+/* level[l->flat.nf]: out, after a choice: 0 the lowest; every facet is higher than all that it lies on. Returns how
+ * many levels there are. Where facets lie on each other in a circle, as the flaps of a closed box do, it is cut where
+ * few pairs come to be the wrong way round: `cuts` (may be NULL) says how often. Two facets that overlap still have
+ * different levels. RG_ENOMEM: -1. */
 int32_t rg_layers_levels(const rg_layers *l, int32_t *level, int32_t *cuts);
 
 /* As the report says it. */

@@ -8,8 +8,8 @@
 typedef struct rg_pairs {
     rg_memory mem;
     int32_t nf, count, words;   /* facets, pairs, 64-bit words in a row of facets */
-    /* [nf] where a facet stands in a row, and which facet stands there: facets that are over one place stand together, so
-     * that common places are few words */
+    /* [nf] where a facet stands in a row, and which facet stands there: facets that are over one place stand together,
+     * so that common places are few words */
     int32_t *bit, *of_bit;
     int32_t (*facet)[2];        /* [count] the lower one first */
     uint64_t *row;              /* [nf][words] bit of g in row f: f and g overlap */

@@ -1,6 +1,6 @@
 /* undriven.h -- which of the creases without a target are folded where the sheet lies flat, and which are flat.
- * Source   Kawasaki's theorem: round a vertex that folds flat, angles between folded creases, with signs in turn, add up to
- *          nothing
+ * Source   Kawasaki's theorem: round a vertex that folds flat, angles between folded creases, with signs in turn, add
+ *          up to nothing
  * Uses  mesh.h        Used by  flat.c */
 #ifndef RG_LAYERS_UNDRIVEN_H
 #define RG_LAYERS_UNDRIVEN_H

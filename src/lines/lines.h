@@ -68,7 +68,7 @@ typedef struct rg_lines {
     const rg_stop *stop; /* asked now and then while lines are read; NULL: nobody */
     int32_t unasked; /* lines since */
     int32_t *vertex; /* ... and the numbers of each line's two ends there, [2 count] */
-    int32_t faces, *face_start, *face_vertex; /* ... and the faces listed there: vertices face_vertex[face_start[f]] on */
+    int32_t faces, *face_start, *face_vertex; /* ... and the faces listed there: face_vertex[face_start[f]] and on */
 } rg_lines;
 
 void rg_lines_init(rg_lines *l, const rg_memory *mem);

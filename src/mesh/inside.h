@@ -5,8 +5,8 @@
 
 #include "mesh/mesh.h"
 
-/* flag[along m->facet_vertex]: out, non-zero where the corner is the inside angle of a closed triple of creases as drawn;
- * a sector that an added crease runs through is split already and none. RG_ENOMEM. */
+/* flag[along m->facet_vertex]: out, non-zero where the corner is the inside angle of a closed triple of creases as
+ * drawn; a sector that an added crease runs through is split already and none. RG_ENOMEM. */
 rg_status rg_inside_find(const rg_mesh *m, unsigned char *flag);
 
 #endif

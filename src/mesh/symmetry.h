@@ -45,8 +45,8 @@ int32_t rg_symmetry_subgroups(const rg_symmetry *G, rg_subgroup *list, int32_t m
 /* Facets as rg_triangulate_some cuts them, so that *out has the symmetry too: of every orbit the first facet is cut, if
  * which[that one], and the others are its images. One that some of G take to itself is cut across by a diagonal and all
  * its images at once, the shortest that do not cross each other; what no such diagonals divide stays whole, which loses
- * nothing: the corners of a facet across a mirror come in pairs whose joins are square to the mirror plane, so they are in
- * one plane in every state that has the symmetry. G NULL, or of order 1: as without. */
+ * nothing: the corners of a facet across a mirror come in pairs whose joins are square to the mirror plane, so they are
+ * in one plane in every state that has the symmetry. G NULL, or of order 1: as without. */
 rg_status rg_triangulate_orbits(const rg_mesh *m, const rg_symmetry *G, const unsigned char *which, int shorter,
                                 rg_mesh *out);
 

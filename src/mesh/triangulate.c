@@ -366,8 +366,9 @@ static rg_status triangulate(const rg_mesh *m, const rg_symmetry *G, int split, 
     out->ne = m->ne;
     out->added = m->added;
     rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(out->X, (size_t)m->nv), RG_ARRAY(out->edge, ne),
-                                RG_ARRAY(out->assignment, ne), RG_ARRAY(out->target, ne), RG_ARRAY(out->facet_start, nf + 1),
-                                RG_ARRAY(out->facet_vertex, corners), RG_ARRAY(out->facet_edge, corners));
+                                RG_ARRAY(out->assignment, ne), RG_ARRAY(out->target, ne),
+                                RG_ARRAY(out->facet_start, nf + 1), RG_ARRAY(out->facet_vertex, corners),
+                                RG_ARRAY(out->facet_edge, corners));
     if (s == RG_OK && m->still) s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(out->still, ne));
     if (s == RG_OK) {
         memcpy(out->X, m->X, (size_t)m->nv * sizeof *out->X);

@@ -43,8 +43,8 @@ static int has_border(const rg_graph *g, const rg_faces *f, int32_t piece)
 }
 
 /* The outer border of each piece: its edges, its vertices. More than one piece, a vertex passed twice: not a disk. */
-static void find_rim(const rg_graph *g, const rg_faces *f, unsigned char *rim, unsigned char *outer, const rg_lines *lines,
-                     rg_pattern_info *info)
+static void find_rim(const rg_graph *g, const rg_faces *f, unsigned char *rim, unsigned char *outer,
+                     const rg_lines *lines, rg_pattern_info *info)
 {
     int32_t sheet = -1, other = -1;
     for (int32_t k = 0; k < f->count; k++) {
@@ -56,7 +56,7 @@ static void find_rim(const rg_graph *g, const rg_faces *f, unsigned char *rim, u
             other = k;
         }
     }
-    for (int vertices = 0; vertices < 2; vertices++) /* a line passed twice makes a vertex passed twice: it comes first */
+    for (int vertices = 0; vertices < 2; vertices++) /* what passes a line twice passes vertices so: first */
         for (int32_t k = 0; k < f->count; k++) {
             if (!(f->area[k] < 0)) continue;
             int32_t h = f->first[k];
@@ -130,8 +130,8 @@ static int join(const rg_graph *g, int32_t v, const rg_edge *e, const rg_edge *f
     return 1;
 }
 
-/* swell[e]: at most how far what was dissolved before is off edge e. It adds up, so that the many vertices of an arc, each
- * hardly off its neighbours' line, do not become one chord. */
+/* swell[e]: at most how far what was dissolved before is off edge e. It adds up, so that the many vertices of an arc,
+ * each hardly off its neighbours' line, do not become one chord. */
 static rg_status dissolve(rg_graph *g, double tol)
 {
     double *swell;

@@ -290,8 +290,8 @@ static rg_status flatten(reader *r)
         const int32_t v = pairs ? pair[2 * p.at] : 0, w = pairs ? pair[2 * p.at + 1] : 0;
         rg_mem_free(&r->out->mem, pair);
         r->is_folded = 1;
-        return bad(r, "vertices_coords: a folded form, its vertices do not lie in one plane: flat, the line from vertex %d "
-                      "to %d would be %.3g shorter; a crease pattern is needed", (int)v, (int)w, p.change);
+        return bad(r, "vertices_coords: a folded form, its vertices do not lie in one plane: flat, the line from "
+                      "vertex %d to %d would be %.3g shorter; a crease pattern is needed", (int)v, (int)w, p.change);
     }
     rg_mem_free(&r->out->mem, pair);
     if (!(r->X = rg_mem_array(&r->out->mem, (size_t)r->nv, sizeof *r->X))) return RG_ENOMEM;
@@ -300,8 +300,8 @@ static rg_status flatten(reader *r)
         r->X[i] = (rg_vec2){rg_vec3_dot(p.e1, r->space[i]), r->out->y_down ? -y : y};
     }
     if (flat == 2) return RG_OK;
-    return warn(r, "vertices_coords: they are off a plane by up to %.3g, and taken for flat: no line is changed by more "
-                   "than %.3g", p.off, p.change);
+    return warn(r, "vertices_coords: they are off a plane by up to %.3g, and taken for flat: no line is changed by "
+                   "more than %.3g", p.off, p.change);
 }
 
 /* --------------------------------------------------------------------------------------------------- faces ---- */
@@ -515,7 +515,8 @@ static rg_status warn_of_states(reader *r)
         last = (int32_t)i + 1;
     }
     if (states == 0) return RG_OK;
-    return warn(r, "file_frames: %d frames are states of the sheet that are not looked at; --frame %d-%d goes through them",
+    return warn(r, "file_frames: %d frames are states of the sheet that are not looked at; --frame %d-%d goes through "
+                   "them",
                 (int)states, (int)first, (int)last);
 }
 
@@ -674,7 +675,7 @@ rg_status rg_fold_read(const void *bytes, size_t size, const rg_memory *mem, con
     if (s == RG_EFORMAT && root && why) find_line(&r, why);
     for (int32_t i = 0; s == RG_OK && i < out->warnings; i++) find_line(&r, &out->warning[i]);
     if (s == RG_OK && keep) {
-        static const char *const own[] = {"file_frames", "frame_parent", "frame_inherit"}; /* of one of several frames */
+        static const char *const own[] = {"file_frames", "frame_parent", "frame_inherit"}; /* of one of several */
         for (int i = 0; r.part[0] > 0 && i < 3; i++) rg_value_drop(r.frame, own[i]);
         out->vertex = r.E;
         out->frame = r.frame;

@@ -33,7 +33,8 @@ rg_status rg_kinds_check(const rg_reading *s, rg_diag *why)
     for (int i = 0; i < s->kinds; i++)
         if (!rg_kinds_letter(s, i) || s->kind[i][0] == '=')
             return rg_fail(RG_EARG, why, 0,
-                           "\"%.60s\" is not KEY=KIND, KIND one of border, cut, mountain, valley, unassigned, aux, none",
+                           "\"%.60s\" is not KEY=KIND, KIND one of border, cut, mountain, valley, unassigned, aux, "
+                           "none",
                            s->kind[i]);
     return RG_OK;
 }

@@ -221,8 +221,9 @@ rg_status rg_camera_follow(const rg_stage *stage, const rg_picture *p, rg_camera
     aim(&t.camera, stage->azimuth, stage->elevation, stage->roll);
     t.camera.scale = p->zoom * scale;
     t.wide = (1 - 2 * MARGIN) * t.camera.half_width / scale, t.high = (1 - 2 * MARGIN) * t.camera.half_height / scale;
-    s = RG_MEM_ARRAYS(mem, RG_ARRAY(t.x, (size_t)stage->motion->mesh.nv), RG_ARRAY(t.at[0], frames), RG_ARRAY(t.at[1], frames),
-                      RG_ARRAY(t.at[2], frames), RG_ARRAY(t.at[3], frames), RG_ARRAY(t.work, frames));
+    s = RG_MEM_ARRAYS(mem, RG_ARRAY(t.x, (size_t)stage->motion->mesh.nv), RG_ARRAY(t.at[0], frames),
+                      RG_ARRAY(t.at[1], frames), RG_ARRAY(t.at[2], frames), RG_ARRAY(t.at[3], frames),
+                      RG_ARRAY(t.work, frames));
     s = s == RG_OK ? follow(&t, p, camera, why) : rg_fail(s, why, 0, "out of memory for the camera");
     RG_MEM_FREE(mem, t.x, t.at[0], t.at[1], t.at[2], t.at[3], t.work);
     return s;

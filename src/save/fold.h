@@ -16,7 +16,7 @@ typedef struct rg_fold_sheet {
     const double *angle;       /* [ne] degrees */
     const int32_t *face_start; /* [nf + 1] into the two that follow */
     const int32_t *face_vertex, *face_edge;    /* edge k runs from vertex k to the next one */
-    const int32_t *vertex_source, *edge_source; /* [nv], [ne] their numbers in lines.frame, -1: not there; NULL: the same */
+    const int32_t *vertex_source, *edge_source; /* [nv], [ne] their numbers in lines.frame, -1: none; NULL: the same */
     int same_vertices, same_edges, same_faces; /* numbered as in lines.frame: what else is said there of them holds */
 } rg_fold_sheet;
 

@@ -1,17 +1,17 @@
 /* end.h -- what must hold where the flat-folded end begins to open: rows from its order of layers.
  * Uses  linkage.h sides.h nearest.h        Used by  open.c stride.c
  *
- * At the flat end all facets lie in one plane, and only the order tells them apart. To first order in how far creases are
- * open, what must hold is linear in positions; rows that lie in the plane speak at second order. With A under B the facets
- * of a folded crease K, m in the plane, across K, into the paper:
+ * At the flat end all facets lie in one plane, and only the order tells them apart. To first order in how far creases
+ * are open, what must hold is linear in positions; rows that lie in the plane speak at second order. With A under B the
+ * facets of a folded crease K, m in the plane, across K, into the paper:
  *
- *   LAYER   two facets overlap                               up . (upper - lower) >= 0   at the corners of what they share,
- *                                                                    unless a third facet lies between them there
+ *   LAYER   two facets overlap                               up . (upper - lower) >= 0   at the corners of what they
+ *                                                            share, unless a third facet lies between them there
  *   INSIDE  a folded crease, border or corner on K, with     m . (it - K) >= 0
  *           facets between A and B
  *   ROUND   a corner on K with facets over B and under A     m . (K - it) >= 0
- *   BESIDE  paper on the two sides of one line, and no       m . (K - it) >= 0           (a choice: that they pass over each
- *           third facet that lies between them                                            other is as well possible)
+ *   BESIDE  paper on the two sides of one line, and no       m . (K - it) >= 0           (a choice: that they pass
+ *           third facet that lies between them               over each other is as well possible)
  *
  * What a crease's two facets ask of a facet over or under both follows from LAYER. Vectors are carried by a facet, as a
  * stack whose creases are still closed turns as a whole. */
@@ -36,8 +36,8 @@ typedef struct rg_end_row {
 } rg_end_row;
 
 typedef struct rg_end_rules {
-    int more; /* rows that are sufficient but not always needed: ROUND, and BESIDE for corners, too; and BESIDE of edges is
-               * left out where LAYER keeps the two apart */
+    int more; /* rows that are sufficient but not always needed: ROUND, and BESIDE for corners, too; and BESIDE of edges
+               * is left out where LAYER keeps the two apart */
     int keep; /* the rows are kept while it unfolds, as long as they are of what lies there */
 } rg_end_rules;
 

@@ -34,7 +34,8 @@ rg_status rg_interior_init(rg_interior *q, const rg_memory *mem, int32_t n)
     q->mem = *mem;
     q->n = n;
     const size_t all = (size_t)n;
-    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(q->g, all), RG_ARRAY(q->v, all), RG_ARRAY(q->off, all), RG_ARRAY(q->dv, all));
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(q->g, all), RG_ARRAY(q->v, all), RG_ARRAY(q->off, all),
+                                RG_ARRAY(q->dv, all));
     if (s == RG_OK) s = rg_rows_init(&q->J, mem);
     if (s == RG_OK) s = rg_rows_init(&q->E, mem);
     if (s == RG_OK) s = rg_rows_init(&q->R, mem);
@@ -71,16 +72,25 @@ void rg_interior_clear(rg_interior *q)
 
 rg_status rg_interior_reserve(rg_interior *q, int32_t m)
 {
-    double **vector[] = {&q->c, &q->d, &q->x, &q->slack, &q->dx, &q->dslack, &q->residual, &q->both, &q->before, &q->inverse};
-    rg_status s = RG_MEM_GROW(&q->mem, q->of, q->rows_room[10], (size_t)m);
-    for (int i = 0; i < 10 && s == RG_OK; i++) s = rg_mem_grow(&q->mem, (void **)vector[i], &q->rows_room[i], (size_t)m, sizeof(double));
+    if ((size_t)m <= q->rows_room) return RG_OK;
+    const size_t n = (size_t)m + (size_t)m / 2;
+    RG_MEM_FREE(&q->mem, q->of, q->c, q->d, q->x, q->slack, q->dx, q->dslack, q->residual, q->both, q->before,
+                q->inverse);
+    const rg_status s = RG_MEM_ARRAYS(&q->mem, RG_ARRAY(q->of, n), RG_ARRAY(q->c, n), RG_ARRAY(q->d, n),
+                                      RG_ARRAY(q->x, n), RG_ARRAY(q->slack, n), RG_ARRAY(q->dx, n), RG_ARRAY(q->dslack, n),
+                                      RG_ARRAY(q->residual, n), RG_ARRAY(q->both, n), RG_ARRAY(q->before, n),
+                                      RG_ARRAY(q->inverse, n));
+    q->rows_room = s == RG_OK ? n : 0;
     return s;
 }
 
 /* --------------------------------------------------------------------------------------------- G + E^T E / eps ---- */
 
 /* Of one factorisation, and of laying its numbers down. */
-static double numbers(const rg_normal *N, const rg_slots *rows) { return N->L.S.flops / 2 + LAYING * (N->L.S.entries + (double)rows->used); }
+static double numbers(const rg_normal *N, const rg_slots *rows)
+{
+    return N->L.S.flops / 2 + LAYING * (N->L.S.entries + (double)rows->used);
+}
 
 /* The numbers of one factorisation that do not depend on rows of R. */
 static void lay(const rg_interior *q, const rg_normal *N, const rg_slots *J, const rg_slots *E, double *x)
@@ -114,15 +124,15 @@ static rg_status lay_few(rg_interior *q)
         s = rg_normal_analyse(&q->few, lists, 2);
         if (s == RG_OK) s = rg_normal_find(&q->few, &q->J, &q->few_J, &fits);
         if (s == RG_OK) s = rg_normal_find(&q->few, &q->E, &q->few_E, &fits);
-        if (s == RG_OK && !(q->base = rg_mem_array(&q->mem, rg_normal_numbers(&q->few), sizeof *q->base))) s = RG_ENOMEM;
+        const size_t edges = (size_t)q->E.count;
+        if (s == RG_OK)
+            s = RG_MEM_ARRAYS(&q->mem, RG_ARRAY(q->base, rg_normal_numbers(&q->few)), RG_ARRAY(q->y, edges),
+                              RG_ARRAY(q->dy, edges), RG_ARRAY(q->Ev, edges));
         if (s != RG_OK) return s;
     }
-    double **vector[] = {&q->y, &q->dy, &q->Ev};
-    for (int i = 0; i < 3 && s == RG_OK; i++)
-        s = rg_mem_grow(&q->mem, (void **)vector[i], &q->E_room[i], (size_t)q->E.count, sizeof(double));
     lay(q, &q->few, &q->few_J, &q->few_E, q->base);
-    q->laid = s == RG_OK;
-    return s;
+    q->laid = 1;
+    return RG_OK;
 }
 
 /* What is left of G v - E^T y - right is put into q->off; of E v into q->Ev. */
@@ -221,7 +231,8 @@ static rg_status set_rows(problem *p)
             q->at[q->of[k]] = q->solved++;
         }
     for (int32_t k = 0; k < p->m; k++)
-        for (int32_t i = k; i < p->m; i++) q->M[(size_t)k * wide + (size_t)i] = rg_rows_dot(&q->R, q->of[i], column(q, q->of[k]));
+        for (int32_t i = k; i < p->m; i++)
+            q->M[(size_t)k * wide + (size_t)i] = rg_rows_dot(&q->R, q->of[i], column(q, q->of[k]));
     return RG_OK;
 }
 
@@ -256,8 +267,9 @@ static int set_matrix(problem *p)
     weigh(p);
     if (p->by_rows) {
         for (int32_t j = 0; j < p->m; j++) {
-            memcpy(q->L + (size_t)j * p->wide + (size_t)j, q->M + (size_t)j * p->wide + (size_t)j, (size_t)(p->m - j) * sizeof *q->L);
-            q->L[(size_t)j * p->wide + (size_t)j] += 1 / q->inverse[j];
+            const size_t diagonal = (size_t)j * p->wide + (size_t)j;
+            memcpy(q->L + diagonal, q->M + diagonal, (size_t)(p->m - j) * sizeof *q->L);
+            q->L[diagonal] += 1 / q->inverse[j];
         }
         q->work += (double)p->m * p->m * p->m / 6;
         return rg_dense_factor(p->m, q->L, p->wide, q->update);
@@ -360,7 +372,8 @@ static double step_to(const rg_interior *q, int32_t m, double part)
 static void correct(problem *p, double centre)
 {
     rg_interior *q = p->q;
-    const double had = step_to(q, p->m, 1), aim = fmin(1, LONGER * had + LONGER_BY), low = centre / OFF_CENTRE, high = centre * OFF_CENTRE;
+    const double had = step_to(q, p->m, 1), aim = fmin(1, LONGER * had + LONGER_BY);
+    const double low = centre / OFF_CENTRE, high = centre * OFF_CENTRE;
     memcpy(q->before, q->both, (size_t)p->m * sizeof *q->both);
     for (int32_t i = 0; i < p->m; i++) {
         const double product = (q->x[i] + aim * q->dx[i]) * (q->slack[i] + aim * q->dslack[i]);
@@ -432,7 +445,8 @@ rg_status rg_interior_solve(rg_interior *q, int32_t m)
     if (s != RG_OK) return s;
     double new_rows = 0;
     for (int32_t i = 0; i < m; i++) new_rows += q->at[q->of[i]] < 0;
-    p.by_rows = 4 * new_rows * q->few.L.S.entries + RECKONED * m * (double)m * m / 6 < RECKONED * numbers(&q->few, &NONE);
+    const double by_rows = 4 * new_rows * q->few.L.S.entries + RECKONED * m * (double)m * m / 6;
+    p.by_rows = by_rows < RECKONED * numbers(&q->few, &NONE);
     s = p.by_rows ? set_rows(&p) : set_ways(q);
     if (s != RG_OK) return s;
     memset(q->y, 0, (size_t)q->E.count * sizeof *q->y);

@@ -31,7 +31,8 @@ typedef struct rg_interior {
     double *v;               /* [n] out */
     int32_t iterations;      /* of the last call */
     double work, most_work;  /* of all calls: multiplications; what ends one, 0: nothing */
-    int (*stop)(void *ctx, double done); /* NULL: nobody asks; non-zero: solve ends with what it has, and so does every call after it */
+    /* NULL: nobody asks; non-zero: solve ends with what it has, and so does every call after it */
+    int (*stop)(void *ctx, double done);
     void *ctx;
     /* Its own. */
     rg_normal few, many;     /* without and with rows of R in the pattern */
@@ -50,10 +51,9 @@ typedef struct rg_interior {
     double *weight, *sum;    /* [rows of R] */
     size_t weight_room, sum_room;
     double *dx, *dslack, *residual, *both, *before, *inverse; /* [m] */
-    size_t rows_room[11];
+    size_t rows_room;
     double *off, *dv;        /* [n] G v - E^T y - R^T x; its step */
     double *y, *dy, *Ev;     /* [rows of E] multipliers */
-    size_t E_room[3];
 } rg_interior;
 
 /* n unknowns, no rows. RG_ENOMEM. Owner: the caller, rg_interior_free, also after a failure. */
@@ -61,7 +61,7 @@ rg_status rg_interior_init(rg_interior *q, const rg_memory *mem, int32_t n);
 void rg_interior_free(rg_interior *q);
 /* No rows; J, E and g are to be made anew. */
 void rg_interior_clear(rg_interior *q);
-/* Room for m rows. RG_ENOMEM. */
+/* Room for m rows; what was in rows before is lost. RG_ENOMEM. */
 rg_status rg_interior_reserve(rg_interior *q, int32_t m);
 /* m rows, of the R that there are. Rows may be added to R, and it be solved again, until rg_interior_clear. RG_ENOMEM;
  * allocates only what has never been as large, and for a pattern that does not fit. */

@@ -23,7 +23,8 @@ static double open_by(const rg_stride *s, const double *end)
     return n ? sum / n : 0;
 }
 
-rg_status rg_landing_run(rg_stride *s, const double *end, rg_status (*keep)(void *ctx, const double *z), void *ctx, double *left)
+rg_status rg_landing_run(rg_stride *s, const double *end, rg_status (*keep)(void *ctx, const double *z), void *ctx,
+                         double *left)
 {
     const rg_linkage *P = s->P;
     rg_status status = RG_OK;

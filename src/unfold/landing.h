@@ -11,6 +11,7 @@
 
 /* s is at the state that was opened; it is left at the last one. keep: called with each state that was reached.
  * *left: out, the part of their angle that creases are still open by, in the mean. RG_ENOMEM. */
-rg_status rg_landing_run(rg_stride *s, const double *end, rg_status (*keep)(void *ctx, const double *z), void *ctx, double *left);
+rg_status rg_landing_run(rg_stride *s, const double *end, rg_status (*keep)(void *ctx, const double *z), void *ctx,
+                         double *left);
 
 #endif

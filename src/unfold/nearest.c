@@ -32,7 +32,8 @@ void rg_nearest_free(rg_nearest *q)
 {
     if (!q->mem.resize) return;
     rg_interior_free(&q->q);
-    RG_MEM_FREE(&q->mem, q->scale, q->row, q->active, q->y0, q->y, q->dz, q->scratch, q->wish, q->right, q->dp, q->head);
+    RG_MEM_FREE(&q->mem, q->scale, q->row, q->active, q->y0, q->y, q->dz, q->scratch, q->wish, q->right, q->dp,
+                q->head);
     memset(q, 0, sizeof *q);
 }
 

@@ -1,12 +1,12 @@
 /* nearest.h -- the nearest step to a wished one that keeps the sheet closed, and rows of what must not come nearer.
- * Paper    eqs. (14), (15), (19), with inequalities        Uses  places.h interior.h        Used by  crossed.c end.c stride.c
+ * Paper    eqs. (14), (15), (19), with inequalities        Uses  places.h interior.h        Used by  crossed.c stride.c
  *
  *     min  1/2 |W^-1/2 (dz - wish)|^2 + sum s_i^2 / (2 c_i)
  *     s.t. A dz = -r,   row_i dz + s_i >= b_i
  *
  * with W^1/2 = diag(scale). y = W^-1/2 dz. What closes is projected onto, eq. (15); what rows change of it is
- * interior.h's, by the places of vertices, where it is sparse; and is projected once more. Rows are made only when the step
- * would break them: of thousands, most never are. */
+ * interior.h's, by the places of vertices, where it is sparse; and is projected once more. Rows are made only when the
+ * step would break them: of thousands, most never are. */
 #ifndef RG_NEAREST_H
 #define RG_NEAREST_H
 

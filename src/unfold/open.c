@@ -22,7 +22,8 @@ static const double MAY_CLOSE = 0.7;  /* the part of its distance that a pair ma
 static const double SIDE_HARD = 1e-8; /* compliance of what near parts ask while it opens */
 /* Repair: near parts are to be apart by so much, hard, or softly; in the plane by so many times it; less than this part
  * of it counts as touching. Compliances: apart, not nearer, softly. */
-static const double REPAIR_APART = 5e-5, REPAIR_APART_SOFTLY = 1e-3, REPAIR_INSIDE = 4, REPAIR_BESIDE = 0.4, TOUCHING = 0.5;
+static const double REPAIR_APART = 5e-5, REPAIR_APART_SOFTLY = 1e-3, REPAIR_INSIDE = 4, REPAIR_BESIDE = 0.4;
+static const double TOUCHING = 0.5;
 static const double REPAIR_HARD = 1e-7, REPAIR_KEEP = 1e-9, REPAIR_SOFT = 1e-4;
 static const double REPAIR_MARGIN = 0.1; /* of the way's */
 static const double NEAR_HALF_TURN = 0.3;
@@ -111,8 +112,8 @@ static rg_status add_side_rows(const rg_opening *o)
         row->b = d > 0 ? -MAY_CLOSE * d : -d;
         row->c = SIDE_HARD;
         row->pushed = rg_proximity_flags(near, at->kind, at->i, at->j);
-        const int said = rg_sides_is_behind(&o->end->sides, at) || *row->pushed & RG_PROXIMITY_LAYER; /* by another row */
-        row->pushed_by = said ? 0 : RG_PROXIMITY_PUSHED;
+        const int is_said = rg_sides_is_behind(&o->end->sides, at) || *row->pushed & RG_PROXIMITY_LAYER;
+        row->pushed_by = is_said ? 0 : RG_PROXIMITY_PUSHED; /* by another row */
     }
     return s;
 }

@@ -10,9 +10,10 @@
 typedef struct rg_open_way {
     double part;      /* of its angle that a crease is wished open by */
     double hard;      /* compliance of the rows: of drawings that are rounded, rows contradict each other */
-    double margin;    /* that each crease has to be open by, radians; 0: creases that the rows lock stay at half a turn */
-    int grow;         /* non-zero: it is opened by very little first, and then more and more, up to part or as far as nothing
-                       * crosses, closed at each step; what rows are wished open by goes with that, and its square */
+    double margin;    /* that each crease has to be open by, radians; 0: what the rows lock stays at half a turn */
+    /* Non-zero: it is opened by very little first, and then more and more, up to part or as far as nothing crosses,
+     * closed at each step; what rows are wished open by goes with that, and its square. */
+    int grow;
     int repair;       /* times that near parts are pushed apart by their side at most */
 } rg_open_way;
 

@@ -189,7 +189,8 @@ static rg_status ends_in_order(rg_passage *w, rg_course *course, int *yes)
     *yes = s == RG_OK && course->found.first < 0;
     for (int32_t i = 0; *yes && i < course->sweep.n_before; i++) {
         int32_t facet[2];
-        const int before = rg_course_side(course, i, facet), up = w->layers->flat.up[w->layers->flat.facet_of[facet[0]]];
+        const int before = rg_course_side(course, i, facet);
+        const int up = w->layers->flat.up[w->layers->flat.facet_of[facet[0]]];
         *yes = rg_layers_above_of_mesh(w->layers, facet[0], facet[1]) * before * up >= 0;
     }
     return s;

@@ -31,7 +31,7 @@ typedef struct rg_passage {
     void *ctx;
     /* Of the last try. */
     int as_seen;           /* the order is not the one that was begun from */
-    double landed;         /* progress to which it was followed from where it was opened. Beyond, the order is all there is */
+    double landed;         /* progress to which it was followed from where it opened; beyond, the order is all */
     double spent, until;   /* of work, multiplications; and the most */
     int32_t steps;         /* of all tries */
 } rg_passage;

@@ -46,7 +46,8 @@ static rg_status add_fold(const rg_linkage *P, double scale, int32_t e, rg_rows 
     const rg_mesh *m = P->mesh;
     const int32_t a = m->edge[e][0], b = m->edge[e][1], f = m->edge_facet[e][0], g = m->edge_facet[e][1];
     double t, u;
-    const rg_vec3 left = rg_vec3_scale(1 / scale, lever(P, f, a, b, &t)), right = rg_vec3_scale(-1 / scale, lever(P, g, a, b, &u));
+    const rg_vec3 left = rg_vec3_scale(1 / scale, lever(P, f, a, b, &t));
+    const rg_vec3 right = rg_vec3_scale(-1 / scale, lever(P, g, a, b, &u));
     collected c = {0};
     take_vertex(&c, third(m, f, a, b), left);
     take_vertex(&c, third(m, g, a, b), right);

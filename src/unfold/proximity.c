@@ -139,7 +139,8 @@ int rg_proximity_is_inside(const rg_close_pair *at)
 static rg_close_pair pair_told(rg_proximity *n, rg_near_kind kind, int32_t i, int32_t j, unsigned char *flags)
 {
     rg_close_pair at;
-    if (kind == RG_NEAR_CORNER) at = pair_of(n->mesh, 0, i, n->plates.facet[j]); /* of a triangle that is the only part */
+    /* A triangle is its only part. */
+    if (kind == RG_NEAR_CORNER) at = pair_of(n->mesh, 0, i, n->plates.facet[j]);
     else at = pair_of(n->mesh, 1, i > j ? i : j, i > j ? j : i);
     *flags = *rg_proximity_flags(n, at.kind, at.i, at.j);
     return at;
@@ -154,7 +155,8 @@ static void find(void *ctx, rg_near_kind kind, int32_t i, int32_t j)
     rg_close_pair at = pair_told(f->n, kind, i, j, &flags);
     if (f->status != RG_OK || flags & RG_PROXIMITY_APART) return;
     measure(&at, f->p);
-    if (at.d < f->least && (at.kind == 0 || at.d < f->touching || rg_proximity_is_inside(&at))) f->status = keep(f->n, &at);
+    if (!(at.d < f->least)) return;
+    if (at.kind == 0 || at.d < f->touching || rg_proximity_is_inside(&at)) f->status = keep(f->n, &at);
 }
 
 rg_status rg_proximity_find(rg_proximity *n, const rg_vec3 *p, double least, double touching)

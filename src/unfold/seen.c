@@ -14,7 +14,8 @@ static int32_t part_at(const rg_mesh *m, const rg_flat *f, int32_t g, rg_vec2 x)
     int32_t best = f->part[f->part_start[g]];
     double most = -INFINITY;
     for (int32_t k = f->part_start[g]; k < f->part_start[g + 1]; k++) {
-        const int32_t *v = m->facet_vertex + m->facet_start[f->part[k]], n = m->facet_start[f->part[k] + 1] - m->facet_start[f->part[k]];
+        const int32_t first = m->facet_start[f->part[k]], n = m->facet_start[f->part[k] + 1] - first;
+        const int32_t *v = m->facet_vertex + first;
         double least = INFINITY;
         for (int32_t j = 0; j < n; j++) least = fmin(least, rg_vec2_turn(m->X[v[j]], m->X[v[(j + 1) % n]], x));
         if (!(least > most)) continue;
@@ -24,8 +25,8 @@ static int32_t part_at(const rg_mesh *m, const rg_flat *f, int32_t g, rg_vec2 x)
     return best;
 }
 
-/* height[pairs]: out, how much higher the second facet of each lies than the first, summed over places where both are at the end.
- * place[nf]: as they lie. at, up: [facets] scratch. */
+/* height[pairs]: out, how much higher the second facet of each lies than the first, summed over places where both are
+ * at the end. place[nf]: as they lie. at, up: [facets] scratch. */
 static void look(const rg_layers *l, const rg_mesh *m, const rg_place *place, rg_vec3 *at, rg_vec3 *up, double *height)
 {
     const rg_flat *f = &l->flat;
@@ -42,7 +43,8 @@ static void look(const rg_layers *l, const rg_mesh *m, const rg_place *place, rg
         }
         for (int32_t j = 0; j < n; j++)
             for (int32_t k = j + 1; k < n; k++) /* facets over a cell rise */
-                height[rg_pairs_find(&l->pairs, over[j], over[k])] += rg_vec3_dot(rg_vec3_add(up[j], up[k]), rg_vec3_sub(at[k], at[j]));
+                height[rg_pairs_find(&l->pairs, over[j], over[k])] +=
+                    rg_vec3_dot(rg_vec3_add(up[j], up[k]), rg_vec3_sub(at[k], at[j]));
     }
 }
 

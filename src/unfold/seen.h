@@ -15,8 +15,8 @@ typedef struct rg_seen_frames {
     int32_t count;       /* the last one lies flat */
 } rg_seen_frames;
 
-/* wish[l->pairs.count]: out, > 0 where the second facet of a pair lay above the first when both were last apart, < 0 below; 0: they
- * never were. l: layers of the last frame, of the same mesh. RG_ENOMEM. */
+/* wish[l->pairs.count]: out, > 0 where the second facet of a pair lay above the first when both were last apart, < 0
+ * below; 0: they never were. l: layers of the last frame, of the same mesh. RG_ENOMEM. */
 rg_status rg_seen_order(const rg_layers *l, const rg_seen_frames *m, double *wish);
 
 #endif

@@ -30,9 +30,9 @@ rg_status rg_sides_init(rg_sides *s, const rg_memory *mem, const rg_mesh *m);
 void rg_sides_finish(rg_sides *s, const rg_vec2 *x);
 void rg_sides_free(rg_sides *s);
 
-/* Non-zero: the pair, found at P->p, has a side: *n, out, points from its second part to the first in the order's sense, and
- * *d is how far along it they are apart, negative where they have passed. Where a corner goes round an edge, at->weight is of the
- * point of that edge. */
+/* Non-zero: the pair, found at P->p, has a side: *n, out, points from its second part to the first in the order's
+ * sense, and *d is how far along it they are apart, negative where they have passed. Where a corner goes round an edge,
+ * at->weight is of the point of that edge. */
 int rg_sides_tell(const rg_sides *s, const rg_linkage *P, rg_close_pair *at, rg_vec3 *n, double *d);
 /* Non-zero: a third facet lies between the two parts of the pair. */
 int rg_sides_is_behind(const rg_sides *s, const rg_close_pair *at);

@@ -7,7 +7,7 @@ static const double STEP = 3 * RG_DEG;   /* of a crease: so small that the rows,
 static const double MOVE = 0.02;         /* of a vertex, for the same reason */
 static const double DAMPER = 0.7;        /* part of the distance to the floor that a step may use up */
 static const double DAMPER_CLOSING = 0.85; /* the same after closing, which bends the step */
-static const double REACH = 2.2;         /* pairs are looked at as far as two vertices can come in a step, and a little */
+static const double REACH = 2.2;         /* pairs are looked at as far as two vertices can come in a step, and more */
 static const double FLOOR = 6e-3;        /* keeps steps at 3 degrees; smaller ones shrink like the square root of it */
 static const double FLOOR_LAST = 1e-5, FLOOR_LESS = 0.6;
 static const int32_t PATIENCE = 12;      /* the floor is lowered when so many steps */
@@ -18,13 +18,13 @@ static const double ONE_WAY = 0.5;        /* cosine: ways that are nearer are th
 static const double HARD_COMPLIANCE = 1e-10; /* of a row, so that rows that contradict each other give a little */
 /* And of a glued pair, lest layers on each other make a program of each closing. */
 static const double CLOSING_ROUNDS = 1e-6;
-static const double THICK = 0.006;       /* the floor over how far it is open: a dozen layers share what there is of room */
+static const double THICK = 0.006;       /* the floor over how far it is open: a dozen layers share the room */
 static const double BELOW_FLOOR = 0.2;   /* what closing may take of a distance that is below the floor */
 static const double NEAR_HALF_TURN = 0.6; /* creases this near to half a turn get their bound as a row */
 static const double OVER_ROUNDING = 1e-8; /* what a crease past half a turn may go on by in a step */
 static const double ADDED_BACK = 0.1, PATTERN_BACK = 0.5; /* what added creases, pattern are wished back by in a step */
 static const double ADDED_SCALE = 3;     /* an added crease bends more readily than a drawn one leaves its wish */
-static const double LOCKED = 1e-3, HELD = 0.1; /* radians from half a turn; how readily such a crease turns in closing */
+static const double LOCKED = 1e-3, HELD = 0.1; /* radians from half a turn; how readily that turns in closing */
 static const double LEAST_AREA = 0.1;    /* of a facet, of what it was */
 /* Facets of less get a row; and what it keeps: a little more than the least. */
 static const double SMALL_AREA = 0.5, AREA_FLOOR = 0.12;
@@ -152,7 +152,8 @@ static void for_all_pairs(rg_stride *s, of_pair *what)
     const rg_mesh *m = s->P->mesh;
     for (int32_t kind = 0; kind < 2; kind++)
         for (int32_t i = 0; i < (kind ? m->ne : m->nv); i++)
-            for (int32_t j = 0; j < (kind ? i : m->nf); j++) what(s, kind, i, j, rg_proximity_flags(&s->near, kind, i, j));
+            for (int32_t j = 0; j < (kind ? i : m->nf); j++)
+                what(s, kind, i, j, rg_proximity_flags(&s->near, kind, i, j));
 }
 
 /* Where two layers lie on each other at the start they are glued. */
@@ -291,7 +292,8 @@ static int has_leaked(const rg_stride *s, int32_t crossed, const rg_close_pair *
 {
     for (int32_t k = 0; k < crossed; k++) {
         const rg_row *row = &s->q.row[k];
-        if (memcmp(row->v, at->v, sizeof at->v) == 0 && row->weight[0] * at->weight[0] * rg_vec3_dot(row->n, n) < 0) return 1;
+        if (memcmp(row->v, at->v, sizeof at->v) != 0) continue;
+        if (row->weight[0] * at->weight[0] * rg_vec3_dot(row->n, n) < 0) return 1;
     }
     return 0;
 }
@@ -542,7 +544,8 @@ static int is_good(rg_stride *s, const double *dz, double f)
     for (int32_t i = 0; i < P->N; i++)
         if (!(fabs(s->z1[i]) <= fmax(RG_PI + RG_STRIDE_OVER, fabs(s->z[i]) + OVER_ROUNDING))) return 0;
     rg_linkage_positions(s->P, s->z1, s->p1);
-    return !changes_side(s) && !crosses(s) && rg_proximity_meet(&s->near, P->p, s->p1, GAP) >= 1 && !crosses_half_way(s);
+    if (changes_side(s) || crosses(s)) return 0;
+    return rg_proximity_meet(&s->near, P->p, s->p1, GAP) >= 1 && !crosses_half_way(s);
 }
 
 /* The nearest step to s->wish that rows allow: q->dz. *f: out, the part of it that is short enough for them. */

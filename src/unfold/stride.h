@@ -44,7 +44,7 @@ typedef struct rg_stride {
     double *middle;         /* [n] scratch */
     unsigned char *pushed;  /* [N + rows of the end] in the last step */
     double h, dm, pace;     /* part of the largest step; floor; part of the wish that rows let through lately */
-    double *merit, *went;   /* [RG_STRIDE_MOST + 1] how far it was after each step, by judge's measure and in the mean */
+    double *merit, *went;   /* [RG_STRIDE_MOST + 1] how far it was after each step, as judge measures and in the mean */
     int32_t steps, since;   /* taken; the step at which the floor was lowered last */
     double turn;            /* the most that a crease turns in the step found last */
     double mean, least;     /* progress: mean over driven creases, and of the last of them */

@@ -69,11 +69,13 @@ static rg_status go_by(rg_unfold *u, const step_of_plan *p, const rg_unfold_wish
     rg_track_rise(&u->pass.track);
     if (from_flat) snprintf(u->how, sizeof u->how, "folded from flat with contacts");
     else if (u->pass.as_seen)
-        snprintf(u->how, sizeof u->how, "unfolded from the flat end, way of opening %d, and landed in the order of layers that "
-                 "it came to", p->way + 1);
+        snprintf(u->how, sizeof u->how,
+                 "unfolded from the flat end, way of opening %d, and landed in the order of layers that it came to",
+                 p->way + 1);
     else
-        snprintf(u->how, sizeof u->how, "unfolded from the flat end: order of layers %d of those tried, way of opening "
-                 "%d", (int)p->order + 1, p->way + 1);
+        snprintf(u->how, sizeof u->how,
+                 "unfolded from the flat end: order of layers %d of those tried, way of opening %d", (int)p->order + 1,
+                 p->way + 1);
     return wish->accept ? wish->accept(wish->ctx, u, is_free) : RG_OK;
 }
 

@@ -78,7 +78,8 @@ rg_status rg_certificate_parse(const void *bytes, size_t size, const rg_pattern 
                 .contact_depth = c->through.depth,
             .between_depth = c->through.allowed, .ends_flat = c->pile.is_flat, .layer_pairs = c->pile.pairs,
                 .layers_shown = c->pile.seen};
-        for (int32_t k = 0; k < r.frames; k++) r.percent[r.number[k]] = r.percent[k]; /* a frame comes after what lies before it */
+        /* A frame comes after what lies before it. */
+        for (int32_t k = 0; k < r.frames; k++) r.percent[r.number[k]] = r.percent[k];
         c->percent = r.percent; /* kept, to say where */
         r.percent = NULL;
     }
@@ -132,8 +133,8 @@ static void write_text(const rg_certificate *c, FILE *out)
     char between[60] = "";
     if (i->between) rg_text(between, sizeof between, " and %d states between them", (int)i->between);
     rg_text_to(out,
-               "valid: one sheet, %d rigid facets, closed in all of %d frames%s; nothing crosses in them deeper than %g "
-               "of the sheet, or on rigid ways between them deeper than %.2g\n",
+               "valid: one sheet, %d rigid facets, closed in all of %d frames%s; nothing crosses in them deeper than "
+               "%g of the sheet, or on rigid ways between them deeper than %.2g\n",
                (int)i->facets, (int)i->frames, between, RG_THROUGH_LEAST, i->between_depth);
     if (i->ends_flat)
         rg_text_to(out,

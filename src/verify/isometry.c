@@ -342,7 +342,8 @@ static void check_path(const rg_record *r, rg_faults *all, rg_isometry *found)
     const int begins_flat = is_flat(r, 0);
     const double as = way_of(r);
     double before = NAN; /* percent of the frame before */
-    if (r->after_all) rg_faults_add(all, r->frames - 1, -1, -1, "it is the last, and has states between it and another one");
+    if (r->after_all)
+        rg_faults_add(all, r->frames - 1, -1, -1, "it is the last, and has states between it and another one");
     for (int32_t k = 0; k < r->frames; k++) {
         const double percent = percent_of(r, k, as);
         if (begins_flat && !isnan(r->percent[k]) && !isnan(percent) && !(fabs(percent - r->percent[k]) <= PERCENT))

@@ -59,7 +59,8 @@ rg_status rg_pieces_init(const rg_record *r, rg_pieces *p)
     p->mem = r->mem;
     int32_t *c;
     const rg_status s = RG_MEM_ARRAYS(&r->mem, RG_ARRAY(p->facet, corners), RG_ARRAY(p->first, (size_t)r->nf + 1),
-                                      RG_ARRAY(p->start, corners + 1), RG_ARRAY(p->corner, 3 * corners), RG_ARRAY(c, corners));
+                                      RG_ARRAY(p->start, corners + 1), RG_ARRAY(p->corner, 3 * corners),
+                                      RG_ARRAY(c, corners));
     if (s != RG_OK) return s;
     for (int32_t f = 0; f < r->nf; f++) {
         const int32_t n = r->start[f + 1] - r->start[f];

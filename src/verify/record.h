@@ -25,7 +25,7 @@ typedef struct rg_record {
     /* [ne] the facets left and right of edge[e][0] -> edge[e][1]; -1: none; found by isometry.c */
     int32_t (*side)[2];
     int32_t after_all;        /* of these, after the last frame: between that and none */
-    int32_t *number;          /* [frames] the frame's number in the file; of what lies between two, that of the second */
+    int32_t *number;          /* [frames] the frame's number in the file; of what lies between two, the second's */
     double *percent;          /* [frames] NAN: not said */
     rg_vec3 *x;               /* [frames][nv] */
     double *rho;              /* [frames][ne] radians */

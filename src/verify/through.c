@@ -535,7 +535,8 @@ rg_status rg_through_frames(const rg_record *r, const rg_pieces *p, rg_faults *a
     *found = (rg_through){.allowed = RG_THROUGH_LEAST, .sides = {.mem = r->mem}};
     const size_t nf = (size_t)r->nf, n = (size_t)p->n;
     rg_status s = RG_MEM_ARRAYS(&r->mem, RG_ARRAY(l.place[0], nf), RG_ARRAY(l.place[1], nf), RG_ARRAY(l.low, n),
-                                RG_ARRAY(l.high, n), RG_ARRAY(l.arm, n), RG_ARRAY(l.middle, n), RG_ARRAY(l.axis, 2 * MOST_AXES));
+                                RG_ARRAY(l.high, n), RG_ARRAY(l.arm, n), RG_ARRAY(l.middle, n),
+                                RG_ARRAY(l.axis, 2 * MOST_AXES));
     for (int32_t k = 0; s == RG_OK && k < r->frames; k++) s = check_frame(&l, k);
     for (int32_t k = 0; s == RG_OK && k + 1 < r->frames; k++) {
         for (int end = 0; end < 2; end++)

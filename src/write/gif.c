@@ -60,9 +60,10 @@ rg_status rg_gif_create(const rg_memory *mem, FILE *file, int32_t width, int32_t
     rg_gif *g = rg_mem_array(mem, 1, sizeof *g);
     if (!g) return rg_fail(RG_ENOMEM, why, 0, "out of memory for the GIF");
     *g = (rg_gif){.mem = *mem, .file = file, .palette = p, .width = width, .height = height, .fps = fps};
-    if (RG_MEM_ARRAYS(mem, RG_ARRAY(g->now, pixels), RG_ARRAY(g->before, pixels), RG_ARRAY(g->row, (size_t)width)) == RG_OK)
-        g->gif = EGifOpen(g, put, NULL);
-    rg_status s = g->gif ? RG_OK : rg_fail(RG_ENOMEM, why, 0, "out of memory for the GIF");
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(g->now, pixels), RG_ARRAY(g->before, pixels),
+                                RG_ARRAY(g->row, (size_t)width));
+    if (s == RG_OK) g->gif = EGifOpen(g, put, NULL);
+    if (!g->gif) s = rg_fail(RG_ENOMEM, why, 0, "out of memory for the GIF");
     errno = 0;
     if (s == RG_OK && put_head(g, for_ever) != GIF_OK) s = failed(g, why);
     if (s != RG_OK) {

@@ -191,7 +191,8 @@ static rg_status fill(rg_scene *g)
 void rg_scene_free(rg_scene *g)
 {
     const rg_memory *mem = &g->m->mem;
-    RG_MEM_FREE(mem, g->bytes, g->centre, g->place, g->x, g->last, g->last_turn, g->last_shift, g->normals_of, g->image);
+    RG_MEM_FREE(mem, g->bytes, g->centre, g->place, g->x, g->last, g->last_turn, g->last_shift, g->normals_of,
+                g->image);
     rg_triangles_free(&g->t);
 }
 
@@ -211,8 +212,8 @@ rg_status rg_scene_init(rg_scene *g, const rg_motion *m, const rg_picture *p)
     if (s != RG_OK) return s;
     lay_out(g);
     if (g->start[RG_PARTS] > UINT32_MAX / 2) return RG_EARG;
-    if (RG_MEM_ARRAYS(mem, RG_ARRAY(g->bytes, g->start[RG_PARTS]), RG_ARRAY(g->centre, nf), RG_ARRAY(g->place, nf),
-                      RG_ARRAY(g->x, nv), RG_ARRAY(g->last, nv), RG_ARRAY(g->last_turn, nf), RG_ARRAY(g->last_shift, nf),
-                      RG_ARRAY(g->normals_of, (size_t)g->most + 1)) != RG_OK) return RG_ENOMEM;
-    return fill(g);
+    s = RG_MEM_ARRAYS(mem, RG_ARRAY(g->bytes, g->start[RG_PARTS]), RG_ARRAY(g->centre, nf), RG_ARRAY(g->place, nf),
+                      RG_ARRAY(g->x, nv), RG_ARRAY(g->last, nv), RG_ARRAY(g->last_turn, nf),
+                      RG_ARRAY(g->last_shift, nf), RG_ARRAY(g->normals_of, (size_t)g->most + 1));
+    return s == RG_OK ? fill(g) : s;
 }

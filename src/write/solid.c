@@ -239,7 +239,8 @@ rg_status rg_solid_make(const rg_memory *mem, const rg_mesh *m, const rg_triangl
     solid s = {.m = m, .take = take, .ctx = ctx};
     rg_status status = RG_MEM_ARRAYS(mem, RG_ARRAY(s.place[UPPER], corners), RG_ARRAY(s.place[LOWER], corners),
                                      RG_ARRAY(s.same[UPPER], corners), RG_ARRAY(s.same[LOWER], corners),
-                                     RG_ARRAY(s.facet, corners), RG_ARRAY(s.at, (size_t)m->nv), RG_ARRAY(s.ring, (size_t)m->nf));
+                                     RG_ARRAY(s.facet, corners), RG_ARRAY(s.at, (size_t)m->nv),
+                                     RG_ARRAY(s.ring, (size_t)m->nf));
     if (status == RG_OK) {
         place(&s, x, thickness);
         status = move_apart(&s, mem);
