@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "near.h"
+#include "asked.h"
 
 #include "draw.h"
 #include "pattern/build.h"
@@ -686,16 +687,6 @@ static void what_is_plane_stays_as_it_is(void **state)
         rg_lines_free(&l);
         rg_lines_free(&again);
     }
-}
-
-typedef struct asked { int times, end_at; double last; } asked;
-
-static int answer(void *ctx, double progress)
-{
-    asked *a = ctx;
-    assert_true(progress >= a->last && progress < 1);
-    a->last = progress;
-    return a->times++ == a->end_at;
 }
 
 /* A large drawing is asked for all along whether to go on, and can be ended each time; nothing is kept of it then. */

@@ -1,6 +1,7 @@
 /* read/read.c: which format it is, files and standard input, bytes that are no crease pattern; files damaged at random. */
 #include "counted.h"
 #include "reading.h"
+#include "asked.h"
 
 
 static const char CP[] = "1 0 0 4 0\n1 4 0 4 4\n1 4 4 0 4\n1 0 4 0 0\n2 0 0 4 4\n";
@@ -189,16 +190,6 @@ static void damaged_at_random(void **state)
         rg_lines_free(&l);
     }
     assert_in_range(read, 300, 5700); /* both ways are taken */
-}
-
-typedef struct asked { int times, end_at; double last; } asked;
-
-static int answer(void *ctx, double progress)
-{
-    asked *a = ctx;
-    assert_true(progress >= a->last && progress < 1);
-    a->last = progress;
-    return a->times++ == a->end_at;
 }
 
 /* Many short lines, in each format; `size`: out. Owner: the caller. */

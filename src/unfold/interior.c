@@ -77,9 +77,9 @@ rg_status rg_interior_reserve(rg_interior *q, int32_t m)
     RG_MEM_FREE(&q->mem, q->of, q->c, q->d, q->x, q->slack, q->dx, q->dslack, q->residual, q->both, q->before,
                 q->inverse);
     const rg_status s = RG_MEM_ARRAYS(&q->mem, RG_ARRAY(q->of, n), RG_ARRAY(q->c, n), RG_ARRAY(q->d, n),
-                                      RG_ARRAY(q->x, n), RG_ARRAY(q->slack, n), RG_ARRAY(q->dx, n), RG_ARRAY(q->dslack, n),
-                                      RG_ARRAY(q->residual, n), RG_ARRAY(q->both, n), RG_ARRAY(q->before, n),
-                                      RG_ARRAY(q->inverse, n));
+                                      RG_ARRAY(q->x, n), RG_ARRAY(q->slack, n), RG_ARRAY(q->dx, n),
+                                      RG_ARRAY(q->dslack, n), RG_ARRAY(q->residual, n), RG_ARRAY(q->both, n),
+                                      RG_ARRAY(q->before, n), RG_ARRAY(q->inverse, n));
     q->rows_room = s == RG_OK ? n : 0;
     return s;
 }

@@ -2,7 +2,8 @@
  * Paper    Fig. 1; the derivatives of it        Uses  pose.h coupled.h        Used by  the other files of this room
  *
  * State z = (rho, u): fold angles, and what the vertices of the pattern moved by, as ways of freedom.h. Positions
- * follow from a tree of facets. With hinge (a, b) of facet f under facet p, at the world point Q, and n = R e_z of either:
+ * follow from a tree of facets. With hinge (a, b) of facet f under facet p, at the point Q of space, and n = R e_z of
+ * either:
  *     drho of the hinge:  f and all below it turn by axis drho about Q
  *     dX of a or b:       the hinge turns in the plane by dphi = (d x (dX_b - dX_a)) / |d|^2, d = X_b - X_a; so f and
  *                         all below it turn by (n_p - n_f) dphi about Q, and go by (R_p - R_f) dX_a
