@@ -58,16 +58,6 @@ void rg_closing_solve(rg_relax *F, int evenly, const double *y, const double *r,
 
 /* ---------------------------------------------------------------------------------------------- closing ---- */
 
-/* Works off r and r' as assembled, to first order: eqs. (14), (19) with no wish. */
-static void correct_once(rg_relax *F, double *z, int evenly)
-{
-    rg_closing_renew(F, evenly, F->damping * F->closure);
-    rg_closing_solve(F, evenly, NULL, F->J.r, F->dz);
-    for (int32_t i = 0; i < F->n; i++) F->dz[i] *= F->scale[i];
-    if (evenly && !F->by_orbits) rg_closing_even_out(F, F->dz);
-    for (int32_t i = 0; i < F->n; i++) z[i] -= F->dz[i];
-}
-
 static void stiffen(rg_relax *F, double by)
 {
     for (int32_t i = 0; i < F->N; i++) F->scale[i] *= by;
@@ -89,20 +79,31 @@ double rg_closing_project_slope(rg_relax *F, const double *z, int evenly)
     return left > LEAST_LEFT * all ? left : 0;
 }
 
-/* Works off r and what progress is off s by, as one more row: eq. (14), with the wish along the part of the slope of progress
- * that the constraint leaves over. */
-static void correct_held(rg_relax *F, double s, double *z, int evenly)
+/* Works off r and r' as assembled, to first order, eqs. (14), (19) with no wish; and where s is a number what progress is off it by, as one more
+ * row: with the wish along the part of the slope of progress that the constraint leaves over. renew zero: with the matrix of a state so near
+ * that nothing is lost by it. Returns the largest change, of the pattern over its reach. */
+static double correct_once(rg_relax *F, double s, double *z, int evenly, int renew)
 {
-    double least, along = 0;
-    rg_closing_renew(F, evenly, F->damping * F->closure);
+    const int held = !isnan(s);
+    double least, along = 0, by = 0, far = 0;
+    if (renew) rg_closing_renew(F, evenly, F->damping * F->closure);
     rg_closing_solve(F, evenly, NULL, F->J.r, F->dz);
-    const double left = rg_closing_project_slope(F, z, evenly);
-    for (int32_t i = 0; i < F->n; i++) along += F->g[i] * F->dz[i];
-    const double by = left > 0 ? (s - rg_closing_progress(F, z, &least) + along) / left : 0;
-    for (int32_t i = 0; i < F->n; i++) F->dz[i] = F->scale[i] * (by * F->t[i] - F->dz[i]);
+    if (held && renew) F->left = rg_closing_project_slope(F, z, evenly);
+    for (int32_t i = 0; held && i < F->n; i++) along += F->g[i] * F->dz[i];
+    if (held && F->left > 0) by = (s - rg_closing_progress(F, z, &least) + along) / F->left;
+    for (int32_t i = 0; i < F->n; i++) {
+        if (held) F->dz[i] -= by * F->t[i];
+        far = fmax(far, fabs(F->dz[i]));
+        F->dz[i] *= F->scale[i];
+    }
     if (evenly && !F->by_orbits) rg_closing_even_out(F, F->dz);
-    for (int32_t i = 0; i < F->n; i++) z[i] += F->dz[i];
+    for (int32_t i = 0; i < F->n; i++) z[i] -= F->dz[i];
+    return far;
 }
+
+/* Will a correction with the matrix of the last one, which took `before` to closure, do? As much farther off as that one was, it leaves as
+ * large a part. */
+static int is_near(double closure, double before, double tol) { return closure * closure <= tol * before; }
 
 static int is_within(const rg_relax *F, const rg_leash *by)
 {
@@ -113,23 +114,26 @@ static int is_within(const rg_relax *F, const rg_leash *by)
 
 int rg_closing_correct(rg_relax *F, double *z, double s, int32_t most, const rg_leash *by)
 {
-    double before = INFINITY;
-    int poor = 0, evenly = F->symmetry != NULL, closes = 0, stiff = 0;
+    double before = INFINITY, least = INFINITY, off;
+    int poor = 0, evenly = F->symmetry != NULL, closes = 0, stiff = 0, near = 0;
     for (int32_t n = 0;; n++) {
-        double off;
         F->closure = rg_closing_assemble(F, z, evenly, &off);
         closes = F->closure <= F->tol && off <= F->tol;
-        if (closes || n >= most || !(F->closure <= 2.5) || !is_within(F, by)) break;
+        if (closes || n >= most || !(F->closure <= MOST_OPEN) || !is_within(F, by)) break;
         if (evenly && F->closure > STILL_CLOSES * before) {
             evenly = F->by_orbits;
-            if (!stiff && F->U > 0) stiffen(F, STIFF);
+            if (!stiff && F->U > 0) {
+                stiffen(F, STIFF);
+                least = INFINITY; /* another system */
+            }
             stiff = F->U > 0;
         }
-        poor = F->closure > 0.7 * before && F->closure > 100 * F->tol ? poor + 1 : 0;
-        if (poor >= 3) break;
+        poor = F->closure > BETTER_CLOSED * least ? poor + 1 : 0;
+        if (poor >= MOST_POOR || (poor > 0 && fabs(F->closure - before) <= OUT_OF_REACH * before)) break;
+        least = fmin(least, F->closure);
+        near = is_near(F->closure, before, F->tol);
         before = F->closure;
-        if (isnan(s)) correct_once(F, z, evenly);
-        else correct_held(F, s, z, evenly);
+        correct_once(F, s, z, evenly, n == 0 || !near);
     }
     if (stiff) stiffen(F, 1 / STIFF);
     return closes && is_within(F, by);
@@ -169,18 +173,41 @@ static int32_t put_back(rg_relax *F, const double *a, const double *b, double *z
     return held;
 }
 
-int rg_closing_between(rg_relax *F, const double *a, const double *b, double s, double *z, double *best)
+/* Every crease gives way as much as any other, each vertex by its reach; and as much as the others of its orbit. */
+static void give_alike(rg_relax *F)
+{
+    for (int32_t i = 0; i < F->N; i++) F->scale[i] = 1;
+    for (int32_t i = F->N; i < F->n; i++) F->scale[i] = F->how.compliance * F->freedom.reach[i - F->N];
+}
+
+double rg_closing_nearly(rg_relax *F, const double *a, const double *b, double s, double *z)
+{
+    const int evenly = F->symmetry != NULL;
+    double before = INFINITY, far = INFINITY, off;
+    give_alike(F);
+    for (int32_t n = 0; n <= LOOKS; n++) {
+        const int32_t more = put_back(F, a, b, z);
+        F->closure = fmax(rg_closing_assemble(F, z, evenly, &off), off);
+        if (!(F->closure <= MOST_OPEN)) break;
+        if (more == 0 && F->closure <= fmax(F->tol, CURVED * far * far) && n > 0) return far * fmin(1, F->closure / before);
+        before = F->closure;
+        if (n < LOOKS) far = correct_once(F, s, z, evenly, 1);
+    }
+    return INFINITY;
+}
+
+int rg_closing_between(rg_relax *F, const double *a, const double *b, double s, int32_t most, double *z, double *best)
 {
     double least_closure = INFINITY, before = INFINITY, off, least;
     int evenly = F->symmetry != NULL;
     int32_t held = 0;
-    for (int32_t i = 0; i < F->N; i++) F->scale[i] = 1;
-    for (int32_t i = F->N; i < F->n; i++) F->scale[i] = F->how.compliance * F->freedom.reach[i - F->N];
+    give_alike(F);
     F->damping = DAMPING;
-    for (int32_t n = 0; n < CORRECTIONS_AT_END; n++) {
-        held += put_back(F, a, b, z);
+    for (int32_t n = 0; n < most; n++) {
+        const int32_t more = put_back(F, a, b, z);
+        held += more;
         const double closure = F->closure = rg_closing_assemble(F, z, evenly, &off);
-        if (!(closure <= 2.5)) break;
+        if (!(closure <= MOST_OPEN)) break;
         if (off <= F->tol && (isnan(s) || fabs(rg_closing_progress(F, z, &least) - s) <= SAME_PROGRESS)) {
             const int no_better = closure <= F->tol && closure > 0.5 * least_closure;
             if (closure < least_closure) {
@@ -189,14 +216,14 @@ int rg_closing_between(rg_relax *F, const double *a, const double *b, double s, 
             }
             if (closure <= CLOSE_ENOUGH * F->tol || no_better) break;
         }
+        const int renew = n == 0 || more > 0 || !is_near(closure, before, CLOSE_ENOUGH * F->tol);
         if (evenly && !F->by_orbits && closure > STILL_CLOSES * before) {
             evenly = 0;
             if (F->U > 0) stiffen(F, STIFF);
         }
         if (held && closure > HARDLY_CLOSES * before) F->damping *= LESS_DAMPING;
         before = closure;
-        if (isnan(s)) correct_once(F, z, evenly);
-        else correct_held(F, s, z, evenly);
+        correct_once(F, s, z, evenly, renew);
     }
     F->damping = 0;
     if (!(least_closure <= F->tol)) return 0;

@@ -62,6 +62,7 @@ rg_status rg_relax_init(rg_relax *F, const rg_mesh *m, const rg_settings *s, con
     F->U = F->freedom.U;
     F->n = F->N + F->U;
     if (status == RG_OK) status = rg_coupled_init(&F->J, &mem, m, &F->freedom, how->kawasaki);
+    F->J.A.tolerance = SOLVED;
     if (status == RG_OK) status = rg_adjust_init(&F->adjust, &mem, &F->freedom);
     if (status == RG_OK) status = rg_limit_init(&F->limit, &mem, m);
     if (status == RG_OK) status = make_room(F);
@@ -93,6 +94,7 @@ rg_status rg_relax_keep(rg_relax *F, const rg_symmetry *G)
     F->symmetry = G;
     F->by_orbits = OF_THE_DRAWING * G->off <= F->tol;
     const rg_status s = F->by_orbits ? rg_orbits_init(&F->orbits, &F->J, G) : RG_OK;
+    F->orbits.A.tolerance = SOLVED;
     if (s != RG_OK) F->symmetry = NULL;
     return s;
 }
@@ -263,7 +265,7 @@ static int32_t approach(rg_relax *F, const double *z, const double *at, double *
         rg_closing_even_out(F, F->trial);
         memcpy(F->chord, F->trial, (size_t)F->n * sizeof *F->trial);
         const double most = FARTHEST_CORRECTION * (1 - nearer) * rg_chord_size(F, last, at) + sqrt(F->tol);
-        if (rg_closing_between(F, at, at, NAN, F->trial, node) && rg_chord_size(F, F->trial, F->chord) <= most &&
+        if (rg_closing_between(F, at, at, NAN, CORRECTIONS_TOWARDS, F->trial, node) && rg_chord_size(F, F->trial, F->chord) <= most &&
             rg_chord_holds(F, last, F->trial, node)) {
             if (++k > END_NODES) return 0;
             memcpy(node, F->trial, (size_t)F->n * sizeof *node);
@@ -291,6 +293,15 @@ static void swap_nodes(rg_relax *F, int32_t a, int32_t b)
     F->node_s[b] = s;
 }
 
+/* To see whether a branch leads to a singular state costs as much as many steps: each time that it does not, twice as many are left out. */
+static int may_look(rg_relax *F)
+{
+    if (F->steps < F->look_after) return 0;
+    F->look_pause = 2 * F->look_pause + 1;
+    F->look_after = F->steps + F->look_pause;
+    return 1;
+}
+
 /* The first state past the free start that keeps the limits begins the path: from the start straight to it. Where both a way
  * of first and one of second order lie near a singular start, the nodes tell which is which. */
 static int begin_path(rg_relax *F)
@@ -299,6 +310,7 @@ static int begin_path(rg_relax *F)
         if (!(fabs(F->z[i]) <= RG_PI + BEYOND)) return 0;
     if (!is_limited(F)) return 0;
     if (F->from_is_singular) {
+        if (!may_look(F)) return 0;
         const int32_t more = approach(F, F->z, F->from, F->node + F->n, F->node_s + 1);
         if (!more) return 0;
         F->nodes += more;
@@ -306,6 +318,8 @@ static int begin_path(rg_relax *F)
         for (int32_t k = 1; k < F->nodes; k++)
             if (!(F->node_s[k] >= F->node_s[k - 1])) F->node_s[k] = F->node_s[k - 1];
     }
+    F->look_after = F->steps;
+    F->look_pause = 0;
     add_node(F, F->z, F->s);
     return 1;
 }
@@ -323,7 +337,8 @@ static void stop(rg_relax *F, const char *why)
     rg_closing_progress(F, F->z, &least);
     const int arrived = least >= 1 - ARRIVED && F->s_end >= 1 && F->nodes > 1, moved = arrived && !has_returned(F);
     F->outcome = arrived && !moved ? RG_FOLDED : RG_STOPPED;
-    snprintf(F->reason, sizeof F->reason, "%s", moved ? "folded, but with no way back to the pattern given" : why);
+    if (arrived) why = moved ? "folded, but with no way back to the pattern given" : F->landed ? "folded" : "folded, as far as the pattern closes at its end";
+    snprintf(F->reason, sizeof F->reason, "%s", why);
 }
 
 /* The folded state itself, where everything is near it and the branch leads there. */
@@ -332,6 +347,8 @@ static int land(rg_relax *F, double least)
     if (F->s_end < 1 || !(least >= 1 - LANDS_FROM) || !has_returned(F) || F->nodes < 2) return 0;
     for (int32_t i = 0; i < F->N; i++)
         if (!isnan(F->target[i]) && !(fabs(F->z[i] - F->target[i]) <= F->step)) return 0;
+    const int idles = F->share * F->idle > MOST_IDLE;
+    if (F->end_is_closed && !idles && !may_look(F)) return 0;
     double *node = F->node + (size_t)F->nodes * (size_t)F->n;
     const int32_t more = F->end_is_closed ? approach(F, F->z, F->end, node, F->node_s + F->nodes) : 0;
     if (more) {
@@ -342,10 +359,10 @@ static int land(rg_relax *F, double least)
         F->s = 1;
         add_node(F, F->z, F->s);
         F->landed = 1;
-    } else if (F->end_is_closed && F->share * F->idle <= MOST_IDLE) {
+    } else if (!idles) { /* what the pattern does not close by is left as small as it gets */
         return 0;
     }
-    stop(F, F->landed ? "folded" : "folded, as far as the pattern closes at its end");
+    stop(F, "folded");
     return 1;
 }
 

@@ -34,11 +34,12 @@ typedef struct rg_relax {
     double *end;              /* [N] target where there is one, closed on the pattern given if that is possible */
     int32_t driven;
     int from_is_singular, end_is_closed, landed;
+    int32_t look_after, look_pause; /* the step from which it is seen whether the branch leads to the start, then to the end; steps till then */
     double *z, s;             /* [n] the state, closed; its progress */
     int32_t nodes;
     double *node, *node_s;    /* [nodes][n]; the path, by rising progress */
     double *trial, *wish, *dz, *scale, *chord; /* [n] */
-    double *g, *t;            /* [n] scaled: the slope of progress; what the constraint leaves over of it */
+    double *g, *t, left;      /* [n] scaled: the slope of progress; what the constraint leaves over of it; g . t */
     double *pull;             /* [N] */
     unsigned char *held;      /* [N] at its limit in this step */
     double h;                 /* part of the largest step that is taken now */

@@ -27,8 +27,16 @@ static const double BEYOND_GIVES = 0.1, BACK = 0.3;
 /* So many halvings end, from flat paper, in a step so short that it closes to tolerance as it is: what is wrong with its
  * direction is of second order there, and is worked off by the steps that follow. */
 static const int32_t ROUNDS = 6, HALVINGS = 16, CORRECTIONS = 12;
-/* Near a singular state a correction leaves a quarter of the residual. */
-static const int32_t CORRECTIONS_AT_END = 40;
+/* So many corrections in a row that leave more than this part of the least there was lead nowhere. Where equations nearly depend on each
+ * other it goes up and down for three or four before it closes. */
+static const double BETTER_CLOSED = 0.7;
+static const int32_t MOST_POOR = 5;
+/* What one changes by less than this part is out of its reach. */
+static const double OUT_OF_REACH = 0.01;
+/* More than this is open, radians, and nothing is near. */
+static const double MOST_OPEN = 2.5;
+/* Near a singular state a correction leaves a quarter of the residual; of what leads there no more than that is waited for. */
+static const int32_t CORRECTIONS_AT_END = 40, CORRECTIONS_TOWARDS = 20;
 /* Whatever step is asked for: a longer one would find closed states that nothing leads to. */
 static const double MOST_STEP = 10 * RG_DEG;
 /* No facet shrinks below this part of its area; and what is left of the readiness of a vertex where none is left. */
@@ -46,6 +54,8 @@ static const double OF_THE_DRAWING = 30;
  * vertices: what closing by the creases does not reach, or what a drawing is uneven by and is then closed vertex by vertex, takes
  * ways of the pattern too small to be seen, while near flat creases would turn by its square root. */
 static const double STILL_CLOSES = 0.1, STIFF = 0.01;
+/* Part of what is open that a solve may leave, in the metric of its preconditioner: the next correction mends it. */
+static const double SOLVED = 1e-9;
 static const double LEAST_STEP = 1e-7, LEAST_H = 1e-4;
 /* A run that for so many steps of the usual length betters neither the mean nor the least by so much is stuck. */
 static const double MOST_IDLE = 25;
@@ -66,6 +76,10 @@ static const double HARDLY_CLOSES = 0.5, LESS_DAMPING = 0.1;
 /* A path is smooth where the middle of a part of a chord, closed, lies within this much of the chord from the middle of its ends; so often
  * it is halved to find out. */
 static const double SMOOTH = 0.02;
+/* Newton's method is seen to converge where it leaves open no more than so many times the square of its correction, radians. */
+static const double CURVED = 10;
+/* So many corrections are made to see it: creases that one takes past half a turn have to be put back and held. */
+static const int32_t LOOKS = 3;
 static const int32_t MOST_HALVES = 4;
 /* Nodes of a path, at most, however short its steps are. */
 static const int32_t MOST_NODES = 12000;
@@ -92,6 +106,8 @@ static const double FIXED = 1e-12, END_OFF = 1 * RG_DEG;
 /* Beyond half a turn, facets at a crease pass through each other: a motion ends before it is so by MOST_OVER, and one that is so by more than
  * OVERFOLD is second best. */
 static const double MOST_OVER = 1 * RG_DEG, OVERFOLD = 0.1 * RG_DEG;
+/* A pattern that has to be moved by more of the sheet's size to close is not the one drawn: what rounding of drawings comes to. */
+static const double ON_THE_PATTERN = 1e-4;
 /* A crease that did less than this part of its way has not left flat. */
 static const double LEFT_FLAT = 1e-6;
 

@@ -15,7 +15,7 @@ static const int32_t MOST_ITERATIONS = 6;
 static const double OUT_OF_REACH = 0.1;
 /* Each leaves some 1e-5 of what is out of reach, rounding over beta. */
 static const int PASSES = 2;
-/* Part of b, in the metric of the preconditioner, that is not chased further. */
+/* Part of b, in the metric of the preconditioner, that is not chased further unless another is asked for. */
 static const double TOLERANCE = 1e-12;
 
 /* The pattern of A A^T by columns, from that of A by rows. */
@@ -78,6 +78,7 @@ rg_status rg_least_init(rg_least *A, const rg_memory *mem, int32_t rows, int32_t
 {
     memset(A, 0, sizeof *A);
     A->mem = *mem;
+    A->tolerance = TOLERANCE;
     A->rows = rows;
     A->columns = columns;
     const size_t m = (size_t)rows, n = (size_t)columns, entries = (size_t)start[columns];
@@ -149,7 +150,7 @@ static int iterate(rg_least *A)
 {
     const int32_t m = A->rows;
     double gamma = rg_lanes_dot(m, A->r, A->z);
-    const double target = TOLERANCE * TOLERANCE * gamma;
+    const double target = A->tolerance * A->tolerance * gamma;
     for (int32_t n = 0; n < MOST_ITERATIONS && gamma > target; n++) {
         rg_least_mul_t(A, A->p, A->t);
         rg_least_mul(A, A->t, A->q);

@@ -17,6 +17,7 @@ typedef struct rg_least {
     rg_supernodal L;       /* of A A^T + beta I */
     double damping;        /* of what is renewed and solved from now on; 0: none */
     double beta;           /* at the last renewal */
+    double tolerance;      /* part of b, in the metric of the preconditioner, that is not chased further: 1e-12, or set by the owner */
     int32_t *to;           /* where each product of two entries of a column goes among the numbers of L */
     double *y, *r, *z, *p, *q; /* [rows] */
     double *t;             /* [columns] */

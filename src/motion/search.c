@@ -82,16 +82,26 @@ static void note(rg_search *q, const char *name, int backwards, double complianc
 
 /* ------------------------------------------------------------------------------------------- which is better ---- */
 
-static int rank(const rg_attempt *t) { return t->outcome == RG_STOPPED ? 0 : t->overfold > OVERFOLD || t->strays > 0 ? 1 : 2; }
+/* Does all of its way end on a pattern that is not the one given? */
+static int ends_elsewhere(const rg_attempt *t) { return fabs(t->to) == 1 && !(t->moved_at_end <= ON_THE_PATTERN * t->mesh.size); }
 
-int rg_search_is_folded(const rg_attempt *t) { return rank(t) == 2; }
+enum { OVERFOLDED = 1, ELSEWHERE, FOLDED };
+
+static int rank(const rg_attempt *t)
+{
+    if (t->outcome == RG_STOPPED) return 0;
+    return t->overfold > OVERFOLD || t->strays > 0 ? OVERFOLDED : ends_elsewhere(t) ? ELSEWHERE : FOLDED;
+}
+
+int rg_search_is_folded(const rg_attempt *t) { return rank(t) >= ELSEWHERE; }
 
 static int is_better(const rg_attempt *t, const rg_attempt *old)
 {
     const int mine = rank(t), its = old->mem.resize ? rank(old) : -1;
     if (mine != its) return mine > its;
-    if (mine == 2) return t->moved < old->moved;
-    if (mine == 1) return t->strays < old->strays;
+    if (mine == FOLDED) return t->moved < old->moved;
+    if (mine == ELSEWHERE) return t->moved_at_end < old->moved_at_end;
+    if (mine == OVERFOLDED) return t->strays < old->strays;
     return t->score > old->score + (t->moved > 0 && old->moved == 0 ? WORTH_MOVING : 0);
 }
 
@@ -215,7 +225,7 @@ static int run_job(void *ctx, rg_race *race, int32_t k, int in_calling_thread)
         l->why = why;
     }
     if (s != RG_OK || (in_calling_thread && l->watch->cancelled)) return -1;
-    return !watch.cancelled && rank(&l->attempt[k]) == 2;
+    return !watch.cancelled && rank(&l->attempt[k]) == FOLDED;
 }
 
 /* In the calling thread, while it waits: is all of it to end? */
@@ -311,7 +321,7 @@ typedef struct retries {
 static int is_retraction(const retries *R, const rg_attempt *t)
 {
     const rg_attempt *best = &R->q->best;
-    if (rank(t) != 2) return 0;
+    if (rank(t) < ELSEWHERE || rank(t) < rank(best)) return 0;
     return R->is_fewer ? t->mesh.added < best->mesh.added && t->moved <= LITTLE_MORE * best->moved : t->moved < best->moved;
 }
 
@@ -538,12 +548,12 @@ rg_status rg_search_run(rg_search *q, const rg_problem *p, const rg_settings *s,
     for (int32_t f = 0; f < p->drawn->nf; f++) l->triangles &= p->drawn->facet_start[f + 1] - p->drawn->facet_start[f] == 3;
     rg_status status = find_groups(l);
     if (status == RG_OK) status = first_of_all(q, l, &vertex, &vertices, why);
-    if (status == RG_OK && !(q->tries && rank(&q->best) == 2) && !watch->cancelled) {
+    if (status == RG_OK && !(q->tries && rank(&q->best) == FOLDED) && !watch->cancelled) {
         list_jobs(l);
         if (l->jobs > 0) status = climb(q, l, why);
         else if (q->tries == 0) status = rg_fail(RG_EARG, why, 0, "with these settings there is nothing to try");
     }
-    if (status == RG_OK && rank(&q->best) == 2 && !watch->cancelled) status = retract(q, l, vertex, vertices, why);
+    if (status == RG_OK && q->best.mem.resize && rank(&q->best) >= ELSEWHERE && !watch->cancelled) status = retract(q, l, vertex, vertices, why);
     if (status == RG_OK && watch->cancelled && q->best.outcome == RG_STOPPED)
         snprintf(q->best.reason, sizeof q->best.reason, "interrupted");
     for (int32_t g = 0; g < l->groups; g++) rg_symmetry_free(&l->group[g]);

@@ -1,5 +1,6 @@
 #include "motion/stages.h"
 #include "base/status.h"
+#include "fold/tuning.h"
 #include "layers/simple.h"
 #include "motion/overlay.h"
 #include "motion/rectify.h"
@@ -9,8 +10,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A pattern that has to be moved by more of the sheet's size to close is not the one drawn: what rounding of drawings comes to. */
-static const double ON_THE_PATTERN = 1e-4;
 /* Several orders of layers are taken apart, and the one that leaves fewest creases is folded: so many, and facets of all of them. */
 static const int32_t MOST_TRIES = 64, MOST_FACETS = 20000;
 static const uint64_t MOST_OF_A_PART = 24;
