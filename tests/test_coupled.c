@@ -53,20 +53,21 @@ static double kawasaki_sum(const rg_mesh *m, int32_t k, const rg_vec2 *X)
     return sum;
 }
 
-typedef struct sheet { rg_mesh m; rg_freedom f; rg_coupled J; double *rho, *u, *scale; rg_vec2 *X; } sheet;
+typedef struct sheet { rg_mesh m; rg_freedom f; rg_constraint K; rg_coupled J; double *rho, *u, *scale; rg_vec2 *X; } sheet;
 
 static void open_sheet(sheet *s, int kawasaki, int movable)
 {
     const rg_memory mem = rg_mem_default(NULL);
     assert_int_equal(rg_freedom_init(&s->f, &mem, &s->m, movable), RG_OK);
-    assert_int_equal(rg_coupled_init(&s->J, &mem, &s->m, &s->f, kawasaki), RG_OK);
+    assert_int_equal(rg_constraint_init_moving(&s->K, &mem, &s->m, &s->f, kawasaki), RG_OK);
+    assert_int_equal(rg_coupled_init(&s->J, &mem, &s->K, NULL), RG_OK);
     const size_t n = (size_t)(s->m.N + s->f.U) + 1;
     s->rho = calloc(n, sizeof *s->rho);
     s->u = calloc(n, sizeof *s->u);
     s->scale = calloc(n, sizeof *s->scale);
     s->X = calloc((size_t)s->m.nv, sizeof *s->X);
     assert_true(s->rho && s->u && s->scale && s->X);
-    assert_int_equal(s->J.A.rows, 3 * s->m.M + s->J.K);
+    assert_int_equal(s->J.A.rows, 3 * s->m.M + s->K.kept);
     assert_int_equal(s->J.A.columns, s->m.N + s->f.U);
 }
 
@@ -74,6 +75,8 @@ static void close_sheet(sheet *s)
 {
     rg_coupled_free(&s->J);
     rg_coupled_free(&s->J);
+    rg_constraint_free(&s->K);
+    rg_constraint_free(&s->K);
     rg_freedom_free(&s->f);
     rg_mesh_free(&s->m);
     free(s->rho);
@@ -91,7 +94,7 @@ static void residuals(const sheet *s, double *r)
         r[3 * k] = (F.a[2][1] - F.a[1][2]) / 2;
         r[3 * k + 1] = (F.a[0][2] - F.a[2][0]) / 2;
         r[3 * k + 2] = (F.a[1][0] - F.a[0][1]) / 2;
-        if (s->J.kawasaki[k] >= 0) r[s->J.kawasaki[k]] = kawasaki_sum(&s->m, k, s->X);
+        if (s->K.kawasaki[k] >= 0) r[s->K.kawasaki[k]] = kawasaki_sum(&s->m, k, s->X);
     }
 }
 
@@ -107,7 +110,7 @@ static void checks_residual(sheet *s)
     const double closure = rg_coupled_assemble(&s->J, s->rho, s->u, &off);
     residuals(s, r);
     for (int32_t i = 0; i < s->J.A.rows; i++) {
-        near(s->J.r[i], r[i], 1e-12);
+        near(s->K.r[i], r[i], 1e-12);
         if (i >= 3 * s->m.M) most = fmax(most, fabs(r[i]));
     }
     for (int32_t k = 0; k < s->m.M; k++) worst = fmax(worst, angle_of(trip(&s->m, k, s->X, s->rho)));
@@ -180,7 +183,7 @@ static void one_vertex_of_degree_4(void **state)
         degree4(a, b, round % 2, t, theta, rho);
         s.m = one_vertex(theta, &seed);
         open_sheet(&s, 1, 1);
-        assert_int_equal(s.J.K, 1);
+        assert_int_equal(s.K.kept, 1);
         double found[MOST];
         sectors(&s.m, 0, s.m.X, 0, found, crease);
         int first = 0; /* of the loop, where the drawing's first is */
@@ -212,7 +215,7 @@ static void sheets(void **state)
             rg_mesh_free(&drawn);
         }
         open_sheet(&s, 1, 1);
-        assert_int_equal(s.J.K, s.m.M);
+        assert_int_equal(s.K.kept, s.m.M);
         for (int32_t i = 0; i < s.f.U; i++) s.u[i] = 0.05 * s.f.reach[i] * noise(&seed);
         checks_residual(&s);
         if (k % 5 < 3) checks_columns(&s, &seed);
@@ -237,7 +240,7 @@ static void half_folded_miura(void **state)
             rg_mesh_free(&drawn);
         }
         open_sheet(&s, round < 4, 1);
-        assert_int_equal(s.J.K, round < 4 ? 9 : 0);
+        assert_int_equal(s.K.kept, round < 4 ? 9 : 0);
         miura_angles(&s.m, 1.125, 0.5 + 0.5 * round, s.rho);
         for (int32_t i = s.m.N - s.m.added; i < s.m.N; i++) s.rho[i] = 0;
         checks_residual(&s);
@@ -257,7 +260,7 @@ static void which_are_kept(void **state)
         sheet s;
         s.m = one_vertex(theta, &seed);
         open_sheet(&s, round < 4, 1);
-        assert_int_equal(s.J.K, round < 2); /* twice the error is in the sum */
+        assert_int_equal(s.K.kept, round < 2); /* twice the error is in the sum */
         checks_residual(&s);
         close_sheet(&s);
     }
@@ -270,7 +273,7 @@ static void a_pattern_that_stays(void **state)
     sheet s;
     s.m = mesh_of(p);
     open_sheet(&s, 1, 0);
-    assert_int_equal(s.J.K, 0);
+    assert_int_equal(s.K.kept, 0);
     assert_int_equal(s.J.A.columns, s.m.N);
     unsigned seed = 35;
     miura_angles(&s.m, 1.25, 1, s.rho);
@@ -288,17 +291,20 @@ static void memory(void **state)
     rg_pattern *p = draw_miura(3, 1.25);
     rg_mesh m = mesh_of(p);
     rg_freedom f;
+    rg_constraint K;
     rg_coupled J;
     assert_int_equal(rg_freedom_init(&f, &mem, &m, 1), RG_OK);
     const long before = c.out;
     for (long k = 0;; k++) {
         c.left = k;
-        const rg_status s = rg_coupled_init(&J, &mem, &m, &f, 1);
+        rg_status s = rg_constraint_init_moving(&K, &mem, &m, &f, 1);
+        if (s == RG_OK && (s = rg_coupled_init(&J, &mem, &K, NULL)) != RG_OK) rg_constraint_free(&K);
         if (s == RG_OK) break;
         assert_int_equal(s, RG_ENOMEM);
         assert_int_equal(c.out, before);
     }
     rg_coupled_free(&J);
+    rg_constraint_free(&K);
     rg_freedom_free(&f);
     assert_int_equal(c.out, 0);
     rg_mesh_free(&m);

@@ -1,4 +1,4 @@
-/* kinematics/orbits.c against the joint system that it stands for: in states of motions that have a symmetry, what one vertex of an
+/* kinematics/coupled.c with a symmetry against the whole system that it stands for: in states of motions that have a symmetry, what one vertex of an
  * orbit needs is what all need, and the least even step is the least step. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,7 +14,7 @@
 #include "counted.h"
 #include "draw.h"
 #include "generate/generate.h"
-#include "kinematics/orbits.h"
+#include "kinematics/coupled.h"
 #include "motion/motion.h"
 
 static rg_motion *folded(const char *kind, int32_t n)
@@ -39,7 +39,7 @@ static void ways_of(const rg_freedom *f, const rg_vec2 *X, double *u)
     for (int32_t i = 0; i < f->U; i++) u[i] = rg_vec2_dot(rg_vec2_sub(X[f->vertex[i]], f->mesh->X[f->vertex[i]]), f->direction[i]);
 }
 
-typedef struct whole_and_orbits { rg_symmetry G; rg_freedom f; rg_coupled J; rg_orbits O; } whole_and_orbits;
+typedef struct whole_and_orbits { rg_symmetry G; rg_freedom f; rg_constraint K; rg_coupled J, O; } whole_and_orbits;
 
 static double size(int32_t n, const double *x)
 {
@@ -57,8 +57,9 @@ static void agrees(const rg_motion *m, int32_t k, int kawasaki, unsigned *seed)
     whole_and_orbits s;
     assert_int_equal(rg_symmetry_find(&s.G, &mem, mesh), RG_OK);
     assert_int_equal(rg_freedom_init(&s.f, &mem, mesh, 1), RG_OK);
-    assert_int_equal(rg_coupled_init(&s.J, &mem, mesh, &s.f, kawasaki), RG_OK);
-    assert_int_equal(rg_orbits_init(&s.O, &s.J, &s.G), RG_OK);
+    assert_int_equal(rg_constraint_init_moving(&s.K, &mem, mesh, &s.f, kawasaki), RG_OK);
+    assert_int_equal(rg_coupled_init(&s.J, &mem, &s.K, NULL), RG_OK);
+    assert_int_equal(rg_coupled_init(&s.O, &mem, &s.K, &s.G), RG_OK);
     const int32_t N = mesh->N, U = s.f.U, n = N + U, rows = s.J.A.rows;
     assert_true(s.G.order > 1 && s.O.A.columns < n * 3 / 4 && s.O.A.rows < rows * 3 / 4);
     double *u = calloc((size_t)U, sizeof *u), *scale = calloc((size_t)n, sizeof *scale), *z = calloc((size_t)n, sizeof *z);
@@ -74,12 +75,12 @@ static void agrees(const rg_motion *m, int32_t k, int kawasaki, unsigned *seed)
     rg_symmetry_mean(&s.G, z);
     rg_freedom_mean(&s.f, &s.G, z + N, d);
 
-    const double some = rg_orbits_assemble(&s.O, rg_motion_angles(m, k), u, NULL);
+    const double some = rg_coupled_assemble(&s.O, rg_motion_angles(m, k), u, NULL);
     const double all = rg_coupled_assemble(&s.J, rg_motion_angles(m, k), u, NULL);
     below(all, 1e-8);
     near(some, all, 1e-8);
-    rg_orbits_renew(&s.O, scale);
-    rg_orbits_solve(&s.O, z, NULL, x);
+    rg_coupled_renew(&s.O, scale);
+    rg_coupled_solve(&s.O, z, NULL, x);
     rg_coupled_renew(&s.J, scale);
     rg_least_mul(&s.J.A, z, should);
     rg_least_mul(&s.J.A, x, is);
@@ -92,9 +93,10 @@ static void agrees(const rg_motion *m, int32_t k, int kawasaki, unsigned *seed)
     near(size(n, x), size(n, whole), 1e-6 * size(n, whole));
 
     free(u), free(scale), free(z), free(x), free(whole), free(is), free(should), free(d);
-    rg_orbits_free(&s.O);
-    rg_orbits_free(&s.O);
+    rg_coupled_free(&s.O);
+    rg_coupled_free(&s.O);
     rg_coupled_free(&s.J);
+    rg_constraint_free(&s.K);
     rg_freedom_free(&s.f);
     rg_symmetry_free(&s.G);
 }
@@ -121,21 +123,21 @@ static void memory_runs_short(void **state)
     const rg_memory mem = {counted_resize, &c}, plain = rg_mem_default(NULL);
     rg_symmetry G;
     rg_freedom f;
-    rg_coupled J;
-    rg_orbits O;
+    rg_constraint K;
+    rg_coupled O;
     assert_int_equal(rg_symmetry_find(&G, &plain, &m->mesh), RG_OK);
     assert_int_equal(rg_freedom_init(&f, &plain, &m->mesh, 1), RG_OK);
-    assert_int_equal(rg_coupled_init(&J, &mem, &m->mesh, &f, 0), RG_OK);
+    assert_int_equal(rg_constraint_init_moving(&K, &plain, &m->mesh, &f, 0), RG_OK);
     const long held = c.out;
     for (long k = 0;; k++) {
         c.left = k;
-        const rg_status s = rg_orbits_init(&O, &J, &G);
+        const rg_status s = rg_coupled_init(&O, &mem, &K, &G);
         if (s == RG_OK) break;
         assert_int_equal(s, RG_ENOMEM);
         assert_int_equal(c.out, held);
     }
-    rg_orbits_free(&O);
-    rg_coupled_free(&J);
+    rg_coupled_free(&O);
+    rg_constraint_free(&K);
     assert_int_equal(c.out, 0);
     rg_freedom_free(&f);
     rg_symmetry_free(&G);

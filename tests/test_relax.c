@@ -278,7 +278,7 @@ static void kept_flat_foldable(void **state)
     (void)state;
     run r;
     begin(&r, generated("boxpleat", 6), 1, &ADJUSTING, NULL);
-    assert_true(r.F.J.K > 0);
+    assert_true(r.F.K.kept > 0);
     int moved = 0;
     for (int n = 0; n < 150 && r.F.outcome == RG_RUNNING; n++) {
         rg_relax_step(&r.F);

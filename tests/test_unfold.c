@@ -307,7 +307,7 @@ static void places(void **state)
             rg_coupled_renew(&P.J, q.scale);
             rg_linkage_put(&P, z);
             for (int32_t i = 0; i < P.n; i++) q.wish[i] = noise(&seed) * q.scale[i];
-            rg_nearest_project(&q, q.wish, P.J.r);
+            rg_nearest_project(&q, q.wish, P.K.r);
             assert_int_equal(rg_rows_init(&fold, &mem), RG_OK);
             assert_int_equal(rg_rows_init(&rigid, &mem), RG_OK);
             assert_int_equal(rg_places_rows(&P, q.scale, &fold, &rigid), RG_OK);
@@ -642,11 +642,11 @@ static void small_facets(void **state)
         rows += row->terms > 0;
     }
     assert_true(rows > 0);
-    rg_nearest_project(&q, wish, P.J.r);
+    rg_nearest_project(&q, wish, P.K.r);
     double least = 0;
     for (int32_t k = 0; k < q.count; k++) least = fmin(least, rg_nearest_value(&q, &q.row[k]));
     below(least, -0.1); /* the wish alone breaks them */
-    assert_int_equal(rg_nearest_solve(&q, wish, P.J.r, 1), RG_OK);
+    assert_int_equal(rg_nearest_solve(&q, wish, P.K.r, 1), RG_OK);
     for (int32_t k = 0; k < q.count; k++) below(-0.0201, rg_nearest_value(&q, &q.row[k]));
     /* Rows that wait until they are broken, and are remembered: the same step; and those that push are the ones that are remembered. */
     double *step = calloc((size_t)P.n, sizeof *step);
@@ -657,7 +657,7 @@ static void small_facets(void **state)
     q.all = 1;
     for (int round = 0; round < 2; round++) {
         int remembered = 0;
-        assert_int_equal(rg_nearest_solve(&q, wish, P.J.r, 1), RG_OK);
+        assert_int_equal(rg_nearest_solve(&q, wish, P.K.r, 1), RG_OK);
         for (int32_t i = 0; i < P.n; i++) near(q.dz[i], step[i], 1e-6);
         for (int32_t k = 0; k < q.count; k++) {
             if (pushed[k]) near(rg_nearest_value(&q, &q.row[k]), -0.02, 1e-4);

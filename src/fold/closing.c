@@ -25,35 +25,27 @@ void rg_closing_even_out(rg_relax *F, double *z)
 
 /* -------------------------------------------------- the constraint; evenly: one of each orbit, if that tells all ---- */
 
+static rg_coupled *system_of(rg_relax *F, int evenly) { return evenly && F->by_orbits ? &F->orbits : &F->J; }
+
 double rg_closing_assemble(rg_relax *F, const double *z, int evenly, double *off)
 {
     F->assemblies++;
-    return evenly && F->by_orbits ? rg_orbits_assemble(&F->orbits, z, z + F->N, off) : rg_coupled_assemble(&F->J, z, z + F->N, off);
+    return rg_coupled_assemble(system_of(F, evenly), z, z + F->N, off);
 }
 
 void rg_closing_renew(rg_relax *F, int evenly, double damping)
 {
-    const int by_orbits = evenly && F->by_orbits;
-    const rg_least *A = by_orbits ? &F->orbits.A : &F->J.A;
+    rg_coupled *J = system_of(F, evenly);
     /* A factorisation is worth its flops; filling and solving go with the entries. */
-    F->work += 1.5e-9 * A->L.S.flops + 6e-7 * A->start[A->columns];
+    F->work += 1.5e-9 * J->A.L.S.flops + 6e-7 * J->A.start[J->A.columns];
     for (int32_t i = 0; evenly && i < F->N; i++) F->scale[i] = F->scale[F->symmetry->crease_orbit[i]];
-    F->orbits.A.damping = F->J.A.damping = damping;
-    if (by_orbits) rg_orbits_renew(&F->orbits, F->scale);
-    else rg_coupled_renew(&F->J, F->scale);
+    J->A.damping = damping;
+    rg_coupled_renew(J, F->scale);
 }
 
 void rg_closing_solve(rg_relax *F, int evenly, const double *y, const double *r, double *x)
 {
-    double *b = F->J.A.q;
-    if (evenly && F->by_orbits) {
-        rg_orbits_solve(&F->orbits, y, r, x);
-        return;
-    }
-    if (y) rg_least_mul(&F->J.A, y, b);
-    for (int32_t i = 0; r && i < F->J.A.rows; i++) F->J.r[i] = r[i] + (y ? b[i] : 0);
-    for (int32_t i = 0; !r && i < F->J.A.rows; i++) F->J.r[i] = b[i];
-    rg_least_solve(&F->J.A, F->J.r, x);
+    rg_coupled_solve(system_of(F, evenly), y, r, x);
 }
 
 /* ---------------------------------------------------------------------------------------------- closing ---- */
@@ -87,7 +79,7 @@ static double correct_once(rg_relax *F, double s, double *z, int evenly, int ren
     const int held = !isnan(s);
     double least, along = 0, by = 0, far = 0;
     if (renew) rg_closing_renew(F, evenly, F->damping * F->closure);
-    rg_closing_solve(F, evenly, NULL, F->J.r, F->dz);
+    rg_closing_solve(F, evenly, NULL, F->K.r, F->dz);
     if (held && renew) F->left = rg_closing_project_slope(F, z, evenly);
     for (int32_t i = 0; held && i < F->n; i++) along += F->g[i] * F->dz[i];
     if (held && F->left > 0) by = (s - rg_closing_progress(F, z, &least) + along) / F->left;

@@ -61,7 +61,8 @@ rg_status rg_relax_init(rg_relax *F, const rg_mesh *m, const rg_settings *s, con
     rg_status status = rg_freedom_init(&F->freedom, &mem, m, how->gain > 0 || how->compliance > 0);
     F->U = F->freedom.U;
     F->n = F->N + F->U;
-    if (status == RG_OK) status = rg_coupled_init(&F->J, &mem, m, &F->freedom, how->kawasaki);
+    if (status == RG_OK) status = rg_constraint_init_moving(&F->K, &mem, m, &F->freedom, how->kawasaki);
+    if (status == RG_OK) status = rg_coupled_init(&F->J, &mem, &F->K, NULL);
     F->J.A.tolerance = SOLVED;
     if (status == RG_OK) status = rg_adjust_init(&F->adjust, &mem, &F->freedom);
     if (status == RG_OK) status = rg_limit_init(&F->limit, &mem, m);
@@ -93,7 +94,7 @@ rg_status rg_relax_keep(rg_relax *F, const rg_symmetry *G)
 {
     F->symmetry = G;
     F->by_orbits = OF_THE_DRAWING * G->off <= F->tol;
-    const rg_status s = F->by_orbits ? rg_orbits_init(&F->orbits, &F->J, G) : RG_OK;
+    const rg_status s = F->by_orbits ? rg_coupled_init(&F->orbits, &F->mem, &F->K, G) : RG_OK;
     F->orbits.A.tolerance = SOLVED;
     if (s != RG_OK) F->symmetry = NULL;
     return s;
@@ -102,9 +103,10 @@ rg_status rg_relax_keep(rg_relax *F, const rg_symmetry *G)
 void rg_relax_free(rg_relax *F)
 {
     if (!F->mem.resize) return;
-    rg_orbits_free(&F->orbits);
+    rg_coupled_free(&F->orbits);
     rg_freedom_free(&F->freedom);
     rg_coupled_free(&F->J);
+    rg_constraint_free(&F->K);
     rg_adjust_free(&F->adjust);
     rg_limit_free(&F->limit);
     void *block[] = {F->from, F->target, F->slope, F->end, F->pull, F->z, F->trial, F->wish, F->dz, F->scale, F->chord,
@@ -138,7 +140,7 @@ static void make_wish(rg_relax *F)
             F->scale[i] = BEYOND_GIVES;
         }
     }
-    rg_freedom_room(&F->freedom, F->J.X, LEAST_AREA, F->wish + F->N);
+    rg_freedom_room(&F->freedom, F->K.X, LEAST_AREA, F->wish + F->N);
     for (int32_t i = F->N; i < F->n; i++)
         F->scale[i] = F->how.compliance * F->freedom.reach[i - F->N] * sqrt(fmax(LEAST_READY * LEAST_READY, F->wish[i]));
     rg_adjust_wish(&F->adjust, F->z, F->how.gain, F->wish + F->N);
@@ -181,7 +183,7 @@ static void project(rg_relax *F, int evenly)
     double *y = F->chord;
     rg_closing_renew(F, evenly, 0);
     for (int32_t i = 0; i < F->n; i++) y[i] = F->wish[i] / F->scale[i];
-    rg_closing_solve(F, evenly, y, F->J.r, F->dz);
+    rg_closing_solve(F, evenly, y, F->K.r, F->dz);
     for (int32_t i = 0; i < F->n; i++) F->dz[i] = F->wish[i] - F->scale[i] * F->dz[i];
     if (is_limited(F)) keep_gaining(F, evenly);
     if (evenly) rg_closing_even_out(F, F->dz);
@@ -196,7 +198,7 @@ static int try_step(rg_relax *F, double f, double longest)
     rg_closing_even_out(F, F->trial);
     const double s = rg_closing_progress(F, F->trial, &least);
     if (!rg_closing_correct(F, F->trial, is_limited(F) && s > F->s ? s : NAN, CORRECTIONS, &by)) return 0;
-    if (!rg_freedom_room(&F->freedom, F->J.X, LEAST_AREA, NULL)) return 0;
+    if (!rg_freedom_room(&F->freedom, F->K.X, LEAST_AREA, NULL)) return 0;
     return !is_limited(F) || rg_closing_progress(F, F->trial, &least) >= F->s;
 }
 

@@ -1,11 +1,11 @@
 /* relaxation.h -- one relaxation on its way: what it may do, its state, its path, what it works on.
- * Paper    eqs. (14), (19), section 4        Uses  orbits.h adjust.h limit.h        Used by  closing.c chord.c relax.c */
+ * Paper    eqs. (14), (19), section 4        Uses  coupled.h adjust.h limit.h        Used by  closing.c chord.c relax.c */
 #ifndef RG_RELAXATION_H
 #define RG_RELAXATION_H
 
 #include "fold/adjust.h"
 #include "fold/limit.h"
-#include "kinematics/orbits.h"
+#include "kinematics/coupled.h"
 
 /* How readily what gives way. */
 typedef struct rg_relaxation {
@@ -22,11 +22,12 @@ typedef struct rg_relax {
     double step, tol, s_end;  /* radians, radians, 0 ... 1 */
     int32_t N, U, n;          /* creases, ways of vertices, N + U */
     rg_freedom freedom;
-    rg_coupled J;
+    rg_constraint K;
+    rg_coupled J;             /* steps and closing */
     rg_adjust adjust;
     rg_limit limit;
     const rg_symmetry *symmetry; /* borrowed, on mesh: kept in every step; NULL: none */
-    rg_orbits orbits;         /* of it, where the drawing is even to rounding: */
+    rg_coupled orbits;        /* of it, where the drawing is even to rounding: */
     int by_orbits;            /* then steps and closing are solved for one of each orbit */
     rg_vec2 *spare;           /* [nv] scratch */
     double *from, *target;    /* [N] radians; equal: the crease stays where it is; target NAN: wishes nothing */

@@ -120,6 +120,8 @@ static const int32_t MOST_STEPS_TRIANGULATED = 250;
 /* Retraction: how often half the compliance is tried, and fewer cuts, of a relaxation and straight on. A facet that bends by less
  * (radians) may stay whole, if no vertex goes much farther. */
 static const int32_t LESS_COMPLIANCE[] = {0, 2, 5}, FEWER_CUTS[] = {0, 3, 8}, FEWER_STRAIGHT[] = {0, 8, 24};
+/* Work of such a try, against what it is to better: one that takes much more folds less plainly, or not. */
+static const double RETRIED_WORK = 2;
 static const double HARDLY_BENT = 10 * RG_DEG, LITTLE_MORE = 1.1;
 /* Short of the end, what moves the pattern must come this much farther than what leaves it as it is. */
 static const double WORTH_MOVING = 0.1;

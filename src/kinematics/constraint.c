@@ -1,66 +1,109 @@
 #include "kinematics/constraint.h"
 #include "base/lanes.h"
+#include "kinematics/kawasaki.h"
 #include "kinematics/turn.h"
 
 #include <string.h>
 
-/* Vertices sorted by degree, four together. */
-static rg_status make_fours(rg_constraint *K)
+rg_status rg_fours_init(rg_fours *w, const rg_memory *mem, const rg_sparse *C, const int32_t *vertex, int32_t count)
 {
-    const rg_sparse *C = &K->C;
     int32_t most = 0, at = 0;
+    memset(w, 0, sizeof *w);
     for (int32_t k = 0; k < C->M; k++)
         if (C->start[k + 1] - C->start[k] > most) most = C->start[k + 1] - C->start[k];
-    int32_t *count = rg_mem_array(&K->mem, (size_t)most + 2, sizeof *count);
-    int32_t *sorted = rg_mem_array(&K->mem, (size_t)C->M, sizeof *sorted);
+    int32_t *of_degree = rg_mem_array(mem, (size_t)most + 2, sizeof *of_degree);
+    int32_t *sorted = rg_mem_array(mem, (size_t)count, sizeof *sorted);
     size_t blocks = 0;
-    if (count && sorted) {
-        for (int32_t k = 0; k < C->M; k++) count[C->start[k + 1] - C->start[k] + 1]++;
-        for (int32_t d = 0; d <= most; d++) {
-            size_t fours = ((size_t)count[d + 1] + 3) / 4;
-            K->fours += (int32_t)fours;
-            blocks += 4 * fours * (size_t)d;
-            count[d + 1] += count[d];
+    if (of_degree && sorted) {
+        for (int32_t n = 0; n < count; n++) {
+            const int32_t k = vertex ? vertex[n] : n;
+            of_degree[C->start[k + 1] - C->start[k] + 1]++;
         }
-        for (int32_t k = 0; k < C->M; k++) sorted[count[C->start[k + 1] - C->start[k]]++] = k;
-        K->four = rg_mem_array(&K->mem, (size_t)K->fours, sizeof *K->four);
-        K->crease = rg_mem_array(&K->mem, blocks, sizeof *K->crease);
-        K->theta_cos = rg_mem_array(&K->mem, blocks, sizeof *K->theta_cos);
-        K->theta_sin = rg_mem_array(&K->mem, blocks, sizeof *K->theta_sin);
+        for (int32_t d = 0; d <= most; d++) {
+            size_t fours = ((size_t)of_degree[d + 1] + 3) / 4;
+            w->count += (int32_t)fours;
+            blocks += 4 * fours * (size_t)d;
+            of_degree[d + 1] += of_degree[d];
+        }
+        for (int32_t n = 0; n < count; n++) {
+            const int32_t k = vertex ? vertex[n] : n;
+            sorted[of_degree[C->start[k + 1] - C->start[k]]++] = k;
+        }
+        w->four = rg_mem_array(mem, (size_t)w->count, sizeof *w->four);
+        w->crease = rg_mem_array(mem, blocks, sizeof *w->crease);
+        w->theta_cos = rg_mem_array(mem, blocks, sizeof *w->theta_cos);
+        w->theta_sin = rg_mem_array(mem, blocks, sizeof *w->theta_sin);
     }
-    int ok = K->four && K->crease && K->theta_cos && K->theta_sin;
-    for (int32_t k = 0, g = 0; ok && k < C->M; g++) {
-        rg_four *four = &K->four[g];
+    int ok = w->four && w->crease && w->theta_cos && w->theta_sin;
+    for (int32_t k = 0, g = 0; ok && k < count; g++) {
+        rg_four *four = &w->four[g];
         four->degree = C->start[sorted[k] + 1] - C->start[sorted[k]];
         four->at = at;
         for (int lane = 0; lane < 4; lane++) {
             int32_t last = lane ? four->vertex[lane - 1] : sorted[k];
-            int more = k < C->M && C->start[sorted[k] + 1] - C->start[sorted[k]] == four->degree;
+            int more = k < count && C->start[sorted[k] + 1] - C->start[sorted[k]] == four->degree;
             four->vertex[lane] = more ? sorted[k++] : last;
-            for (int32_t i = 0; i < four->degree; i++)
-                K->crease[4 * (at + i) + lane] = C->col[C->start[four->vertex[lane]] + i];
+            for (int32_t i = 0; i < four->degree; i++) w->crease[4 * (at + i) + lane] = C->col[C->start[four->vertex[lane]] + i];
         }
         at += four->degree;
     }
-    rg_mem_free(&K->mem, count);
-    rg_mem_free(&K->mem, sorted);
+    rg_mem_free(mem, of_degree);
+    rg_mem_free(mem, sorted);
+    if (!ok) rg_fours_free(w, mem);
     return ok ? RG_OK : RG_ENOMEM;
 }
 
-rg_status rg_constraint_init(rg_constraint *K, const rg_memory *mem, const rg_mesh *m)
+void rg_fours_free(rg_fours *w, const rg_memory *mem)
+{
+    void *all[] = {w->four, w->crease, w->theta_cos, w->theta_sin};
+    for (int i = 0; i < 4; i++) rg_mem_free(mem, all[i]);
+    memset(w, 0, sizeof *w);
+}
+
+static int32_t other_end(const rg_mesh *m, int32_t crease, int32_t v)
+{
+    const int32_t *e = m->edge[m->crease_edge[crease]];
+    return e[e[0] == v];
+}
+
+/* What a pattern that gives way takes besides. */
+static rg_status make_moving(rg_constraint *K, const rg_mesh *m, const rg_freedom *f, int kawasaki)
+{
+    const size_t blocks = (size_t)m->loop_start[m->M];
+    K->mesh = m;
+    K->freedom = f;
+    K->X = rg_mem_array(&K->mem, (size_t)m->nv, sizeof *K->X);
+    K->kawasaki = rg_mem_array(&K->mem, (size_t)m->M, sizeof *K->kawasaki);
+    K->far = rg_mem_array(&K->mem, blocks, sizeof *K->far);
+    K->toward = rg_mem_array(&K->mem, blocks, sizeof *K->toward);
+    K->turning = rg_mem_array(&K->mem, blocks, sizeof *K->turning);
+    K->normal = rg_mem_array(&K->mem, blocks, sizeof *K->normal);
+    K->sector = rg_mem_array(&K->mem, blocks, sizeof *K->sector);
+    if (!K->X || !K->kawasaki || !K->far || !K->toward || !K->turning || !K->normal || !K->sector) return RG_ENOMEM;
+    memcpy(K->X, m->X, (size_t)m->nv * sizeof *K->X);
+    memcpy(K->sector, m->loop_theta, blocks * sizeof *K->sector);
+    for (int32_t k = 0; k < m->M; k++) {
+        for (int32_t j = m->loop_start[k]; j < m->loop_start[k + 1]; j++)
+            K->far[j] = other_end(m, m->loop_crease[j], m->inner_vertex[k]);
+        K->kawasaki[k] = kawasaki && f->U && rg_kawasaki_holds(m, k, K->sector) ? 3 * m->M + K->kept++ : -1;
+    }
+    return RG_OK;
+}
+
+static rg_status init(rg_constraint *K, const rg_memory *mem, const rg_mesh *m, const rg_freedom *f, int kawasaki)
 {
     memset(K, 0, sizeof *K);
     rg_status s = rg_sparse_init(&K->C, mem, m->M, m->N, m->loop_start, m->loop_crease);
     if (s != RG_OK) return s;
     K->mem = *mem;
-    int32_t blocks = m->loop_start[m->M];
     const size_t whole = ((size_t)m->N + 3) & ~(size_t)3;
-    K->r = rg_mem_array(mem, 3 * (size_t)m->M, sizeof *K->r);
-    K->theta = rg_mem_array(mem, (size_t)blocks, sizeof *K->theta);
+    if (f) s = make_moving(K, m, f, kawasaki);
+    K->r = rg_mem_array(mem, 3 * (size_t)m->M + (size_t)K->kept, sizeof *K->r);
+    K->theta = rg_mem_array(mem, (size_t)m->loop_start[m->M], sizeof *K->theta);
     K->cos = rg_mem_array(mem, whole, sizeof *K->cos);
     K->sin = rg_mem_array(mem, whole, sizeof *K->sin);
     K->still = rg_mem_array(mem, (size_t)m->N, 1);
-    if (!K->r || !K->theta || !K->cos || !K->sin || !K->still || make_fours(K) != RG_OK) {
+    if (s != RG_OK || !K->r || !K->theta || !K->cos || !K->sin || !K->still || rg_fours_init(&K->all, mem, &K->C, NULL, m->M) != RG_OK) {
         rg_constraint_free(K);
         return RG_ENOMEM;
     }
@@ -70,28 +113,89 @@ rg_status rg_constraint_init(rg_constraint *K, const rg_memory *mem, const rg_me
     return RG_OK;
 }
 
+rg_status rg_constraint_init(rg_constraint *K, const rg_memory *mem, const rg_mesh *m) { return init(K, mem, m, NULL, 0); }
+
+rg_status rg_constraint_init_moving(rg_constraint *K, const rg_memory *mem, const rg_mesh *m, const rg_freedom *f, int kawasaki)
+{
+    return init(K, mem, m, f, kawasaki);
+}
+
 void rg_constraint_free(rg_constraint *K)
 {
     if (!K->mem.resize) return;
     rg_memory mem = K->mem;
     rg_sparse_free(&K->C);
-    void *all[] = {K->r, K->theta, K->cos, K->sin, K->four, K->crease, K->theta_cos, K->theta_sin, K->still};
-    for (int i = 0; i < 9; i++) rg_mem_free(&mem, all[i]);
+    rg_fours_free(&K->all, &mem);
+    void *all[] = {K->r, K->theta, K->cos, K->sin, K->still, K->X, K->kawasaki, K->far, K->toward, K->turning, K->normal, K->sector};
+    for (int i = 0; i < 12; i++) rg_mem_free(&mem, all[i]);
     memset(K, 0, sizeof *K);
+}
+
+/* ---------------------------------------------------------------------------------------------- sector angles ---- */
+
+/* What theta says of these vertices, by fours. */
+static void deal_sectors(const rg_constraint *K, rg_fours *w)
+{
+    for (int32_t g = 0; g < w->count; g++)
+        for (int lane = 0; lane < 4; lane++)
+            for (int32_t i = 0; i < w->four[g].degree; i++) {
+                const rg_turn t = K->theta[K->C.start[w->four[g].vertex[lane]] + i];
+                const int32_t at = 4 * (w->four[g].at + i) + lane;
+                w->theta_cos[at] = t.cos;
+                w->theta_sin[at] = t.sin;
+            }
 }
 
 void rg_constraint_set_theta(rg_constraint *K, const double *theta)
 {
     for (int32_t j = 0; j < K->C.start[K->C.M]; j++) K->theta[j] = (rg_turn){cos(theta[j]), sin(theta[j])};
-    for (int32_t g = 0; g < K->fours; g++)
-        for (int lane = 0; lane < 4; lane++)
-            for (int32_t i = 0; i < K->four[g].degree; i++) {
-                rg_turn t = K->theta[K->C.start[K->four[g].vertex[lane]] + i];
-                int32_t at = 4 * (K->four[g].at + i) + lane;
-                K->theta_cos[at] = t.cos;
-                K->theta_sin[at] = t.sin;
-            }
+    deal_sectors(K, &K->all);
 }
+
+/* Directions from vertex k on the pattern as it is moved, and the cosines and sines between them, which is all that closure asks for. */
+static void look_round(rg_constraint *K, int32_t k)
+{
+    const int32_t first = K->C.start[k], last = K->C.start[k + 1];
+    const rg_vec2 at = K->X[K->mesh->inner_vertex[k]];
+    for (int32_t j = first; j < last; j++) {
+        const rg_vec2 d = rg_vec2_sub(K->X[K->far[j]], at);
+        const double inverse = 1 / sqrt(rg_vec2_dot(d, d));
+        const rg_vec2 e = {inverse * d.x, inverse * d.y};
+        K->toward[j] = e;
+        K->turning[j] = (rg_vec2){-inverse * e.y, inverse * e.x};
+    }
+    for (int32_t j = first; j < last; j++) {
+        const rg_vec2 a = K->toward[j], b = K->toward[j + 1 < last ? j + 1 : first];
+        K->theta[j] = (rg_turn){rg_vec2_dot(a, b), rg_vec2_cross(a, b)};
+    }
+}
+
+static void move(rg_constraint *K, rg_fours *w, const double *u)
+{
+    if (K->freedom->U) rg_freedom_move(K->freedom, u, K->X);
+    for (int32_t g = 0; g < w->count; g++)
+        for (int lane = 0; lane < 4; lane++)
+            if (lane == 0 || w->four[g].vertex[lane] != w->four[g].vertex[lane - 1]) look_round(K, w->four[g].vertex[lane]);
+    deal_sectors(K, w);
+}
+
+/* r' of the vertices that keep eq. (16) among these. Returns the largest. */
+static double assemble_kawasaki(rg_constraint *K, const rg_fours *w)
+{
+    double most = 0;
+    for (int32_t g = 0; K->kept > 0 && g < w->count; g++)
+        for (int lane = 0; lane < 4; lane++) {
+            const int32_t k = w->four[g].vertex[lane];
+            if (K->kawasaki[k] < 0) continue;
+            double *sum = &K->r[K->kawasaki[k]];
+            rg_mesh_sectors_at(K->mesh, k, K->X, K->sector);
+            rg_kawasaki_alternate(K->mesh, k, K->sector, sum, NULL);
+            if (!(fabs(*sum) <= most)) most = fabs(*sum);
+        }
+    return most;
+}
+
+/* ---------------------------------------------------------------------------------------------------- the walk ---- */
 
 static void turn_creases(rg_constraint *K, const double *rho)
 {
@@ -122,13 +226,13 @@ RG_WITHIN void scatter(const rg_quad *x, const rg_quad *y, const rg_quad *z, rg_
     *v3 = (rg_vec3){(*x)[3], (*y)[3], (*z)[3]};
 }
 
-/* Round each vertex of the four, as rg_loop_walk does: C's numbers and r if they are wanted. bad: out, a measure of the
+/* Round each vertex of the four, as rg_loop_walk does: C's numbers and r if they are wanted, and normals if they are. bad: out, a measure of the
  * rotation angle of F that rises with it, sin^2 up to a right angle and 2 - sin^2 beyond; NaN for NaN. Loops of three and
  * four are written out: compilers unroll them at -O3 only. */
-RG_WITHIN void walk_four(rg_constraint *K, const rg_four *four, int wanted, rg_quad *bad)
+RG_WITHIN void walk_four(rg_constraint *K, const rg_fours *w, const rg_four *four, int wanted, int normals, rg_quad *bad)
 {
-    const int32_t *crease = K->crease + 4 * four->at, *start = K->C.start, *vertex = four->vertex;
-    const double *tc = K->theta_cos + 4 * four->at, *ts = K->theta_sin + 4 * four->at;
+    const int32_t *crease = w->crease + 4 * four->at, *start = K->C.start, *vertex = four->vertex;
+    const double *tc = w->theta_cos + 4 * four->at, *ts = w->theta_sin + 4 * four->at;
     const double *cosine = K->cos, *sine = K->sin;
     rg_vec3 *c0 = K->C.x + start[vertex[0]], *c1 = K->C.x + start[vertex[1]];
     rg_vec3 *c2 = K->C.x + start[vertex[2]], *c3 = K->C.x + start[vertex[3]];
@@ -141,6 +245,10 @@ RG_WITHIN void walk_four(rg_constraint *K, const rg_four *four, int wanted, rg_q
         advance(&xx, &yx, &zx, &rc, &rs, &c, &s);
         advance(&xy, &yy, &zy, &rc, &rs, &c, &s);
         advance(&xz, &yz, &zz, &rc, &rs, &c, &s);
+        if (normals) { /* A_(i+1) e_z: turning by theta is about the facet's normal, which it leaves as it is */
+            rg_vec3 *n = K->normal + i;
+            scatter(&zx, &zy, &zz, n + start[vertex[0]], n + start[vertex[1]], n + start[vertex[2]], n + start[vertex[3]]);
+        }
     }
     const rg_quad r0 = (yz - zy) * 0.5, r1 = (zx - xz) * 0.5, r2 = (xy - yx) * 0.5; /* eq. (13) */
     rg_vec3 *r = (rg_vec3 *)K->r; /* eq. (12) */
@@ -151,14 +259,16 @@ RG_WITHIN void walk_four(rg_constraint *K, const rg_four *four, int wanted, rg_q
 }
 
 /* All vertices; returns the one at which F turns most, one that is NaN if there is one. */
-RG_WIDE static int32_t walk_all(rg_constraint *K, int wanted)
+RG_WIDE static int32_t walk_all(rg_constraint *K, const rg_fours *w, int wanted)
 {
     rg_quad most = {-1, -1, -1, -1}, sum = {0};
     rg_quad_int where = {0}, here = {0};
-    for (int32_t g = 0; g < K->fours; g++, here += 1) {
+    const int normals = wanted && K->normal;
+    for (int32_t g = 0; g < w->count; g++, here += 1) {
         rg_quad bad;
-        if (wanted) walk_four(K, &K->four[g], 1, &bad);
-        else walk_four(K, &K->four[g], 0, &bad);
+        if (normals) walk_four(K, w, &w->four[g], 1, 1, &bad);
+        else if (wanted) walk_four(K, w, &w->four[g], 1, 0, &bad);
+        else walk_four(K, w, &w->four[g], 0, 0, &bad);
         const rg_quad_int more = bad > most;
         most = (rg_quad)((more & (rg_quad_int)bad) | (~more & (rg_quad_int)most));
         where = (more & here) | (~more & where);
@@ -168,13 +278,13 @@ RG_WIDE static int32_t walk_all(rg_constraint *K, int wanted)
     for (int i = 1; i < 4; i++)
         if (most[i] > most[lane]) lane = i;
     const double all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-    for (int32_t g = 0; all != all && g < K->fours; g++) {
+    for (int32_t g = 0; all != all && g < w->count; g++) {
         rg_quad bad;
-        walk_four(K, &K->four[g], 0, &bad);
+        walk_four(K, w, &w->four[g], 0, 0, &bad);
         for (int i = 0; i < 4; i++)
-            if (bad[i] != bad[i]) return K->four[g].vertex[i];
+            if (bad[i] != bad[i]) return w->four[g].vertex[i];
     }
-    return K->fours ? K->four[where[lane]].vertex[lane] : -1;
+    return w->count ? w->four[where[lane]].vertex[lane] : -1;
 }
 
 double rg_constraint_angle(const rg_constraint *K, int32_t k)
@@ -198,18 +308,29 @@ void rg_constraint_forget_still(rg_constraint *K)
         if (K->still[K->C.col[j]]) K->C.x[j] = (rg_vec3){0, 0, 0};
 }
 
-double rg_constraint_assemble(rg_constraint *K, const double *rho)
+static double assemble(rg_constraint *K, const rg_fours *w, const double *rho)
 {
     turn_creases(K, rho);
-    const int32_t worst = walk_all(K, 1);
+    const int32_t worst = walk_all(K, w, 1);
     rg_constraint_forget_still(K);
     return rg_constraint_angle(K, worst);
+}
+
+double rg_constraint_assemble(rg_constraint *K, const double *rho) { return assemble(K, &K->all, rho); }
+
+double rg_constraint_assemble_at(rg_constraint *K, rg_fours *some, const double *rho, const double *u, double *off)
+{
+    rg_fours *w = some ? some : &K->all;
+    move(K, w, u);
+    const double most = assemble_kawasaki(K, w);
+    if (off) *off = most;
+    return assemble(K, w, rho);
 }
 
 double rg_constraint_closure(rg_constraint *K, const double *rho, int32_t *worst)
 {
     turn_creases(K, rho);
-    int32_t k = walk_all(K, 0);
+    int32_t k = walk_all(K, &K->all, 0);
     double angle = rg_constraint_angle(K, k);
     if (worst) *worst = angle != 0 ? k : -1; /* also where it is NaN */
     return angle;

@@ -1,210 +1,223 @@
 #include "kinematics/coupled.h"
-#include "kinematics/loop.h"
+#include "kinematics/kawasaki.h"
 
 #include <string.h>
 
-/* A vertex counts as flat-foldable when Kawasaki's sum is off by no more (radians, 1.15 degrees): twice what drawings by hand are. */
-static const double FLAT_FOLDABLE = 0.02;
-
-static int32_t other_end(const rg_mesh *m, int32_t crease, int32_t v)
-{
-    const int32_t *e = m->edge[m->crease_edge[crease]];
-    return e[e[0] == v];
-}
-
-static int is_drawn(const rg_mesh *m, int32_t crease) { return crease < m->N - m->added; }
-
-int32_t rg_coupled_alternate(const rg_coupled *J, int32_t k, double *sum, double *sign)
-{
-    const rg_mesh *m = J->mesh;
-    const int32_t first = m->loop_start[k], last = m->loop_start[k + 1];
-    int32_t n = 0, start = -1, before = -1;
-    double turn = 1, angle = 0, total = 0;
-    for (int32_t j = first; j < last; j++) {
-        if (sign) sign[j - first] = 0;
-        if (is_drawn(m, m->loop_crease[j]) && start < 0) start = j;
-    }
-    for (int32_t i = 0; start >= 0 && i <= last - first; i++) {
-        const int32_t j = first + (start - first + i) % (last - first);
-        if (is_drawn(m, m->loop_crease[j])) {
-            if (before >= 0) {
-                total += turn * angle;
-                if (sign) sign[j - first] += turn, sign[before - first] -= turn;
-                turn = -turn;
-                n++;
-            }
-            before = j;
-            angle = 0;
-        }
-        angle += J->theta[j];
-    }
-    *sum = total; /* eq. (18) */
-    return n;
-}
-
-static void number_rows(rg_coupled *J, int kawasaki)
-{
-    for (int32_t k = 0; k < J->M; k++) {
-        double sum;
-        J->kawasaki[k] = -1;
-        if (!kawasaki || !J->U) continue;
-        const int32_t n = rg_coupled_alternate(J, k, &sum, NULL);
-        if (n >= 4 && n % 2 == 0 && fabs(sum) <= FLAT_FOLDABLE) J->kawasaki[k] = 3 * J->M + J->K++; /* eq. (16) */
-    }
-}
-
-/* Reserves the entries of one column in rows of vertex k; fill NULL: only counts them in start. */
-static int32_t reserve(const rg_coupled *J, int32_t k, int32_t column, int32_t *start, int32_t *fill, int32_t *row)
-{
-    const int with_kawasaki = column >= J->N && J->kawasaki[k] >= 0;
-    if (!fill) {
-        start[column + 1] += 3 + with_kawasaki;
-        return 0;
-    }
-    const int32_t at = fill[column];
-    for (int i = 0; i < 3; i++) row[fill[column]++] = 3 * k + i;
-    if (with_kawasaki) row[fill[column]++] = J->kawasaki[k];
-    return at;
-}
-
-static void lay_out(rg_coupled *J, int32_t *start, int32_t *fill, int32_t *row)
-{
-    const rg_mesh *m = J->mesh;
-    for (int32_t k = 0; k < J->M; k++) {
-        const int32_t *own = J->freedom->way[m->inner_vertex[k]];
-        for (int i = 0; i < 2; i++) J->at_own[k][i] = own[i] < 0 ? -1 : reserve(J, k, J->N + own[i], start, fill, row);
-        for (int32_t j = m->loop_start[k]; j < m->loop_start[k + 1]; j++) {
-            const int32_t *far = J->freedom->way[J->far[j]];
-            J->at[j] = reserve(J, k, m->loop_crease[j], start, fill, row);
-            for (int i = 0; i < 2; i++) J->at_far[j][i] = far[i] < 0 ? -1 : reserve(J, k, J->N + far[i], start, fill, row);
-        }
-    }
-}
-
-static rg_status make_pattern(rg_coupled *J)
-{
-    const int32_t rows = 3 * J->M + J->K, columns = J->N + J->U;
-    int32_t *start = rg_mem_array(&J->mem, (size_t)columns + 1, sizeof *start), *row = NULL;
-    int32_t *fill = rg_mem_array(&J->mem, (size_t)columns, sizeof *fill);
-    rg_status s = start && fill ? RG_OK : RG_ENOMEM;
-    if (s == RG_OK) {
-        lay_out(J, start, NULL, NULL);
-        for (int32_t i = 0; i < columns; i++) start[i + 1] += start[i];
-        memcpy(fill, start, (size_t)columns * sizeof *fill);
-        row = rg_mem_array(&J->mem, (size_t)start[columns], sizeof *row);
-        s = row ? RG_OK : RG_ENOMEM;
-    }
-    if (s == RG_OK) {
-        lay_out(J, start, fill, row);
-        s = rg_least_init(&J->A, &J->mem, rows, columns, start, row);
-    }
-    rg_mem_free(&J->mem, start);
-    rg_mem_free(&J->mem, fill);
-    rg_mem_free(&J->mem, row);
-    return s;
-}
-
-rg_status rg_coupled_init(rg_coupled *J, const rg_memory *mem, const rg_mesh *m, const rg_freedom *f, int kawasaki)
-{
-    memset(J, 0, sizeof *J);
-    J->mem = *mem;
-    J->mesh = m;
-    J->freedom = f;
-    J->N = m->N;
-    J->M = m->M;
-    J->U = f->U;
-    const size_t spokes = (size_t)m->loop_start[m->M], M = (size_t)m->M;
-    J->X = rg_mem_array(mem, (size_t)m->nv, sizeof *J->X);
-    J->theta = rg_mem_array(mem, spokes, sizeof *J->theta);
-    J->r = rg_mem_array(mem, 4 * M, sizeof *J->r);
-    J->far = rg_mem_array(mem, spokes, sizeof *J->far);
-    J->kawasaki = rg_mem_array(mem, M, sizeof *J->kawasaki);
-    J->direction = rg_mem_array(mem, spokes, sizeof *J->direction);
-    J->normal = rg_mem_array(mem, spokes, sizeof *J->normal);
-    J->sign = rg_mem_array(mem, spokes, sizeof *J->sign);
-    J->at = rg_mem_array(mem, spokes, sizeof *J->at);
-    J->at_own = rg_mem_array(mem, M, sizeof *J->at_own);
-    J->at_far = rg_mem_array(mem, spokes, sizeof *J->at_far);
-    rg_status s = J->X && J->theta && J->r && J->far && J->kawasaki && J->direction && J->normal && J->sign && J->at && J->at_own &&
-                          J->at_far ? RG_OK : RG_ENOMEM;
-    if (s == RG_OK) {
-        memcpy(J->X, m->X, (size_t)m->nv * sizeof *J->X);
-        memcpy(J->theta, m->loop_theta, spokes * sizeof *J->theta);
-        for (int32_t k = 0; k < m->M; k++)
-            for (int32_t j = m->loop_start[k]; j < m->loop_start[k + 1]; j++)
-                J->far[j] = other_end(m, m->loop_crease[j], m->inner_vertex[k]);
-        number_rows(J, kawasaki);
-    }
-    if (s == RG_OK) s = make_pattern(J);
-    if (s != RG_OK) rg_coupled_free(J);
-    return s;
-}
+/* What is left of a unit vector that no more than rounding is. */
+static const double NOTHING = 1e-9;
 
 void rg_coupled_free(rg_coupled *J)
 {
     if (!J->mem.resize) return;
+    const rg_memory mem = J->mem;
     rg_least_free(&J->A);
-    void *block[] = {J->X, J->theta, J->r, J->far, J->kawasaki, J->direction, J->normal, J->sign, J->at, J->at_own, J->at_far};
-    for (int i = 0; i < 11; i++) rg_mem_free(&J->mem, block[i]);
+    rg_fours_free(&J->some, &mem);
+    void *block[] = {J->vertex, J->kawasaki, J->column, J->part, J->way, J->direction, J->at, J->at_own, J->at_far, J->sign, J->b, J->y};
+    for (int i = 0; i < 12; i++) rg_mem_free(&mem, block[i]);
     memset(J, 0, sizeof *J);
 }
 
-/* Returns the rotation angle of F at interior vertex k. */
-static double assemble_vertex(rg_coupled *J, int32_t k, const double *rho)
+/* --------------------------------------------------------------------------------------------- columns of Q ---- */
+
+static int32_t number_creases(rg_coupled *J)
 {
-    const rg_mesh *m = J->mesh;
-    rg_mat3 A = rg_mat3_identity();
-    for (int32_t j = m->loop_start[k]; j < m->loop_start[k + 1]; j++) {
-        const double angle = rho[m->loop_crease[j]], theta = J->theta[j];
-        J->direction[j] = A.c[0];
-        A = rg_loop_advance(A, (rg_turn){cos(angle), sin(angle)}, (rg_turn){cos(theta), sin(theta)}); /* eq. (1) */
-        J->normal[j] = A.c[2]; /* turning by theta is about the facet's normal, which it leaves as it is */
+    const rg_symmetry *G = J->G;
+    const int32_t N = J->K->C.N;
+    int32_t columns = 0;
+    for (int32_t i = 0; i < N; i++) J->part[G ? G->crease_orbit[i] : i]++; /* how many they are */
+    for (int32_t i = 0; i < N; i++) {
+        const int32_t first = G ? G->crease_orbit[i] : i;
+        J->column[i] = first == i ? columns++ : J->column[first];
+        J->part[i] = first == i ? 1 / sqrt(J->part[i]) : J->part[first];
     }
-    const rg_vec3 r = rg_loop_residual(A);
-    J->r[3 * k] = r.x, J->r[3 * k + 1] = r.y, J->r[3 * k + 2] = r.z; /* eq. (12) */
-    return rg_loop_angle(A);
+    return columns;
 }
 
-double rg_coupled_assemble_some(rg_coupled *J, const int32_t *vertex, int32_t count, const double *rho, const double *u, double *off)
+static rg_vec2 turned(const rg_symmetry *G, int32_t g, rg_vec2 d)
 {
-    double worst = 0, most = 0;
-    if (J->U) rg_freedom_move(J->freedom, u, J->X);
-    for (int32_t n = 0; n < count; n++) {
-        const int32_t k = vertex ? vertex[n] : n;
-        if (J->U) rg_mesh_sectors_at(J->mesh, k, J->X, J->theta);
-        const double angle = assemble_vertex(J, k, rho);
-        if (!(angle <= worst)) worst = angle;
-        if (J->kawasaki[k] < 0) continue;
-        double *sum = &J->r[J->kawasaki[k]];
-        rg_coupled_alternate(J, k, sum, NULL);
-        if (!(fabs(*sum) <= most)) most = fabs(*sum);
-    }
-    if (off) *off = most;
-    return worst;
+    return (rg_vec2){G->A[g][0][0] * d.x + G->A[g][0][1] * d.y, G->A[g][1][0] * d.x + G->A[g][1][1] * d.y};
 }
+
+/* Of d, what every element that leaves v where it is leaves as it is. *orbit: out, the size of v's. */
+static rg_vec2 own_image(const rg_symmetry *G, int32_t v, rg_vec2 d, int32_t *orbit)
+{
+    rg_vec2 sum = {0, 0};
+    int32_t n = 0;
+    for (int32_t g = 0; g < G->order; g++) {
+        if (G->vertex[(size_t)g * (size_t)G->nv + (size_t)v] != v) continue;
+        const rg_vec2 image = turned(G, g, d);
+        sum.x += image.x, sum.y += image.y;
+        n++;
+    }
+    *orbit = G->order / n;
+    return (rg_vec2){sum.x / n, sum.y / n};
+}
+
+/* Of d, what the ways of v allow. */
+static rg_vec2 allowed(const rg_freedom *f, int32_t v, rg_vec2 d)
+{
+    rg_vec2 sum = {0, 0};
+    for (int i = 0; i < 2; i++) {
+        if (f->way[v][i] < 0) continue;
+        const rg_vec2 along = f->direction[f->way[v][i]];
+        const double part = rg_vec2_dot(d, along);
+        sum.x += part * along.x, sum.y += part * along.y;
+    }
+    return sum;
+}
+
+/* Every way by itself. */
+static int32_t number_all_ways(rg_coupled *J, int32_t columns)
+{
+    const rg_freedom *f = J->K->freedom;
+    for (int32_t v = 0; v < J->K->mesh->nv; v++)
+        for (int i = 0; i < 2; i++) {
+            const int32_t way = f->way[v][i];
+            J->way[v][i] = way < 0 ? -1 : columns + way;
+            if (way >= 0) J->direction[v][i] = f->direction[way];
+        }
+    return columns + f->U;
+}
+
+static int32_t number_ways(rg_coupled *J, int32_t columns)
+{
+    const rg_symmetry *G = J->G;
+    const rg_freedom *f = J->K->freedom;
+    for (int32_t v = 0; v < G->nv; v++) J->way[v][0] = J->way[v][1] = -1;
+    for (int32_t v = 0; v < G->nv; v++) {
+        if (G->vertex_orbit[v] != v) continue;
+        int32_t found = 0, size;
+        rg_vec2 first = {0, 0};
+        for (int i = 0; i < 2; i++) {
+            if (f->way[v][i] < 0) continue;
+            rg_vec2 d = own_image(G, v, f->direction[f->way[v][i]], &size);
+            const double before = rg_vec2_dot(d, first);
+            d = rg_vec2_sub(d, (rg_vec2){before * first.x, before * first.y});
+            const double length = rg_vec2_length(d);
+            if (length <= NOTHING) continue;
+            d = (rg_vec2){d.x / length, d.y / length};
+            for (int32_t g = 0; g < G->order; g++) {
+                const int32_t w = G->vertex[(size_t)g * (size_t)G->nv + (size_t)v];
+                const rg_vec2 there = allowed(f, w, turned(G, g, d));
+                J->way[w][found] = columns;
+                J->direction[w][found] = (rg_vec2){there.x / sqrt(size), there.y / sqrt(size)};
+            }
+            first = d;
+            found++;
+            columns++;
+        }
+    }
+    return columns;
+}
+
+/* ------------------------------------------------------------------------------------------ entries of R A Q ---- */
+
+/* Where the next entries of each column go, in rows of the vertex that is being laid out. */
+typedef struct filler { int32_t *start, *fill, *row, *seen, *where; } filler;
+
+/* Entries of one column in the rows of vertex number n, once for each column; fill->row NULL: counts them. */
+static int32_t reserve(const rg_coupled *J, filler *f, int32_t n, int32_t column, int is_way)
+{
+    const int with_kawasaki = is_way && J->kawasaki[n] >= 0;
+    if (f->seen[column] == n + 1) return f->where[column];
+    f->seen[column] = n + 1;
+    if (!f->row) {
+        f->start[column + 1] += 3 + with_kawasaki;
+        return 0;
+    }
+    f->where[column] = f->fill[column];
+    for (int i = 0; i < 3; i++) f->row[f->fill[column]++] = 3 * n + i;
+    if (with_kawasaki) f->row[f->fill[column]++] = J->kawasaki[n];
+    return f->where[column];
+}
+
+static void lay_out(rg_coupled *J, filler *f)
+{
+    const rg_mesh *m = J->K->mesh;
+    for (int32_t n = 0; n < J->count; n++) {
+        const int32_t k = J->vertex[n], v = m->inner_vertex[k];
+        for (int i = 0; i < 2; i++) J->at_own[k][i] = J->way[v][i] < 0 ? -1 : reserve(J, f, n, J->way[v][i], 1);
+        for (int32_t j = m->loop_start[k]; j < m->loop_start[k + 1]; j++) {
+            const int32_t *far = J->way[J->K->far[j]];
+            J->at[j] = reserve(J, f, n, J->column[m->loop_crease[j]], 0);
+            for (int i = 0; i < 2; i++) J->at_far[j][i] = far[i] < 0 ? -1 : reserve(J, f, n, far[i], 1);
+        }
+    }
+}
+
+static rg_status make_pattern(rg_coupled *J, int32_t rows, int32_t columns)
+{
+    const size_t n = (size_t)columns;
+    filler f = {rg_mem_array(&J->mem, n + 1, sizeof(int32_t)), rg_mem_array(&J->mem, n, sizeof(int32_t)), NULL,
+                rg_mem_array(&J->mem, n, sizeof(int32_t)), rg_mem_array(&J->mem, n, sizeof(int32_t))};
+    rg_status s = f.start && f.fill && f.seen && f.where ? RG_OK : RG_ENOMEM;
+    if (s == RG_OK) {
+        lay_out(J, &f);
+        for (int32_t i = 0; i < columns; i++) f.start[i + 1] += f.start[i];
+        memcpy(f.fill, f.start, n * sizeof *f.fill);
+        memset(f.seen, 0, n * sizeof *f.seen);
+        f.row = rg_mem_array(&J->mem, (size_t)f.start[columns], sizeof *f.row);
+        s = f.row ? RG_OK : RG_ENOMEM;
+    }
+    if (s == RG_OK) {
+        lay_out(J, &f);
+        s = rg_least_init(&J->A, &J->mem, rows, columns, f.start, f.row);
+    }
+    void *block[] = {f.start, f.fill, f.row, f.seen, f.where};
+    for (int i = 0; i < 5; i++) rg_mem_free(&J->mem, block[i]);
+    return s;
+}
+
+rg_status rg_coupled_init(rg_coupled *J, const rg_memory *mem, rg_constraint *K, const rg_symmetry *G)
+{
+    const rg_mesh *m = K->mesh;
+    const size_t N = (size_t)m->N, nv = (size_t)m->nv, M = (size_t)m->M, spokes = (size_t)m->loop_start[m->M];
+    memset(J, 0, sizeof *J);
+    J->mem = *mem;
+    J->K = K;
+    J->G = G;
+    J->vertex = rg_mem_array(mem, M, sizeof *J->vertex);
+    J->kawasaki = rg_mem_array(mem, M, sizeof *J->kawasaki);
+    J->column = rg_mem_array(mem, N, sizeof *J->column);
+    J->part = rg_mem_array(mem, N, sizeof *J->part);
+    J->way = rg_mem_array(mem, nv, sizeof *J->way);
+    J->direction = rg_mem_array(mem, nv, sizeof *J->direction);
+    J->at = rg_mem_array(mem, spokes, sizeof *J->at);
+    J->at_own = rg_mem_array(mem, M, sizeof *J->at_own);
+    J->at_far = rg_mem_array(mem, spokes, sizeof *J->at_far);
+    J->sign = rg_mem_array(mem, spokes, sizeof *J->sign);
+    J->b = rg_mem_array(mem, 4 * M, sizeof *J->b);
+    J->y = rg_mem_array(mem, N + (size_t)K->freedom->U, sizeof *J->y);
+    rg_status s = J->vertex && J->kawasaki && J->column && J->part && J->way && J->direction && J->at && J->at_own && J->at_far &&
+                          J->sign && J->b && J->y ? RG_OK : RG_ENOMEM;
+    if (s == RG_OK) {
+        for (int32_t k = 0; k < m->M; k++)
+            if (!G || G->vertex_orbit[m->inner_vertex[k]] == m->inner_vertex[k]) J->vertex[J->count++] = k;
+        int32_t rows = 3 * J->count;
+        for (int32_t n = 0; n < J->count; n++) J->kawasaki[n] = K->kawasaki[J->vertex[n]] < 0 ? -1 : rows++; /* eq. (16) */
+        const int32_t creases = number_creases(J);
+        s = make_pattern(J, rows, G ? number_ways(J, creases) : number_all_ways(J, creases));
+    }
+    if (s == RG_OK && G) s = rg_fours_init(&J->some, mem, &K->C, J->vertex, J->count);
+    if (s != RG_OK) rg_coupled_free(J);
+    return s;
+}
+
+/* -------------------------------------------------------------------------------------------------- numbers ---- */
 
 double rg_coupled_assemble(rg_coupled *J, const double *rho, const double *u, double *off)
 {
-    return rg_coupled_assemble_some(J, NULL, J->M, rho, u, off);
+    return rg_constraint_assemble_at(J->K, J->G ? &J->some : NULL, rho, u, off);
 }
 
-void rg_coupled_turn(const rg_coupled *J, int32_t k, int32_t j, rg_vec2 *g, rg_vec3 *normal)
+/* The direction of a loop entry turns by g . (dX of its far end - dX of the vertex): adds what that of v does to the rows. Turning it takes
+ * from the sector behind it what it gives to the one before. */
+static void add_turn(rg_coupled *J, const int32_t at[2], int32_t v, rg_vec2 g, rg_vec3 normal, double sign, const double *scale)
 {
-    const int32_t first = J->mesh->loop_start[k], last = J->mesh->loop_start[k + 1];
-    const rg_vec2 d = rg_vec2_sub(J->X[J->far[j]], J->X[J->mesh->inner_vertex[k]]);
-    const double squared = rg_vec2_dot(d, d);
-    *g = (rg_vec2){-d.y / squared, d.x / squared};
-    /* Turning this direction takes from the sector behind it what it gives to the one before. */
-    *normal = rg_vec3_sub(J->normal[j > first ? j - 1 : last - 1], J->normal[j]);
-}
-
-/* The direction of loop entry j turns by g . (dX of its far end - dX of the vertex): adds what that does to the rows. */
-static void add_turn(rg_coupled *J, const int32_t at[2], const int32_t way[2], rg_vec2 g, rg_vec3 normal, double sign,
-                     const double *scale)
-{
+    const int32_t *of = J->K->freedom->way[J->G ? J->G->vertex_orbit[v] : v];
     for (int i = 0; i < 2; i++) {
         if (at[i] < 0) continue;
-        const double turn = scale[J->N + way[i]] * rg_vec2_dot(g, J->freedom->direction[way[i]]);
+        const double turn = scale[J->K->C.N + of[J->G ? 0 : i]] * rg_vec2_dot(g, J->direction[v][i]);
         double *x = J->A.x + at[i];
         x[0] += turn * normal.x, x[1] += turn * normal.y, x[2] += turn * normal.z;
         if (sign != 0) x[3] += turn * sign; /* eq. (17) */
@@ -213,28 +226,69 @@ static void add_turn(rg_coupled *J, const int32_t at[2], const int32_t way[2], r
 
 void rg_coupled_renew(rg_coupled *J, const double *scale)
 {
-    const rg_mesh *m = J->mesh;
+    const rg_constraint *K = J->K;
+    const rg_mesh *m = K->mesh;
     memset(J->A.x, 0, (size_t)J->A.start[J->A.columns] * sizeof *J->A.x);
-    for (int32_t k = 0; k < J->M; k++) {
-        const int32_t first = m->loop_start[k], last = m->loop_start[k + 1], v = m->inner_vertex[k];
+    for (int32_t n = 0; n < J->count; n++) {
+        const int32_t k = J->vertex[n], v = m->inner_vertex[k], first = m->loop_start[k], last = m->loop_start[k + 1];
+        const int kept = J->kawasaki[n] >= 0;
+        double sum;
+        if (kept) rg_kawasaki_alternate(m, k, K->sector, &sum, J->sign);
         for (int32_t j = first; j < last; j++) {
             const int32_t i = m->loop_crease[j];
-            const double of = m->still && m->still[m->crease_edge[i]] ? 0 : scale[i];
+            const double of = J->part[i] * scale[J->G ? J->G->crease_orbit[i] : i];
             double *x = J->A.x + J->at[j];
-            x[0] = of * J->direction[j].x, x[1] = of * J->direction[j].y, x[2] = of * J->direction[j].z;
-        }
-        if (!J->U) continue;
-        const int kept = J->kawasaki[k] >= 0;
-        double sum;
-        if (kept) rg_coupled_alternate(J, k, &sum, J->sign);
-        for (int32_t j = first; j < last; j++) {
-            rg_vec2 g;
-            rg_vec3 normal;
-            rg_coupled_turn(J, k, j, &g, &normal);
+            x[0] += of * K->C.x[j].x, x[1] += of * K->C.x[j].y, x[2] += of * K->C.x[j].z; /* C        eq. (8) */
+            if (!K->freedom->U) continue;
+            const rg_vec2 g = K->turning[j];
+            const rg_vec3 normal = rg_vec3_sub(K->normal[j > first ? j - 1 : last - 1], K->normal[j]);
             const double part = kept ? J->sign[j - first] : 0;
-            add_turn(J, J->at_far[j], J->freedom->way[J->far[j]], g, normal, part, scale);
-            add_turn(J, J->at_own[k], J->freedom->way[v], (rg_vec2){-g.x, -g.y}, normal, part, scale);
+            add_turn(J, J->at_far[j], K->far[j], g, normal, part, scale); /* D, G */
+            add_turn(J, J->at_own[k], v, (rg_vec2){-g.x, -g.y}, normal, part, scale);
         }
     }
     rg_least_renew(&J->A);
+}
+
+/* y = Q^T z */
+static void gather(const rg_coupled *J, const double *z, double *y)
+{
+    const rg_freedom *f = J->K->freedom;
+    memset(y, 0, (size_t)J->A.columns * sizeof *y);
+    for (int32_t i = 0; i < J->K->C.N; i++) y[J->column[i]] += J->part[i] * z[i];
+    for (int32_t w = 0; w < f->U; w++)
+        for (int i = 0; i < 2; i++) {
+            const int32_t v = f->vertex[w];
+            if (J->way[v][i] >= 0) y[J->way[v][i]] += rg_vec2_dot(J->direction[v][i], f->direction[w]) * z[J->K->C.N + w];
+        }
+}
+
+/* x = Q y */
+static void scatter(const rg_coupled *J, const double *y, double *x)
+{
+    const rg_freedom *f = J->K->freedom;
+    for (int32_t i = 0; i < J->K->C.N; i++) x[i] = J->part[i] * y[J->column[i]];
+    for (int32_t w = 0; w < f->U; w++) {
+        const int32_t v = f->vertex[w];
+        double sum = 0;
+        for (int i = 0; i < 2; i++)
+            if (J->way[v][i] >= 0) sum += rg_vec2_dot(J->direction[v][i], f->direction[w]) * y[J->way[v][i]];
+        x[J->K->C.N + w] = sum;
+    }
+}
+
+void rg_coupled_solve(rg_coupled *J, const double *z, const double *r, double *x)
+{
+    memset(J->b, 0, (size_t)J->A.rows * sizeof *J->b);
+    if (z) {
+        gather(J, z, J->y);
+        rg_least_mul(&J->A, J->y, J->b);
+    }
+    for (int32_t n = 0; r && n < J->count; n++) {
+        const int32_t k = J->vertex[n];
+        for (int i = 0; i < 3; i++) J->b[3 * n + i] += r[3 * k + i];
+        if (J->kawasaki[n] >= 0) J->b[J->kawasaki[n]] += r[J->K->kawasaki[k]];
+    }
+    rg_least_solve(&J->A, J->b, J->y); /* eqs. (14), (15), (19) */
+    scatter(J, J->y, x);
 }

@@ -17,7 +17,8 @@ rg_status rg_between_init(rg_between *B, const rg_memory *mem, const rg_mesh *m,
     B->moves = moves;
     rg_status s = rg_freedom_init(&B->freedom, mem, &B->mesh, moves);
     const size_t n = (size_t)m->N + (size_t)B->freedom.U;
-    if (s == RG_OK && moves) s = rg_coupled_init(&B->J, mem, &B->mesh, &B->freedom, 0);
+    if (s == RG_OK && moves) s = rg_constraint_init_moving(&B->K, mem, &B->mesh, &B->freedom, 0);
+    if (s == RG_OK && moves) s = rg_coupled_init(&B->J, mem, &B->K, NULL);
     if (s == RG_OK && !moves) s = rg_steer_init(&B->steer, mem, &B->mesh, settings);
     B->scale = rg_mem_array(mem, n, sizeof *B->scale);
     B->dz = rg_mem_array(mem, n, sizeof *B->dz);
@@ -32,6 +33,7 @@ void rg_between_free(rg_between *B)
     if (!B->mem.resize) return;
     rg_freedom_free(&B->freedom);
     rg_coupled_free(&B->J);
+    rg_constraint_free(&B->K);
     rg_steer_free(&B->steer);
     void *block[] = {B->scale, B->dz, B->z, B->flat, B->theta};
     for (int i = 0; i < 5; i++) rg_mem_free(&B->mem, block[i]);
@@ -41,7 +43,7 @@ void rg_between_free(rg_between *B)
 /* Works off what is open, by creases and pattern, until rounding is left. */
 static double close_together(rg_between *B, int32_t c)
 {
-    const int32_t N = B->J.N, n = N + B->J.U;
+    const int32_t N = B->mesh.N, n = N + B->freedom.U;
     double before = INFINITY, best = NAN;
     for (int32_t i = 0; i < n; i++) B->scale[i] = i == c ? 0 : i < N ? 1 : COMPLIANCE * B->freedom.reach[i - N];
     for (int32_t k = 0; k < CLOSINGS; k++) {
@@ -51,7 +53,7 @@ static double close_together(rg_between *B, int32_t c)
         if (closure <= B->tol && closure > GOOD_GAIN * before) return closure;
         before = closure;
         rg_coupled_renew(&B->J, B->scale);
-        rg_least_solve(&B->J.A, B->J.r, B->dz);
+        rg_coupled_solve(&B->J, NULL, B->K.r, B->dz);
         for (int32_t i = 0; i < n; i++) B->z[i] -= B->scale[i] * B->dz[i];
     }
     return best;

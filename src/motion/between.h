@@ -15,6 +15,7 @@ typedef struct rg_between {
     double tol;
     int moves;           /* non-zero: patterns move, by: */
     rg_freedom freedom;
+    rg_constraint K;
     rg_coupled J;
     double *scale, *dz;  /* [n] */
     rg_steer steer;      /* or do not */

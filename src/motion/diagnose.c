@@ -96,7 +96,7 @@ rg_status rg_diagnose_relaxed(rg_relax *F, int32_t *vertex, int32_t *vertices, i
     rg_relax_wish_and_step(F);
     for (int32_t k = 0; k < m->M; k++) {
         const int32_t first = m->loop_start[k];
-        by[k] = (force){turn(m->loop_start[k + 1] - first, F->J.direction + first, F->J.A.y + 3 * k), k};
+        by[k] = (force){turn(m->loop_start[k + 1] - first, F->K.C.x + first, F->J.A.y + 3 * k), k};
     }
     *vertices = strongest(m, by, vertex);
     for (int32_t i = 0; i < F->limit.first_added; i++)

@@ -136,8 +136,8 @@ static cut cut_of(const ladder *l, const rung *r)
     return l->triangles || l->settings->triangulate == RG_TRIANGULATE_NONE ? AS_DRAWN : r->how;
 }
 
-/* One try: a rung, the symmetry kept, its relaxation, which facets are cut (NULL: all). */
-static rg_status try_rung(const ladder *l, const rung *r, const rg_symmetry *G, const rg_relaxation *how,
+/* One try: a rung, the symmetry kept, its relaxation and what work it may take, which facets are cut (NULL: all). */
+static rg_status try_rung(const ladder *l, const rung *r, const rg_symmetry *G, const rg_relaxation *how, double work,
                           const unsigned char *which, rg_watch *watch, rg_attempt *t, rg_diag *why)
 {
     const rg_problem *p = l->problem;
@@ -161,13 +161,15 @@ static rg_status try_rung(const ladder *l, const rung *r, const rg_symmetry *G, 
         to[i] = !drawn ? NAN : p->to ? p->to[i] : sign * m.target[m.crease_edge[i]];
     }
     if (from && to) s = rg_attempt_relaxed(t, &m, l->settings, how, p->from ? from : NULL, to, G, r->backwards,
-                                           r->part * MOST_WORK[l->settings->effort], watch, why);
+                                           work, watch, why);
     else s = RG_ENOMEM;
     rg_mesh_free(&m);
     rg_mem_free(&mem, from);
     rg_mem_free(&mem, to);
     return s;
 }
+
+static double work_of(const ladder *l, const rung *r) { return r->part * MOST_WORK[l->settings->effort]; }
 
 static rg_relaxation relaxation_of(const ladder *l, const rung *r)
 {
@@ -219,7 +221,7 @@ static int run_job(void *ctx, rg_race *race, int32_t k, int in_calling_thread)
     job_watch mine = {race, k};
     rg_watch watch = {in_calling_thread ? tell : NULL, l, asks_race, &mine, 0};
     rg_diag why = {0, ""};
-    const rg_status s = try_rung(l, r, &l->group[l->job[k].group], &how, NULL, &watch, &l->attempt[k], &why);
+    const rg_status s = try_rung(l, r, &l->group[l->job[k].group], &how, work_of(l, r), NULL, &watch, &l->attempt[k], &why);
     if (s != RG_OK) {
         l->status = s;
         l->why = why;
@@ -311,6 +313,7 @@ typedef struct retries {
     const rung *r;
     int32_t count;
     int is_chain, is_fewer;         /* is_fewer: cuts are saved, and not compliance */
+    double work;                    /* that each may take */
     rg_relaxation how[2];
     const unsigned char *which[2];  /* facets to cut; NULL: all */
     rg_attempt t[2];
@@ -330,7 +333,7 @@ static int run_retry(void *ctx, rg_race *race, int32_t k, int in_calling_thread)
     retries *R = ctx;
     job_watch mine = {race, k};
     rg_watch watch = {in_calling_thread ? tell : NULL, R->l, asks_race, &mine, 0};
-    R->status[k] = try_rung(R->l, R->r, &R->l->group[R->q->group], &R->how[k], R->which[k], &watch, &R->t[k], &R->why[k]);
+    R->status[k] = try_rung(R->l, R->r, &R->l->group[R->q->group], &R->how[k], R->work, R->which[k], &watch, &R->t[k], &R->why[k]);
     if (R->status[k] != RG_OK || (in_calling_thread && R->l->watch->cancelled)) return -1;
     const int is = !watch.cancelled && is_retraction(R, &R->t[k]);
     return R->is_chain ? (k == 0 && !is ? -1 : 0) : is;
@@ -347,6 +350,7 @@ static rg_status retry(retries *R, int32_t *taken, rg_diag *why)
 {
     rg_search *q = R->q;
     rg_race_rules rules = {R->count, workers(R->l), run_retry, look_up_for_retries, R};
+    R->work = fmin(work_of(R->l, R->r), RETRIED_WORK * q->best.work);
     int32_t done;
     rg_status s = RG_OK;
     rg_race_run(&rules, &done);
@@ -521,7 +525,7 @@ static rg_status first_of_all(rg_search *q, ladder *l, int32_t **vertex, int32_t
     rg_status s;
     if (!applies(l, LADDER)) return RG_OK;
     rg_watch watch = {.progress = tell, .ctx = l};
-    s = try_rung(l, LADDER, NULL, &none, NULL, &watch, &q->best, why);
+    s = try_rung(l, LADDER, NULL, &none, 0, NULL, &watch, &q->best, why);
     if (s != RG_OK) return s;
     rg_attempt first = q->best;
     l->attempt = &first;

@@ -31,7 +31,8 @@ rg_status rg_linkage_init(rg_linkage *P, const rg_memory *mem, const rg_mesh *m)
                                 RG_ARRAY(P->axis, nf), RG_ARRAY(P->hinge, nf), RG_ARRAY(P->trial_X, nv),
                                 RG_ARRAY(P->trial_place, nf), RG_ARRAY(P->turn, nf), RG_ARRAY(P->slip, nf));
     if (s == RG_OK) s = rg_freedom_init(&P->freedom, mem, m, 1);
-    if (s == RG_OK) s = rg_coupled_init(&P->J, mem, m, &P->freedom, 0);
+    if (s == RG_OK) s = rg_constraint_init_moving(&P->K, mem, m, &P->freedom, 0);
+    if (s == RG_OK) s = rg_coupled_init(&P->J, mem, &P->K, NULL);
     if (s == RG_OK) s = rg_tree_init(m, -1, &P->tree);
     if (s == RG_OK) {
         P->N = m->N;
@@ -49,6 +50,7 @@ void rg_linkage_free(rg_linkage *P)
     if (!P->mem.resize) return;
     rg_tree_free(&P->tree);
     rg_coupled_free(&P->J);
+    rg_constraint_free(&P->K);
     rg_freedom_free(&P->freedom);
     RG_MEM_FREE(&P->mem, P->parent, P->crease, P->ends, P->own, P->X, P->place, P->p, P->axis, P->hinge, P->trial_X,
                 P->trial_place, P->turn, P->slip);

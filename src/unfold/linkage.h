@@ -20,7 +20,8 @@ typedef struct rg_linkage {
     rg_memory mem;
     const rg_mesh *mesh;      /* borrowed: triangles */
     rg_freedom freedom;
-    rg_coupled J;               /* closure, eqs. (12), (14), (19) */
+    rg_constraint K;          /* closure, eqs. (12), (14), (19) */
+    rg_coupled J;
     rg_tree tree;
     int32_t N, U, n;          /* n = N + U */
     int32_t *parent;          /* [nf] -1: the fixed facet */

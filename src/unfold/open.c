@@ -129,7 +129,7 @@ static rg_status iterate(const rg_opening *o, double part, double *step)
     if (s == RG_OK && more) s = add_side_rows(o);
     if (s == RG_OK && more) s = rg_crossed_add(o->crossed, P, o->near, o->q);
     if (s == RG_OK) s = add_bounds(o, o->end->z, 0, o->way->margin * (grow ? part * part / (OPEN * OPEN) : 1));
-    if (s == RG_OK) s = rg_nearest_solve(o->q, wish, P->J.r, 1);
+    if (s == RG_OK) s = rg_nearest_solve(o->q, wish, P->K.r, 1);
     if (s == RG_OK) *step = go(o, grow ? LARGEST * part : LARGEST_AT_ONCE);
     return s;
 }
@@ -260,7 +260,7 @@ static rg_status repair(rg_opening *o)
         if (o->worst > TOUCHING * REPAIR_APART && !(least_gap_in_plane(o) <= -1e-6) && angle < 1e-9) break;
         s = add_plane_rows(o);
         if (s == RG_OK) s = add_bounds(o, o->z, RG_PI - NEAR_HALF_TURN, REPAIR_MARGIN * o->way->margin);
-        if (s == RG_OK) s = rg_nearest_solve(o->q, NULL, o->P->J.r, 1);
+        if (s == RG_OK) s = rg_nearest_solve(o->q, NULL, o->P->K.r, 1);
         if (s != RG_OK) break;
         go(o, REPAIR_LARGEST);
         rg_stride_close(o->P, o->q, o->z, 1e-11, 3);

@@ -384,7 +384,7 @@ static int leave_flat(rg_passage *w, double *z)
         rg_coupled_renew(&w->P.J, q->scale);
         rg_linkage_put(&w->P, z);
         for (int32_t i = 0; i < n; i++) q->wish[i] = (i < N ? OFF_FLAT * w->track.end[i] : 0) - z[i];
-        rg_nearest_project(q, q->wish, w->P.J.r);
+        rg_nearest_project(q, q->wish, w->P.K.r);
         for (int32_t i = 0; i < N; i++) most = fmax(most, fabs(q->dz[i]));
         for (int32_t i = 0; i < n; i++) z[i] += fmin(1, OFF_FLAT_LARGEST / fmax(most, 1e-12)) * q->dz[i];
         if (most < OFF_FLAT_STILL) break;

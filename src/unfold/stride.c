@@ -72,7 +72,7 @@ void rg_stride_newton(rg_linkage *P, rg_nearest *q, double *z, double angle)
     P->J.A.damping = DAMPING * angle;
     rg_coupled_renew(&P->J, q->scale);
     q->work += 20 * P->J.A.L.S.entries + P->J.A.L.S.flops;
-    rg_nearest_project(q, NULL, P->J.r);
+    rg_nearest_project(q, NULL, P->K.r);
     P->J.A.damping = 0;
     for (int32_t k = 0; k < P->n; k++) z[k] += q->dz[k];
 }
@@ -486,7 +486,7 @@ static rg_status close_trial(rg_stride *s, int *closed)
         const double angle = rg_coupled_assemble(&P->J, s->z1, s->z1 + P->N, NULL);
         if (!(angle < 1)) return RG_OK;
         set_floors(s);
-        const rg_status status = rg_nearest_solve(&s->q, NULL, P->J.r, 0);
+        const rg_status status = rg_nearest_solve(&s->q, NULL, P->K.r, 0);
         if (status != RG_OK) return status;
         double now = 0;
         for (int32_t k = 0; k < P->n; k++) now = fmax(now, fabs(s->q.dz[k]) / s->q.scale[k]);
@@ -561,7 +561,7 @@ static rg_status find_step(rg_stride *s, double *f)
     if (status == RG_OK) status = add_end_rows(s);
     if (status == RG_OK) status = add_bounds(s);
     if (status == RG_OK) status = add_area_rows(s);
-    if (status == RG_OK) status = rg_nearest_solve(q, s->wish, P->J.r, 1);
+    if (status == RG_OK) status = rg_nearest_solve(q, s->wish, P->K.r, 1);
     if (status != RG_OK) return status;
     double turn = 0, move = 0, shift = 0;
     for (int32_t i = 0; i < P->N; i++) turn = fmax(turn, fabs(q->dz[i]));
