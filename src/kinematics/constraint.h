@@ -1,6 +1,6 @@
 /* constraint.h -- all vertices: C (3M x N) and r at given fold angles; and where the pattern may give way, what vertices do to r.
  * Paper    eqs. (6)-(8), (11), (12); (16)-(18)        Uses  loop.h turn.h sparse.h freedom.h kawasaki.h
- * Used by  mobility.c project.c tangent.c coupled.c orbits.c
+ * Used by  mobility.c project.c tangent.c coupled.c
  *
  * F depends on the sector angles theta as it does on rho: dF/dtheta_i = [A_(i+1) e_z]x F, the normal of that facet, seen from
  * the first. So what rho cannot close, X can:

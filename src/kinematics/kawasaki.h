@@ -1,5 +1,5 @@
 /* kawasaki.h -- Kawasaki's theorem at a vertex: sectors by turns forth and back come to nothing.
- * Paper    eqs. (16)-(18)        Uses  mesh.h        Used by  constraint.c coupled.c orbits.c */
+ * Paper    eqs. (16)-(18)        Uses  mesh.h        Used by  constraint.c coupled.c */
 #ifndef RG_KAWASAKI_H
 #define RG_KAWASAKI_H
 
