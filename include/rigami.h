@@ -215,7 +215,7 @@ typedef struct rg_settings {
                                    * auto */
     rg_method method;             /* how steps are made; the report says which; auto */
     rg_solver solver;             /* how the linear system of a step is solved; auto */
-    double step;                  /* largest change of any crease in one step, radians, above 0, at most pi; 5
+    double step;                  /* largest change of any crease in one step, radians, 1e-7 ... pi; 5
                                    * degrees */
     double tol;                   /* closure tolerance: rotation angle of F at any vertex, radians, 1e-13 ... 0.1;
                                    * 1e-10 */

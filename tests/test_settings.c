@@ -50,7 +50,7 @@ static const member SETTINGS[] = {
     WHOLE(rg_settings, symmetry, 0, RG_SYMMETRY_OFF),
     WHOLE(rg_settings, method, 0, RG_METHOD_ADAPTIVE),
     WHOLE(rg_settings, solver, 0, RG_SOLVER_SVD),
-    {AT(rg_settings, step), DOUBLE, 0, PI, 1, 0},
+    REAL(rg_settings, step, 1e-7, PI),
     REAL(rg_settings, tol, 1e-13, 0.1),
     REAL(rg_settings, to, -1, 1),
     FLAG(rg_settings, rest),

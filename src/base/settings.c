@@ -5,6 +5,8 @@
 #include <stdint.h>
 #include <string.h>
 
+/* Radians; half a turn takes some thirty million such steps, and one that rounding takes back would never come to an end. */
+static const double LEAST_STEP = 1e-7;
 /* Rounding leaves some 1e-15 at a vertex, and its sums a hundred times that. */
 static const double LEAST_TOLERANCE = 1e-13, MOST_TOLERANCE = 0.1;
 /* More of the sheet than that is no gap. */
@@ -48,7 +50,8 @@ static int is_among(int value, int last) { return value >= 0 && value <= last; }
 static rg_status check_settings(const rg_settings *s, rg_diag *why)
 {
     if (s->frames < 2) return rg_fail(RG_EARG, why, 0, "there must be at least 2 frames");
-    if (!(s->step > 0 && s->step <= RG_PI)) return rg_fail(RG_EARG, why, 0, "the step must be above 0 and at most 180 degrees");
+    if (!(s->step >= LEAST_STEP && s->step <= RG_PI))
+        return rg_fail(RG_EARG, why, 0, "the step must be at least %.2g and at most 180 degrees", LEAST_STEP / RG_DEG);
     if (!(s->tol >= LEAST_TOLERANCE && s->tol <= MOST_TOLERANCE))
         return rg_fail(RG_EARG, why, 0, "the tolerance must be within %g, which rounding leaves, and %g", LEAST_TOLERANCE, MOST_TOLERANCE);
     if (!(fabs(s->to) <= 1)) return rg_fail(RG_EARG, why, 0, "the end must be within -100 and 100 percent");
