@@ -669,7 +669,8 @@ RG_API void rg_fold_destroy(rg_fold *f);
 /* The motion that was found, with its report; of a flat one, its sheet alone. Borrowed until rg_fold_destroy. */
 RG_API const rg_motion *rg_fold_motion(const rg_fold *f);
 
-/* ---- moving. All return what there is to say of the state that was reached, borrowed until the next move. */
+/* ---- moving. What there is to say of the state that was reached is lent until the next move: by steps themselves, and
+ * by rg_fold_get_info. */
 
 /* Of the present state, without a move. */
 RG_API const rg_step_info *rg_fold_get_info(const rg_fold *f);
