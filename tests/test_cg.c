@@ -252,6 +252,35 @@ static void the_reason_has_a_name(void **state)
     rg_sparse_free(&s.C);
 }
 
+/* A solve of what is no number leaves nothing behind: the next one gives the bits of a first one. */
+static void after_no_number(void **state)
+{
+    (void)state;
+    const rg_memory mem = rg_mem_default(NULL);
+    strip s;
+    strip_init(&s, 6, 4, 7);
+    unsigned seed = 3;
+    double b[18], bad[18], x[2][60], y[18];
+    for (int i = 0; i < 18; i++) b[i] = noise(&seed), bad[i] = NAN;
+    for (int spoilt = 0; spoilt < 2; spoilt++) {
+        rg_cg_work w;
+        rg_jacobi P;
+        rg_cg_report rep;
+        assert_int_equal(rg_cg_work_init(&w, &mem, s.C.M, s.C.N), RG_OK);
+        assert_int_equal(rg_jacobi_init(&P, &mem, s.C.M), RG_OK);
+        rg_jacobi_update(&P, &s.C);
+        memset(y, 0, sizeof y);
+        if (spoilt) rg_cg_solve(&s.C, rg_jacobi_apply, &P, NULL, bad, y, x[1], 1e-12, 50, &w, &rep);
+        memset(y, 0, sizeof y);
+        rg_cg_solve(&s.C, rg_jacobi_apply, &P, NULL, b, y, x[spoilt], 1e-12, 500, &w, &rep);
+        assert_int_equal(rep.stop, RG_CG_CONVERGED);
+        rg_cg_work_free(&w);
+        rg_jacobi_free(&P);
+    }
+    assert_memory_equal(x[0], x[1], (size_t)s.C.N * sizeof **x);
+    rg_sparse_free(&s.C);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -262,7 +291,7 @@ int main(void)
         cmocka_unit_test(flat_state_inconsistent),
         cmocka_unit_test(singular_between_vertices),
         cmocka_unit_test(warm_start_costs_less_and_says_the_same),
-        cmocka_unit_test(the_reason_has_a_name),
+        cmocka_unit_test(the_reason_has_a_name), cmocka_unit_test(after_no_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -177,6 +177,27 @@ static void flat_paper_to_its_end(void **state)
         }
 }
 
+/* Two creases of a waterbomb that cannot go together while a third is held: a crease turned right round closes as well, and is no way off the flat sheet. */
+static void not_by_a_whole_turn(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("waterbomb", 2);
+    rg_fold *f = flat_fold(p, 10);
+    const int32_t both[2] = {28, 13};
+    const double to[2] = {-0.86637, 2.56752};
+    int32_t N;
+    assert_int_equal(rg_fold_drive(f, 2, both, to), RG_OK);
+    assert_int_equal(rg_fold_pin(f, 8), RG_OK);
+    do {
+        const double *rho = rg_fold_angles(f, &N);
+        for (int32_t i = 0; i < N; i++) below(fabs(rho[i]), RG_PI + 1e-9);
+    } while (rg_fold_step(f)->outcome == RG_RUNNING);
+    const double *rho = rg_fold_angles(f, &N);
+    for (int32_t i = 0; i < N; i++) below(fabs(rho[i]), RG_PI + 1e-9);
+    rg_fold_destroy(f);
+    rg_pattern_destroy(p);
+}
+
 /* Forgotten on the way, between two states and of a motion that was found: it goes on to what it aimed at. */
 static void forgotten_on_the_way(void **state)
 {
@@ -720,7 +741,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_lands_only_where_the_sheet_closes), cmocka_unit_test(who_resists_is_to_blame),
         cmocka_unit_test(one_crease_of_a_miura_ori), cmocka_unit_test(back_through_flat), cmocka_unit_test(targets_pins_and_free_creases),
-        cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames), cmocka_unit_test(frames_do_not_matter), cmocka_unit_test(to_and_fro), cmocka_unit_test(forgotten_on_the_way), cmocka_unit_test(flat_paper_to_its_end),
+        cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames), cmocka_unit_test(frames_do_not_matter), cmocka_unit_test(to_and_fro), cmocka_unit_test(forgotten_on_the_way), cmocka_unit_test(flat_paper_to_its_end), cmocka_unit_test(not_by_a_whole_turn),
         cmocka_unit_test(kept_states), cmocka_unit_test(positions_and_transforms), cmocka_unit_test(recorded),
         cmocka_unit_test(records_are_verified),
         cmocka_unit_test(steps_ask_for_nothing)};

@@ -13,6 +13,8 @@ static const int32_t CLOSINGS = 10;
 static const double GOOD_GAIN = 0.1, POOR_GAIN = 0.7;
 /* The mean angle at which flat paper is left: as straight.c has it. Below NOTHING, radians, a sheet is flat. */
 static const double FIRST_ANGLE = 0.01, NOTHING = 1e-9;
+/* What closes with a crease this far from flat, radians, has not just left it: a whole turn closes, too. */
+static const double FARTHEST_OFF_FLAT = RG_PI / 2;
 /* A step shorter than this, in progress, is none; one whose end is this much of it off its prediction has left the branch. */
 static const double SHORTEST = 1e-6, FARTHEST = 0.5, A_LITTLE = 1e-6;
 /* Progress that is asked for is met to this. */
@@ -178,7 +180,7 @@ static int leave_flat(rg_steer *F)
     memcpy(F->ray, f->rho, (size_t)N * sizeof *F->ray);
     put_driven(F, F->ray_s, F->ray);
     hold_still(F);
-    if (!close_trial(F, F->ray_s, F->ray)) return 0;
+    if (!close_trial(F, F->ray_s, F->ray) || !(largest(N, F->ray) <= FARTHEST_OFF_FLAT)) return 0;
     memcpy(F->rho, F->ray, (size_t)N * sizeof *F->rho);
     F->s = F->ray_s;
     return 1;

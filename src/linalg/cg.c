@@ -49,6 +49,13 @@ static void residual(const rg_sparse *C, const double *b, const double *x, doubl
     for (int32_t i = 0; i < 3 * C->M; i++) r[i] = b[i] - r[i];
 }
 
+/* The directions of an earlier solve count for nothing, but nothing times what is no number would be none. */
+static void forget_directions(int32_t n, double *p, int32_t m, double *q)
+{
+    memset(p, 0, (size_t)n * sizeof *p);
+    memset(q, 0, (size_t)m * sizeof *q);
+}
+
 /* x = (I - n n^T) C^T y */
 static void mul_t_held(const rg_sparse *C, const double *hold, const double *y, double *x)
 {
@@ -64,6 +71,7 @@ void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double 
     const int32_t m = 3 * C->M, n = C->N;
     double *r = k->r, *z = k->z, *u = k->u, *q = k->q, *w = k->w, *s = k->s, *p = k->p;
 
+    forget_directions(n, p, m, q);
     P(ctx, b, z);
     const double target = tol * sqrt(rg_lanes_dot(m, b, z));
     mul_t_held(C, hold, z, s);
@@ -137,6 +145,7 @@ void rg_cg_refine(const rg_sparse *B, rg_apply_pinv *G, void *ctx, const double 
     double curvature = 0, shortest = INFINITY, first = 0, before = 0, target = absolute;
     int32_t since = 0;
 
+    forget_directions(n, p, m, w);
     residual(B, b, x, r);
     rep->stop = RG_CG_MAX_ITERATIONS;
     for (rep->iterations = 0;; rep->iterations++) {

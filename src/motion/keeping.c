@@ -87,7 +87,7 @@ rg_status rg_fold_restore(rg_fold *f, const rg_snapshot *s)
     const size_t N = (size_t)m->N, nv = (size_t)m->nv, n = (size_t)s->states;
     if (s->of != f->shared) return RG_EARG;
     rg_status status = s->steers ? rg_fold_make_steer(f) : RG_OK;
-    if (status == RG_OK && s->steered) status = rg_fold_own_track(f, (s->aimed ? s->at : s->first) + 1);
+    if (status == RG_OK && s->steered) status = rg_fold_own_track(f, s->aimed ? s->states : s->first + 1);
     if (status != RG_OK) return status;
     f->steered = s->steered, f->aimed = s->aimed, f->between = s->between, f->first = s->first, f->at = s->at;
     f->closure = s->closure, f->progress = s->progress;

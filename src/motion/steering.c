@@ -1,7 +1,7 @@
 /* steering.c -- new aims on the way: rigami.h, rg_fold_drive and others.
  *
- * A leg begins where the fold stands, with the step after something was set, and goes on the pattern that the state has. What was passed
- * before stays in the track. All room is made when something is set: a step asks for none. */
+ * A leg begins where the fold stood when something was set, with the first step after that, and goes on the pattern that the state has. What
+ * was passed before stays in the track. All room is made when something is set: a step asks for none. */
 #include "motion/fold.h"
 
 #include <string.h>
@@ -84,23 +84,14 @@ rg_status rg_fold_make_steer(rg_fold *f)
 
 /* ------------------------------------------------------------------------------------------------ a leg ---- */
 
-/* Sector angles of the present pattern. */
-static const double *sectors(rg_fold *f)
-{
-    rg_mesh_sectors(rg_fold_mesh(f), f->flat, f->theta);
-    return f->theta;
-}
-
-/* From where the fold stands, which is the last state of the track then. */
+/* From the last state of the track; the fold may have been taken back before it. */
 static void begin(rg_fold *f)
 {
-    f->track.count = f->at + 1;
-    if (f->between) append(f, f->rho, f->flat, 0, f->closure);
-    f->first = f->at = f->track.count - 1;
-    f->between = 0;
+    f->first = f->track.count - 1;
     f->track.progress[f->first] = 0;
-    f->progress = 0;
-    rg_steer_begin(f->steer, sectors(f), f->rho);
+    if (f->at == f->first) f->progress = 0;
+    rg_mesh_sectors(rg_fold_mesh(f), rg_fold_pattern(f, f->first), f->theta);
+    rg_steer_begin(f->steer, f->theta, rg_fold_state(f, f->first));
     f->aimed = 0;
 }
 
@@ -132,10 +123,13 @@ static rg_status prepare(rg_fold *f)
     return s;
 }
 
-/* The rest of the track no longer holds. */
+/* The rest of the track no longer holds; the present state is its last one. */
 static rg_status aim(rg_fold *f)
 {
     f->track.count = f->at + 1;
+    if (f->between) append(f, f->rho, f->flat, f->progress, f->closure);
+    f->at = f->track.count - 1;
+    f->between = 0;
     f->ending.outcome = RG_RUNNING;
     f->ending.reason = "";
     f->aimed = 1;

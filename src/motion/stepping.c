@@ -5,6 +5,7 @@
 #include "base/settings.h"
 #include "base/status.h"
 #include "fold/chord.h"
+#include "fold/tuning.h"
 #include "motion/fold.h"
 
 #include <string.h>
@@ -221,13 +222,25 @@ static int32_t fastest(const rg_fold *f, const double *a, const double *b)
     return c;
 }
 
-/* The state at that part of the way from k to k + 1 in which crease c has the angle, NAN: that which it has there. */
+/* What closes far from both states is on no way from one to the other: a crease farther past half a turn than in these tells. */
+static int overfolds(const rg_fold *f, const double *rho, const double *from, const double *to)
+{
+    for (int32_t i = 0; i < rg_fold_mesh(f)->N; i++)
+        if (!(fabs(rho[i]) <= fmax(RG_PI, fmax(fabs(from[i]), fabs(to[i]))) + MOST_OVER)) return 1;
+    return 0;
+}
+
+/* The state at that part of the way from k to k + 1 in which crease c has the angle, NAN: that which it has there. Returns its closure; NAN:
+ * none was found. */
 static double at_part(rg_fold *f, rg_between *b, int32_t k, double part, int32_t c, double angle)
 {
     const rg_vec2 *X = rg_fold_pattern(f, k), *Y = rg_fold_pattern(f, k + 1);
     const double *from = rg_fold_state(f, k), *to = rg_fold_state(f, k + 1);
-    if (!b->moves && is_smooth(f) && follow(f, k, part)) return rg_between_at(b, f->guess, X, f->guess, X, 0, c, isnan(angle) ? f->guess[c] : angle);
-    return rg_between_at(b, from, X, to, Y, part, c, isnan(angle) ? from[c] + part * (to[c] - from[c]) : angle);
+    const double closure =
+        !b->moves && is_smooth(f) && follow(f, k, part)
+            ? rg_between_at(b, f->guess, X, f->guess, X, 0, c, isnan(angle) ? f->guess[c] : angle)
+            : rg_between_at(b, from, X, to, Y, part, c, isnan(angle) ? from[c] + part * (to[c] - from[c]) : angle);
+    return overfolds(f, b->z, from, to) ? NAN : closure;
 }
 
 rg_status rg_fold_read_between(rg_fold *f, int32_t k, double part, double *rho, rg_vec2 *X, int *closes)
@@ -241,13 +254,21 @@ rg_status rg_fold_read_between(rg_fold *f, int32_t k, double part, double *rho, 
     return RG_OK;
 }
 
-/* What is now the present state, between states k and k + 1. */
-static void stand_at(rg_fold *f, int32_t k, double closure)
+/* Of a leg that is over it is not known any more whose ways counted: as the states on both sides tell. Its last state has no progress but
+ * that of the leg which begins there. */
+static double progress_before(const rg_fold *f, int32_t k, double part)
+{
+    const double from = rg_fold_progress(f, k), to = rg_fold_progress(f, k + 1);
+    return from + part * ((to > from ? to : 1) - from);
+}
+
+/* What is now the present state, at that part of the way from state k to the next. */
+static void stand_at(rg_fold *f, int32_t k, double part, double closure)
 {
     f->at = k;
     f->between = 1;
     f->closure = closure;
-    f->progress = progress_of(f, f->rho);
+    f->progress = f->steered && k < f->first ? progress_before(f, k, part) : progress_of(f, f->rho);
     rg_fold_look(f);
 }
 
@@ -261,7 +282,7 @@ static void stand_between(rg_fold *f, const rg_between *b, int32_t k, double par
     }
     memcpy(f->rho, b->z, (size_t)m->N * sizeof *f->rho);
     memcpy(f->flat, b->flat, (size_t)m->nv * sizeof *f->flat);
-    stand_at(f, k, closure);
+    stand_at(f, k, part, closure);
 }
 
 /* What reads the path of a motion is made when it is first asked for. */
@@ -320,7 +341,7 @@ static rg_status find_on_path(rg_fold *f, int32_t k, int32_t c, double goal, int
     memcpy(f->rho, f->read, N * sizeof *f->rho);
     if (F && F->U > 0) rg_freedom_move(&F->freedom, f->read + F->N, f->flat);
     else memcpy(f->flat, rg_fold_pattern(f, k), (size_t)rg_fold_mesh(f)->nv * sizeof *f->flat);
-    stand_at(f, k, closure);
+    stand_at(f, k, 0, closure);
     return RG_OK;
 }
 
@@ -417,6 +438,7 @@ rg_status rg_fold_go_to_angle(rg_fold *f, int32_t c, double angle)
     }
     for (int32_t k = f->at - 1; k >= 0; k--)
         if (passes(f, k, c, angle)) return stand_at_angle(f, k, c, angle);
+    rg_fold_look(f); /* more of the track may be known now */
     return RG_EARG;
 }
 
