@@ -448,9 +448,63 @@ static void what_it_cost(void **state)
     rg_pattern_destroy(p);
 }
 
+/* It gives up after as many steps as it is allowed, whether its creases hang together or not. */
+static void steps_run_out(void **state)
+{
+    (void)state;
+    for (int apart = 0; apart < 2; apart++) {
+        rg_lines l = drawing();
+        draw_box(&l, 0, 0, 3, 1);
+        draw(&l, RG_VALLEY, 1, 0, 1, 1);
+        draw(&l, RG_MOUNTAIN, 2, 0, 2.2, 1);
+        rg_pattern *p = apart ? pattern_of(&l) : generated("miura", 4, 60);
+        if (!apart) rg_lines_free(&l);
+        rg_settings s = rg_settings_default();
+        s.method = RG_METHOD_NEWTON;
+        s.step = 0.5 * RG_DEG; /* some hundred steps */
+        rg_straight *f = fold_of(p, &s);
+        rg_step_info i = {.outcome = RG_RUNNING};
+        int steps = 0;
+        rg_straight_set_most_steps(f, 20);
+        for (; i.outcome == RG_RUNNING && steps < 1000; steps++) assert_int_equal(rg_straight_step(f, &i), RG_OK);
+        assert_int_equal(i.outcome, RG_STOPPED);
+        assert_non_null(strstr(i.reason, "number of steps ran out"));
+        assert_true(steps > 15 && steps < 30);
+        rg_straight_destroy(f);
+        rg_pattern_destroy(p);
+    }
+}
+
+/* A crease that stays as it is neither wishes nor leans. */
+static void what_stays_has_no_lean(void **state)
+{
+    (void)state;
+    const rg_memory mem = rg_mem_default(NULL);
+    rg_pattern *p = generated("miura", 4, 60);
+    const rg_plane *plane = rg_pattern_get_plane(p);
+    for (int32_t e = 0; e < plane->edges; e += 2)
+        if (plane->assignment[e] != RG_BORDER) assert_int_equal(rg_pattern_pin(p, e), RG_OK);
+    rg_mesh m = mesh_of(p);
+    rg_drive d;
+    int still = 0;
+    assert_non_null(m.still);
+    assert_int_equal(rg_drive_init(&d, &mem, &m, 1), RG_OK);
+    for (int32_t i = 0; i < m.N; i++) {
+        const int is_still = m.still[m.crease_edge[i]] != 0;
+        still += is_still;
+        assert_int_equal(d.lean[i] == 0, is_still);
+        assert_int_equal(rg_drive_is_driven(&d, i), !is_still);
+    }
+    assert_true(still > 3 && still < m.N - 3);
+    rg_drive_free(&d);
+    rg_mesh_free(&m);
+    rg_pattern_destroy(p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(steps_run_out), cmocka_unit_test(what_stays_has_no_lean),
         cmocka_unit_test(miura_32_is_exact_by_default),
         cmocka_unit_test(miura_is_exact_by_every_method_that_closes),
         cmocka_unit_test(a_vertex_of_four_keeps_its_ratio),
