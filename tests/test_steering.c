@@ -705,7 +705,8 @@ static void it_lands_only_where_the_sheet_closes(void **state)
 static void who_resists_is_to_blame(void **state)
 {
     (void)state;
-    for (int at = 0; at < 2; at++) {
+    for (int k = 0; k < 4; k++) {
+        const int at = k % 2, little = k / 2; /* three creases a little, or two as far as two neighbours cannot */
         rg_lines l = drawing();
         draw_box(&l, 0, 0, 4, 2);
         for (int v = 0; v < 2; v++) {
@@ -719,12 +720,12 @@ static void who_resists_is_to_blame(void **state)
         rg_fold *f = flat_fold(p, 31);
         const rg_sheet *sheet = rg_motion_get_sheet(rg_fold_motion(f));
         const double middle = 1 + 2 * at;
-        const double ends[2][2] = {{middle - 0.2, 0.5}, {middle + 0.3, 0.5}};
-        int32_t driven[2];
-        for (int k = 0; k < 2; k++) driven[k] = rg_motion_crease_at(rg_fold_motion(f), ends[k]);
-        assert_true(driven[0] >= 0 && driven[1] >= 0 && driven[0] != driven[1]);
-        const double to[2] = {170 * RG_DEG, 170 * RG_DEG}; /* more than two neighbours can */
-        assert_int_equal(rg_fold_drive(f, 2, driven, to), RG_OK);
+        const double ends[3][2] = {{middle - 0.2, 0.5}, {middle + 0.3, 0.5}, {middle + 0.25, 1.5}};
+        int32_t driven[3];
+        for (int c = 0; c < 3; c++) driven[c] = rg_motion_crease_at(rg_fold_motion(f), ends[c]);
+        assert_true(driven[0] >= 0 && driven[1] >= 0 && driven[2] >= 0 && driven[0] != driven[1] && driven[1] != driven[2]);
+        const double far = (little ? 10 : 170) * RG_DEG, to[3] = {far, far, far};
+        assert_int_equal(rg_fold_drive(f, little ? 3 : 2, driven, to), RG_OK);
         const rg_step_info *now = rg_fold_step(f);
         while (now->outcome == RG_RUNNING) now = rg_fold_step(f);
         assert_int_equal(now->outcome, RG_STOPPED);

@@ -501,10 +501,35 @@ static void what_stays_has_no_lean(void **state)
     rg_pattern_destroy(p);
 }
 
+/* The paper's own method takes what a step gives as it is: its frames are off by what its steps are, those of all others close. */
+static void only_euler_is_left_as_it_is(void **state)
+{
+    (void)state;
+    for (rg_method method = RG_METHOD_EULER; method <= RG_METHOD_ADAPTIVE; method++) {
+        double off[2] = {0, 0};
+        for (int fine = 0; fine < 2; fine++) {
+            rg_pattern *p = generated("bird", 0, 0);
+            rg_settings s = rg_settings_default();
+            s.method = method;
+            s.step = (fine ? 1.25 : 5) * RG_DEG;
+            s.frames = 7;
+            s.to = 0.7;
+            rg_straight *f = fold_of(p, &s);
+            rg_step_info i;
+            while (next_frame(f, &i)) off[fine] = fmax(off[fine], i.closure);
+            rg_straight_destroy(f);
+            rg_pattern_destroy(p);
+        }
+
+        if (method == RG_METHOD_EULER) assert_true(off[0] > 1e-4 && off[1] > 1e-6 && off[1] < off[0] / 2);
+        else below(fmax(off[0], off[1]), 1e-9);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(steps_run_out), cmocka_unit_test(what_stays_has_no_lean),
+        cmocka_unit_test(steps_run_out), cmocka_unit_test(only_euler_is_left_as_it_is), cmocka_unit_test(what_stays_has_no_lean),
         cmocka_unit_test(miura_32_is_exact_by_default),
         cmocka_unit_test(miura_is_exact_by_every_method_that_closes),
         cmocka_unit_test(a_vertex_of_four_keeps_its_ratio),
