@@ -737,10 +737,44 @@ static void who_resists_is_to_blame(void **state)
     }
 }
 
+/* What there is to say of a fold before it has moved, on its way, and of each move: no text is missing, and what a move cost is its own. */
+static void what_is_said_on_the_way(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("miura", 4);
+    rg_fold *f = flat_fold(p, 9);
+    const rg_report *r = rg_motion_report(rg_fold_motion(f));
+    const char *const texts[] = {r->method, r->solver, r->rung, r->direction, r->layers, r->layer_orders, r->layers_reason};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) assert_string_equal(texts[k], "");
+    assert_int_equal(r->outcome, RG_RUNNING);
+    const int32_t c = 0;
+    const double to = (letter(f, c) == 'V' ? 1 : -1) * 60 * RG_DEG;
+    for (int round = 0; round < 2; round++) {
+        const double aim = round ? to / 2 : to;
+        assert_int_equal(rg_fold_drive(f, 1, &c, &aim), RG_OK);
+        const rg_step_info *i = rg_fold_get_info(f);
+        assert_int_equal(i->outcome, RG_RUNNING);
+        assert_string_equal(i->reason, "");
+        int moves = 0;
+        do {
+            i = rg_fold_step(f);
+            assert_in_range(i->solves, 1, 1000);
+            assert_in_range(i->iterations, 0, 1000000);
+            moves++;
+        } while (i->outcome == RG_RUNNING);
+        assert_true(moves > 3);
+        assert_string_not_equal(i->reason, "");
+        assert_int_equal(rg_fold_step_back(f)->solves, 0); /* it is known already */
+        rg_fold_step(f);
+    }
+    rg_fold_destroy(f);
+    rg_pattern_destroy(p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_lands_only_where_the_sheet_closes), cmocka_unit_test(who_resists_is_to_blame),
+        cmocka_unit_test(what_is_said_on_the_way), cmocka_unit_test(it_lands_only_where_the_sheet_closes), cmocka_unit_test(who_resists_is_to_blame),
         cmocka_unit_test(one_crease_of_a_miura_ori), cmocka_unit_test(back_through_flat), cmocka_unit_test(targets_pins_and_free_creases),
         cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames), cmocka_unit_test(frames_do_not_matter), cmocka_unit_test(to_and_fro), cmocka_unit_test(forgotten_on_the_way), cmocka_unit_test(flat_paper_to_its_end), cmocka_unit_test(not_by_a_whole_turn),
         cmocka_unit_test(kept_states), cmocka_unit_test(positions_and_transforms), cmocka_unit_test(recorded),
