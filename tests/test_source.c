@@ -103,6 +103,29 @@ static void numbers_follow(void **state)
     rg_source_free(&s);
 }
 
+/* A motion's creases know which line of the drawing they are, and how far each turns from frame to frame, whichever way. */
+static void of_a_motion(void **state)
+{
+    (void)state;
+    for (int valley = 0; valley < 2; valley++) {
+        rg_pattern *p = parsed(valley ? "1 0 0 9 0\n1 9 0 9 9\n3 2 0 2 9\n1 9 9 0 9\n1 0 9 0 0\n" : "1 0 0 9 0\n1 9 0 9 9\n2 2 0 2 9\n1 9 9 0 9\n1 0 9 0 0\n", 0);
+        rg_settings s = rg_settings_default();
+        rg_motion *m = NULL;
+        rg_crease crease;
+        s.frames = 7;
+        assert_int_equal(rg_motion_create(p, &s, NULL, NULL, &m, NULL), RG_OK);
+        const rg_report *r = rg_motion_report(m);
+        assert_int_equal(r->outcome, RG_FOLDED);
+        near(r->max_leap_deg, 30, 1e-9);
+        near(r->max_wrong_side_deg, 0, 0);
+        assert_int_equal(rg_motion_crease(m, 0, &crease), RG_OK);
+        assert_int_equal(crease.line, 3);
+        assert_int_equal(crease.assignment, valley ? RG_VALLEY : RG_MOUNTAIN);
+        rg_motion_destroy(m);
+        rg_pattern_destroy(p);
+    }
+}
+
 /* ----------------------------------------------------------------------------------------------- what is said ---- */
 
 #define BOX "1 0 0 10 0\n1 10 0 10 10\n1 10 10 0 10\n1 0 10 0 0\n"
@@ -172,7 +195,7 @@ static void targets_that_may_be(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_lowest_of_several_numbers), cmocka_unit_test(facets_in_the_order_of_the_file), cmocka_unit_test(numbers_follow),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_lowest_of_several_numbers), cmocka_unit_test(facets_in_the_order_of_the_file), cmocka_unit_test(numbers_follow), cmocka_unit_test(of_a_motion),
                                        cmocka_unit_test(creases_without_length),        cmocka_unit_test(one_loose_end_is_told_once),      cmocka_unit_test(merging_goes_by_the_size),
                                        cmocka_unit_test(targets_that_may_be)};
     return cmocka_run_group_tests(tests, NULL, NULL);

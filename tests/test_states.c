@@ -39,7 +39,10 @@ static walk walk_of(rg_pattern *const *state, int32_t count, const rg_settings *
     memcpy(w.state, state, (size_t)count * sizeof *state);
     if (rg_motion_create_states((const rg_pattern *const *)w.state, count, s, NULL, NULL, &w.m, &why) != RG_OK) fail_msg("%s", why.text);
     w.r = rg_motion_report(w.m);
-    if (count > 1) assert_string_equal(w.r->triangulation, w.r->added_creases > 0 ? "all" : "none");
+    if (count > 1) {
+        assert_string_equal(w.r->triangulation, w.r->added_creases > 0 ? "all" : "none");
+        assert_string_equal(w.r->why_triangulated, w.r->added_creases > 0 ? "stops short without added creases" : "goes without added creases");
+    }
     return w;
 }
 
