@@ -13,8 +13,10 @@
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { WATCHER_STACK = 256 * 1024 };
@@ -31,6 +33,11 @@ static const double TO_FIND_OUT = 2, PART_TO_FIND_OUT = 0.1;
  * longer may be a pipe that nobody reads. */
 static const double TO_WRITE = 30;
 
+/* Milliseconds that the program's own thread has to stand still in, before what it left is taken away; and seconds that it stands. */
+enum { TO_STAND = 100, STANDS = 2 };
+
+static pthread_t worker;                 /* the program's own thread */
+static sem_t stands;
 static atomic_int signals;              /* that came */
 static int wake[2] = {-1, -1};          /* a byte a signal */
 static int has_watcher;
@@ -67,9 +74,26 @@ static void say_last(const char *why)
     if (poll(&err, 1, 0) > 0 && write(STDERR_FILENO, line, length) < 0) return;
 }
 
+/* In the program's own thread: it does nothing more, as a file may be given a name between what is taken away and the end. It may hold a
+ * lock that the watcher waits for, though it should not: then it is over all the same. */
+static void stand_still(int number)
+{
+    (void)number;
+    sem_post(&stands);
+    nanosleep(&(struct timespec){STANDS, 0}, NULL);
+    _exit(ENDS_SHORT);
+}
+
+static void stop_worker(void)
+{
+    if (pthread_kill(worker, SIGURG) != 0) return;
+    for (int k = 0; k < TO_STAND && sem_trywait(&stands) != 0; k++) nanosleep(&(struct timespec){0, 1000000}, NULL);
+}
+
 static void end(const char *why)
 {
     const options *o = outputs;
+    stop_worker();
     for (int i = 0; o && i < o->outputs; i++) rg_output_sweep(o->output[i], 1);
     if (o && o->report) rg_output_sweep(o->report, 1);
     say_last(why);
@@ -117,6 +141,7 @@ static void *watch(void *unused)
 {
     (void)unused;
     int what;
+    free(malloc(1)); /* memory of its own, for which it need not wait for a thread that stands still */
     sem_post(&is_up);
     what = wait_for_signal(end_at);
     if (what == NOTHING) end_in_time();
@@ -178,7 +203,12 @@ void interrupt_init(void)
     end_at = 0;
     outputs = NULL;
     doing = NULL;
-    has_watcher = pipe2(wake, O_CLOEXEC) == 0 && make_watcher();
+    worker = pthread_self();
+    memset(&act, 0, sizeof act);
+    act.sa_handler = stand_still;
+    sigfillset(&act.sa_mask);
+    sigaction(SIGURG, &act, NULL);
+    has_watcher = sem_init(&stands, 0, 0) == 0 && pipe2(wake, O_CLOEXEC) == 0 && make_watcher();
     memset(&act, 0, sizeof act);
     act.sa_handler = SIG_IGN;
     sigaction(SIGPIPE, &act, NULL);

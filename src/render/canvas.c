@@ -51,7 +51,7 @@ static int settle_in(int socket)
         if (dup2(null, fd) < 0) return -1;
     for (int fd = OURS + 1; fd < MOST_OPEN; fd++) close(fd);
     static const int usual[] = {SIGTERM, SIGHUP, SIGQUIT, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGALRM,
-                                SIGPIPE, SIGXCPU, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2};
+                                SIGPIPE, SIGXCPU, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2, SIGURG};
     for (size_t i = 0; i < sizeof usual / sizeof *usual; i++) signal(usual[i], SIG_DFL);
     signal(SIGINT, SIG_IGN);
     signal(SIGTSTP, SIG_IGN);
