@@ -1,4 +1,5 @@
-/* unfold/end.c: which parts lie behind a third facet, found again point by point; rows that say the same; layers that have passed each other. */
+/* unfold/end.c: which parts lie behind a third facet, found again point by point; rows that say the same; layers that
+ * have passed each other. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,7 +28,8 @@ static int lies_over(void *ctx, int32_t f, int32_t g)
 {
     const flat_end *w = ctx;
     const rg_flat *flat = &w->layers->flat;
-    return -flat->up[flat->facet_of[w->P.tree.order[0]]] * rg_layers_above(w->layers, flat->facet_of[f], flat->facet_of[g]);
+    const int turned = flat->up[flat->facet_of[w->P.tree.order[0]]];
+    return -turned * rg_layers_above(w->layers, flat->facet_of[f], flat->facet_of[g]);
 }
 
 /* In triangles, in the first of its orders. */
@@ -70,7 +72,8 @@ static void take_away(flat_end *w)
 static int corners_at(const rg_mesh *m, int32_t f, int32_t a, int32_t b)
 {
     int n = 0;
-    for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) n += m->facet_vertex[j] == a || m->facet_vertex[j] == b;
+    for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++)
+        n += m->facet_vertex[j] == a || m->facet_vertex[j] == b;
     return n;
 }
 
@@ -108,7 +111,8 @@ static int between(const flat_end *w, int32_t f, int32_t g, rg_vec2 x, const int
 static void what_lies_behind_a_third(void **state)
 {
     (void)state;
-    static const char *const files[] = {"patterns/bird.opx", "patterns/fish.opx", "patterns/frog.opx", "patterns/crane.opx", "patterns/miura.opx"};
+    static const char *const files[] = {"patterns/bird.opx", "patterns/fish.opx", "patterns/frog.opx",
+        "patterns/crane.opx", "patterns/miura.opx"};
     int behind[2] = {0}, open[2] = {0};
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
         flat_end w = {.layers = NULL};
@@ -134,11 +138,13 @@ static void what_lies_behind_a_third(void **state)
                 const double p = rg_vec2_turn(x[v[0]], x[v[1]], x[u[0]]), q = rg_vec2_turn(x[v[0]], x[v[1]], x[u[1]]);
                 const double r = rg_vec2_turn(x[u[0]], x[u[1]], x[v[0]]), s = rg_vec2_turn(x[u[0]], x[u[1]], x[v[1]]);
                 const double none = 1e-6 * m->size * m->size;
-                if (fmin(fmin(fabs(p), fabs(q)), fmin(fabs(r), fabs(s))) < none) continue; /* they may touch there only */
+                const double nearest = fmin(fmin(fabs(p), fabs(q)), fmin(fabs(r), fabs(s)));
+                if (nearest < none) continue; /* they may touch there only */
                 int want = 0;
                 if (p * q < 0 && r * s < 0) {
                     const double t = p / (p - q);
-                    const rg_vec2 at = {x[u[0]].x + t * (x[u[1]].x - x[u[0]].x), x[u[0]].y + t * (x[u[1]].y - x[u[0]].y)};
+                    const rg_vec2 at = {x[u[0]].x + t * (x[u[1]].x - x[u[0]].x),
+                        x[u[0]].y + t * (x[u[1]].y - x[u[0]].y)};
                     for (int i = 0; i < 4 && want != 1; i++) {
                         const int32_t f = m->edge_facet[a][i / 2], g = m->edge_facet[b][i % 2];
                         const int here = f >= 0 && g >= 0 ? between(&w, f, g, at, v, u) : 0;
@@ -246,7 +252,10 @@ static void layers_that_have_passed_each_other(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_lies_behind_a_third), cmocka_unit_test(no_row_says_what_another_says),
-                                       cmocka_unit_test(layers_that_have_passed_each_other)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_lies_behind_a_third),
+        cmocka_unit_test(no_row_says_what_another_says),
+        cmocka_unit_test(layers_that_have_passed_each_other),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

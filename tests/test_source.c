@@ -1,5 +1,5 @@
-/* pattern/source.c: vertices, edges and facets have the numbers of the file that they come from. And what a pattern says of lines that it leaves
- * out or joins, and takes as a target. */
+/* pattern/source.c: vertices, edges and facets have the numbers of the file that they come from. And what a pattern
+ * says of lines that it leaves out or joins, and takes as a target. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -33,9 +33,12 @@ static int32_t vertex_at(const rg_pattern *p, double x, double y)
 /* ------------------------------------------------------------------------------------------------- numbers ---- */
 
 /* A strip of four squares. The creases' lower ends are drawn twice, as 4 ... 6 by the border and 10 ... 12 by them. */
-#define STRIP                                                                                                            \
-    "{\"file_spec\": 1.2, \"vertices_coords\": [[0,0],[4,0],[4,1],[0,1],[1,0],[2,0],[3,0],[1,1],[2,1],[3,1],[1,0],[2,0],[3,0]]," \
-    " \"edges_vertices\": [[0,4],[4,5],[5,6],[6,1],[1,2],[2,9],[9,8],[8,7],[7,3],[3,0],[10,7],[11,8],[12,9]],"           \
+#define STRIP                                                                                       \
+    "{\"file_spec\": 1.2,"                                                                          \
+    " \"vertices_coords\": [[0,0],[4,0],[4,1],[0,1],[1,0],[2,0],[3,0],[1,1],[2,1],[3,1],"           \
+    "  [1,0],[2,0],[3,0]],"                                                                         \
+    " \"edges_vertices\": [[0,4],[4,5],[5,6],[6,1],[1,2],[2,9],[9,8],[8,7],[7,3],[3,0],"            \
+    "  [10,7],[11,8],[12,9]],"                                                                      \
     " \"edges_assignment\": [\"B\",\"B\",\"B\",\"B\",\"B\",\"B\",\"B\",\"B\",\"B\",\"B\",\"M\",\"V\",\"M\"]"
 
 static void the_lowest_of_several_numbers(void **state)
@@ -57,16 +60,19 @@ static void squares(rg_pattern *p, int square[4])
     assert_int_equal(plane->facets, 4);
     for (int f = 0; f < 4; f++) {
         double left = INFINITY;
-        for (int32_t j = p->facet_start[f]; j < p->facet_start[f + 1]; j++) left = fmin(left, p->X[p->facet_vertex[j]].x);
+        for (int32_t j = p->facet_start[f]; j < p->facet_start[f + 1]; j++)
+            left = fmin(left, p->X[p->facet_vertex[j]].x);
         square[f] = (int)left;
     }
 }
 
-/* Facets that the file lists come first, in its order, the others after them in the order that they would have without. */
+/* Facets that the file lists come first, in its order, the others after them in the order that they would have
+ * without. */
 static void facets_in_the_order_of_the_file(void **state)
 {
     (void)state;
-    static const char *const lists[] = {"", ", \"faces_vertices\": [[5,6,9,8]]", ", \"faces_vertices\": [[6,1,2,9],[0,4,7,3]]"};
+    static const char *const lists[] = {"", ", \"faces_vertices\": [[5,6,9,8]]",
+        ", \"faces_vertices\": [[6,1,2,9],[0,4,7,3]]"};
     static const int listed[][2] = {{-1, -1}, {2, -1}, {3, 0}};
     int own[4];
     for (int k = 0; k < 3; k++) {
@@ -103,12 +109,15 @@ static void numbers_follow(void **state)
     rg_source_free(&s);
 }
 
-/* A motion's creases know which line of the drawing they are, and how far each turns from frame to frame, whichever way. */
+/* A motion's creases know which line of the drawing they are, and how far each turns from frame to frame, whichever
+ * way. */
 static void of_a_motion(void **state)
 {
     (void)state;
     for (int valley = 0; valley < 2; valley++) {
-        rg_pattern *p = parsed(valley ? "1 0 0 9 0\n1 9 0 9 9\n3 2 0 2 9\n1 9 9 0 9\n1 0 9 0 0\n" : "1 0 0 9 0\n1 9 0 9 9\n2 2 0 2 9\n1 9 9 0 9\n1 0 9 0 0\n", 0);
+        char text[200];
+        snprintf(text, sizeof text, "1 0 0 9 0\n1 9 0 9 9\n%d 2 0 2 9\n1 9 9 0 9\n1 0 9 0 0\n", valley ? 3 : 2);
+        rg_pattern *p = parsed(text, 0);
         rg_settings s = rg_settings_default();
         rg_motion *m = NULL;
         rg_crease crease;
@@ -130,11 +139,13 @@ static void of_a_motion(void **state)
 
 #define BOX "1 0 0 10 0\n1 10 0 10 10\n1 10 10 0 10\n1 0 10 0 0\n"
 
-/* Of a drawing that has no crease left, how many it had is told; of one with creases, those without length are no matter. */
+/* Of a drawing that has no crease left, how many it had is told; of one with creases, those without length are no
+ * matter. */
 static void creases_without_length(void **state)
 {
     (void)state;
-    static const struct { const char *text; int creases, lost; } cases[] = {{BOX "2 3 3 3 3\n3 4 4 4 4\n", 0, 2}, {BOX, 0, 0}, {BOX "2 3 3 3 3\n2 0 0 10 10\n", 1, 0}};
+    static const struct { const char *text; int creases, lost; } cases[] = {{BOX "2 3 3 3 3\n3 4 4 4 4\n", 0, 2},
+        {BOX, 0, 0}, {BOX "2 3 3 3 3\n2 0 0 10 10\n", 1, 0}};
     for (int k = 0; k < 3; k++) {
         rg_pattern *p = parsed(cases[k].text, 0);
         assert_int_equal(p->info.creases, cases[k].creases);
@@ -162,7 +173,8 @@ static void merging_goes_by_the_size(void **state)
         char text[400];
         const double size = k ? 1000 : 0.001, off = 0.004 * size;
         for (int is_on = 0; is_on < 2; is_on++) {
-            snprintf(text, sizeof text, "1 0 0 %g %g\n1 %g %g %g 0\n1 %g 0 %g %g\n1 %g %g 0 %g\n1 0 %g 0 0\n", size / 2, -off, size / 2, -off, size, size, size, size,
+            snprintf(text, sizeof text, "1 0 0 %g %g\n1 %g %g %g 0\n1 %g 0 %g %g\n1 %g %g 0 %g\n1 0 %g 0 0\n",
+                size / 2, -off, size / 2, -off, size, size, size, size,
                      size, size, size, size);
             rg_pattern *p = parsed(text, is_on ? 0.005 : 0.001);
             assert_int_equal(p->nv, is_on ? 4 : 5);
@@ -184,7 +196,8 @@ static void targets_that_may_be(void **state)
         near(p->target[e], may[k], 0);
         near(p->E[e].target, may[k], 0);
     }
-    for (size_t k = 0; k < sizeof may_not / sizeof *may_not; k++) assert_int_equal(rg_pattern_set_target(p, e, may_not[k]), RG_EARG);
+    for (size_t k = 0; k < sizeof may_not / sizeof *may_not; k++)
+        assert_int_equal(rg_pattern_set_target(p, e, may_not[k]), RG_EARG);
     near(p->target[e], 0, 0);
     assert_int_equal(rg_pattern_set_target(p, e, RG_FREE), RG_OK);
     assert_true(isnan(p->target[e]));
@@ -195,8 +208,15 @@ static void targets_that_may_be(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_lowest_of_several_numbers), cmocka_unit_test(facets_in_the_order_of_the_file), cmocka_unit_test(numbers_follow), cmocka_unit_test(of_a_motion),
-                                       cmocka_unit_test(creases_without_length),        cmocka_unit_test(one_loose_end_is_told_once),      cmocka_unit_test(merging_goes_by_the_size),
-                                       cmocka_unit_test(targets_that_may_be)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_lowest_of_several_numbers),
+        cmocka_unit_test(facets_in_the_order_of_the_file),
+        cmocka_unit_test(numbers_follow),
+        cmocka_unit_test(of_a_motion),
+        cmocka_unit_test(creases_without_length),
+        cmocka_unit_test(one_loose_end_is_told_once),
+        cmocka_unit_test(merging_goes_by_the_size),
+        cmocka_unit_test(targets_that_may_be),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,7 +41,8 @@ static walk walk_of(rg_pattern *const *state, int32_t count, const rg_settings *
     w.r = rg_motion_report(w.m);
     if (count > 1) {
         assert_string_equal(w.r->triangulation, w.r->added_creases > 0 ? "all" : "none");
-        assert_string_equal(w.r->why_triangulated, w.r->added_creases > 0 ? "stops short without added creases" : "goes without added creases");
+        assert_string_equal(w.r->why_triangulated,
+                            w.r->added_creases > 0 ? "stops short without added creases" : "goes without added creases");
     }
     return w;
 }

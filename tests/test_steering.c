@@ -723,7 +723,7 @@ static void who_resists_is_to_blame(void **state)
         const double ends[3][2] = {{middle - 0.2, 0.5}, {middle + 0.3, 0.5}, {middle + 0.25, 1.5}};
         int32_t driven[3];
         for (int c = 0; c < 3; c++) driven[c] = rg_motion_crease_at(rg_fold_motion(f), ends[c]);
-        assert_true(driven[0] >= 0 && driven[1] >= 0 && driven[2] >= 0 && driven[0] != driven[1] && driven[1] != driven[2]);
+        for (int c = 0; c < 3; c++) assert_true(driven[c] >= 0 && driven[c] != driven[(c + 1) % 3]);
         const double far = (little ? 10 : 170) * RG_DEG, to[3] = {far, far, far};
         assert_int_equal(rg_fold_drive(f, little ? 3 : 2, driven, to), RG_OK);
         const rg_step_info *now = rg_fold_step(f);
@@ -737,14 +737,16 @@ static void who_resists_is_to_blame(void **state)
     }
 }
 
-/* What there is to say of a fold before it has moved, on its way, and of each move: no text is missing, and what a move cost is its own. */
+/* What there is to say of a fold before it has moved, on its way, and of each move: no text is missing, and what a move
+ * cost is its own. */
 static void what_is_said_on_the_way(void **state)
 {
     (void)state;
     rg_pattern *p = generated("miura", 4);
     rg_fold *f = flat_fold(p, 9);
     const rg_report *r = rg_motion_report(rg_fold_motion(f));
-    const char *const texts[] = {r->method, r->solver, r->rung, r->direction, r->layers, r->layer_orders, r->layers_reason};
+    const char *const texts[] = {r->method, r->solver,       r->rung,         r->direction,
+                                 r->layers, r->layer_orders, r->layers_reason};
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) assert_string_equal(texts[k], "");
     assert_int_equal(r->outcome, RG_RUNNING);
     const int32_t c = 0;
@@ -774,7 +776,8 @@ static void what_is_said_on_the_way(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_said_on_the_way), cmocka_unit_test(it_lands_only_where_the_sheet_closes), cmocka_unit_test(who_resists_is_to_blame),
+        cmocka_unit_test(what_is_said_on_the_way), cmocka_unit_test(it_lands_only_where_the_sheet_closes),
+        cmocka_unit_test(who_resists_is_to_blame),
         cmocka_unit_test(one_crease_of_a_miura_ori), cmocka_unit_test(back_through_flat), cmocka_unit_test(targets_pins_and_free_creases),
         cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames), cmocka_unit_test(frames_do_not_matter), cmocka_unit_test(to_and_fro), cmocka_unit_test(forgotten_on_the_way), cmocka_unit_test(flat_paper_to_its_end), cmocka_unit_test(not_by_a_whole_turn),
         cmocka_unit_test(kept_states), cmocka_unit_test(positions_and_transforms), cmocka_unit_test(recorded),

@@ -501,7 +501,8 @@ static void what_stays_has_no_lean(void **state)
     rg_pattern_destroy(p);
 }
 
-/* The paper's own method takes what a step gives as it is: its frames are off by what its steps are, those of all others close. */
+/* The paper's own method takes what a step gives as it is: its frames are off by what its steps are, those of all others
+ * close. */
 static void only_euler_is_left_as_it_is(void **state)
 {
     (void)state;
@@ -529,7 +530,8 @@ static void only_euler_is_left_as_it_is(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(steps_run_out), cmocka_unit_test(only_euler_is_left_as_it_is), cmocka_unit_test(what_stays_has_no_lean),
+        cmocka_unit_test(steps_run_out), cmocka_unit_test(only_euler_is_left_as_it_is),
+        cmocka_unit_test(what_stays_has_no_lean),
         cmocka_unit_test(miura_32_is_exact_by_default),
         cmocka_unit_test(miura_is_exact_by_every_method_that_closes),
         cmocka_unit_test(a_vertex_of_four_keeps_its_ratio),

@@ -1,5 +1,6 @@
-/* What is odd round the program rather than in its files: signals of every kind, pipes that nobody reads, streams that do not wait, folders that
- * go away, others at the same work. It ends as it promises all the same. $RIGAMI is the program. */
+/* What is odd round the program rather than in its files: signals of every kind, pipes that nobody reads, streams that
+ * do not wait, folders that go away, others at the same work. It ends as it promises all the same. $RIGAMI is the
+ * program. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -228,7 +229,8 @@ static void output_that_nobody_reads(void **state)
 static void a_folder_that_goes_away(void **state)
 {
     (void)state;
-    const pid_t pid = start(&(around){0}, ARGS("fold", "in.opx", "-q", "--frames", "500", "--size", "200x150", "-o", "away/"));
+    const pid_t pid =
+        start(&(around){0}, ARGS("fold", "in.opx", "-q", "--frames", "500", "--size", "200x150", "-o", "away/"));
     while (access("away/0003.png", F_OK) != 0 && waitpid(pid, NULL, WNOHANG) == 0) pause_a_moment();
     assert_int_equal(rename("away", "gone"), 0);
     assert_int_equal(finish(pid), 3);
@@ -243,7 +245,8 @@ static void others_at_the_same_work(void **state)
     enum { OTHERS = 6 };
     pid_t pid[OTHERS];
     for (int k = 0; k < OTHERS; k++)
-        pid[k] = start(&(around){0}, ARGS("fold", "in.opx", "-q", "--frames", k % 2 ? "3" : "4", "-o", "same.fold", "-o", "same.stl", "--report", "same.json"));
+        pid[k] = start(&(around){0}, ARGS("fold", "in.opx", "-q", "--frames", k % 2 ? "3" : "4", "-o", "same.fold",
+                                          "-o", "same.stl", "--report", "same.json"));
     for (int k = 0; k < OTHERS; k++) assert_int_equal(finish(pid[k]), 0);
     assert_int_equal(run(&(around){0}, "verify", "same.fold"), 0);
     const char *text = slurp("same.json");
@@ -267,7 +270,8 @@ static int begin_all(void **state)
     if (!mkdtemp(folder) || chdir(folder) != 0) return -1;
     is_in_folder = 1;
     write_file("stderr", "");
-    if (run(&(around){0}, "gen", "miura", "4", "-o", "in.opx") != 0 || run(&(around){0}, "gen", "miura", "12", "-o", "long.opx") != 0) return -1;
+    if (run(&(around){0}, "gen", "miura", "4", "-o", "in.opx") != 0) return -1;
+    if (run(&(around){0}, "gen", "miura", "12", "-o", "long.opx") != 0) return -1;
     begin_unread();
     return 0;
 }
@@ -281,8 +285,14 @@ static int end_all(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(whatever_asks_it_to_end),   cmocka_unit_test(what_is_ignored_stays_ignored), cmocka_unit_test(seconds_of_the_processor_are_over),
-        cmocka_unit_test(input_that_does_not_wait),  cmocka_unit_test(input_without_end),             cmocka_unit_test(a_folder_that_goes_away),
-        cmocka_unit_test(others_at_the_same_work),   cmocka_unit_test(output_that_nobody_reads)};
+        cmocka_unit_test(whatever_asks_it_to_end),
+        cmocka_unit_test(what_is_ignored_stays_ignored),
+        cmocka_unit_test(seconds_of_the_processor_are_over),
+        cmocka_unit_test(input_that_does_not_wait),
+        cmocka_unit_test(input_without_end),
+        cmocka_unit_test(a_folder_that_goes_away),
+        cmocka_unit_test(others_at_the_same_work),
+        cmocka_unit_test(output_that_nobody_reads),
+    };
     return cmocka_run_group_tests(tests, begin_all, end_all);
 }

@@ -29,11 +29,12 @@ enum {
 /* Seconds, and part of the time allowed, that folding may take to find out that it is over: more is a solve that cannot
  * be asked. */
 static const double TO_FIND_OUT = 2, PART_TO_FIND_OUT = 0.1;
-/* Seconds that writing what there is has after that, if it is less than the time allowed: a film of sixty frames takes some three. What takes
- * longer may be a pipe that nobody reads. */
+/* Seconds that writing what there is has after that, if it is less than the time allowed: a film of sixty frames
+ * takes some three. What takes longer may be a pipe that nobody reads. */
 static const double TO_WRITE = 30;
 
-/* Milliseconds that the program's own thread has to stand still in, before what it left is taken away; and seconds that it stands. */
+/* Milliseconds that the program's own thread has to stand still in, before what it left is taken away; and seconds that
+ * it stands. */
 enum { TO_STAND = 100, STANDS = 2 };
 
 static pthread_t worker;                 /* the program's own thread */
@@ -74,8 +75,8 @@ static void say_last(const char *why)
     if (poll(&err, 1, 0) > 0 && write(STDERR_FILENO, line, length) < 0) return;
 }
 
-/* In the program's own thread: it does nothing more, as a file may be given a name between what is taken away and the end. It may hold a
- * lock that the watcher waits for, though it should not: then it is over all the same. */
+/* In the program's own thread: it does nothing more, as a file may be given a name between what is taken away and the
+ * end. It may hold a lock that the watcher waits for, though it should not: then it is over all the same. */
 static void stand_still(int number)
 {
     (void)number;
@@ -186,8 +187,8 @@ static int make_watcher(void)
 
 void interrupt_init(void)
 {
-    /* Whatever asks a program to end: a person, the system, a batch system before its time is over, a limit or a clock that whoever
-     * started it has set. SIGQUIT is for who wants to see where it is. */
+    /* Whatever asks a program to end: a person, the system, a batch system before its time is over, a limit or a clock
+     * that whoever started it has set. SIGQUIT is for who wants to see where it is. */
     static const int numbers[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2};
     enum { NUMBERS = sizeof numbers / sizeof *numbers };
     struct sigaction act, was;

@@ -5,8 +5,8 @@
 
 /* Words of common places: half a gigabyte. */
 static const int64_t MOST_WORDS = (int64_t)1 << 25;
-/* Pairs, and words of the bits that tell who lies over whom: asked for before memory is taken for them, so that it is three gigabytes at the
- * most. A Miura-ori of 256 by 256 has 25 million pairs, and half of the words. */
+/* Pairs, and words of the bits that tell who lies over whom: asked for before memory is taken for them, so that it is
+ * three gigabytes at the most. A Miura-ori of 256 by 256 has 25 million pairs, and half of the words. */
 static const int64_t MOST_PAIRS = (int64_t)1 << 25, MOST_ROW_WORDS = (int64_t)1 << 27;
 
 void rg_pairs_free(rg_pairs *p)
