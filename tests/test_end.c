@@ -36,7 +36,7 @@ static int lies_over(void *ctx, int32_t f, int32_t g)
 static void make(const char *path, flat_end *w)
 {
     const rg_memory mem = rg_mem_default(NULL);
-    const rg_end_rules rules = {1, 1, 1, 1};
+    const rg_end_rules rules = {1, 1};
     rg_pattern *p = NULL;
     rg_mesh drawn;
     double angle[400], z[2000] = {0};
@@ -203,7 +203,7 @@ static void layers_that_have_passed_each_other(void **state)
 {
     (void)state;
     const rg_memory mem = rg_mem_default(NULL);
-    const rg_end_rules rules = {0, 0, 0, 0};
+    const rg_end_rules rules = {0, 0};
     static const struct { double first, second; int upset; } cases[] = {
         {0, 0, 0}, {-0.02, -0.1, 0}, {0, 0.05, 1}, /* the second has gone through the first and the middle */
         {-0.02, -0.004, 1},                        /* under the first, all where they overlap */
