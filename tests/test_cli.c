@@ -467,6 +467,12 @@ static void a_batch(void **state)
     int commas[3] = {0};
     for (int line = 0, i = 0; table[i] && line < 3; i++) commas[line] += table[i] == ',', line += table[i] == '\n';
     assert_true(commas[0] > 20 && commas[1] == commas[0] && commas[2] == commas[0]);
+    /* What takes longer than it may is told as that. */
+    ends(0, run("gen", "waterbomb", "64", "-o", "slow.opx"));
+    ends(1, run("batch", "slow.opx", "-o", "late", "-q", "--limit", "1"));
+    slurp("late/table.csv", table);
+    assert_non_null(strstr(table, "timeout"));
+    assert_non_null(strstr(table, "not done within 1 second"));
     says(ends(2, run("batch", "good.opx", "-o", "parts", "--part", "3/2")), "rigami: --part: ", "3/2");
     says(ends(2, run("batch", "good.opx", "-o", "parts", "--write", "xyz")), "rigami: ", "xyz");
     says(ends(2, run("batch", "good.opx")), "rigami: ", "-o DIR/");

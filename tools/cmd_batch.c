@@ -191,6 +191,7 @@ static int child(const options *o, const char *folder, const task *t, int thread
         output[i] = form[i];
     }
     interrupt_init();
+    signal(SIGALRM, SIG_DFL); /* its own limit of time ends it there and then, and is told as that */
 #if defined(__linux__)
     prctl(PR_SET_PDEATHSIG, SIGTERM); /* whatever ends the batch ends its parts */
 #endif
