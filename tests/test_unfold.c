@@ -311,7 +311,8 @@ static void places(void **state)
             assert_int_equal(rg_rows_init(&fold, &mem), RG_OK);
             assert_int_equal(rg_rows_init(&rigid, &mem), RG_OK);
             assert_int_equal(rg_places_rows(&P, q.scale, &fold, &rigid), RG_OK);
-            rg_places_of(&P, q.scale, q.dz, q.dp, v);
+            for (int32_t p = 0; p < m.nv; p++) v[3 * p] = q.dp[p].x, v[3 * p + 1] = q.dp[p].y, v[3 * p + 2] = q.dp[p].z;
+            for (int32_t i = 0; i < P.U; i++) v[3 * m.nv + i] = q.dz[P.N + i] / q.scale[P.N + i];
             double most = 0;
             for (int32_t i = 0; i < P.N; i++) {
                 near(rg_rows_dot(&fold, i, v), q.dz[i] / q.scale[i], 1e-8);

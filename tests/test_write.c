@@ -705,7 +705,7 @@ static void check_print(int adjusted)
     rg_diag why = {0, ""};
     FILE *f = fopen(written_path("print.png", image), "wb");
     assert_non_null(f);
-    assert_int_equal(rg_png_write(f, 2, 2, rgb, NULL), RG_OK);
+    assert_int_equal(rg_png_write(f, 2, 2, rgb, NULL, NULL), RG_OK);
     fclose(f);
     p.image = image;
     if (rg_motion_write(m, written_path("x.glb", path), &p, &why) != RG_OK) fail_msg("%s", why.text);

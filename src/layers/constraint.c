@@ -22,7 +22,7 @@ typedef struct place {
 
 typedef struct maker { rg_constraints *k; const rg_pairs *p; } maker;
 
-/* Multiplies the order of g over f into the case. */
+/* Multiplies the order of g over f into the case. Zero: they overlap by no more than rounding. */
 static int times(const maker *w, rg_constraint_case *c, int32_t f, int32_t g)
 {
     const int32_t pair = f == g ? -1 : rg_pairs_find(w->p, f, g);
@@ -37,7 +37,7 @@ static rg_status add(maker *w, rg_constraint_case c, const int32_t (*of)[2], int
     c.n = 0, c.sign = 1;
     c.pair[2] = c.pair[3] = -1;
     for (int i = 0; i < n; i++)
-        if (!times(w, &c, of[i][0], of[i][1])) return w->k->skipped++, RG_OK;
+        if (!times(w, &c, of[i][0], of[i][1])) return RG_OK;
     const size_t need = (size_t)w->k->count + 1;
     if (need > INT32_MAX / 4) return RG_ENOMEM;
     const rg_status s = RG_MEM_GROW(&w->k->mem, w->k->item, w->k->room, need);
@@ -161,10 +161,7 @@ static rg_status find_hinges(rg_constraints *k, const rg_mesh *m, const rg_flat 
         const int32_t a = f->beside[e][0], b = f->beside[e][1];
         if (f->turn[e] == 0 || f->turn[e] == 2 || a < 0 || b < 0) continue;
         const int32_t low = a < b ? a : b, pair = rg_pairs_find(p, a, b);
-        if (pair < 0) {
-            k->skipped++;
-            continue;
-        }
+        if (pair < 0) continue;
         const signed char order = f->turn[e] == f->up[low] ? 1 : -1;
         k->hinge[pair] = (signed char)(k->hinge[pair] == 0 || k->hinge[pair] == order ? order : 2);
         k->hinge_edge[pair] = e;

@@ -38,7 +38,6 @@ typedef struct rg_constraints {
     rg_constraint_case *item; /* [count] rising by rule, facets, edges; each once */
     int32_t count;
     size_t room;
-    int32_t skipped;          /* with facets that overlap by no more than rounding */
     int32_t *start, *of;      /* [pairs + 1]: the cases that a pair is in */
     signed char *hinge;       /* [pairs] order of a pair at a crease, by mountain and valley; 0: free; 2: both */
     int32_t *hinge_edge;      /* [pairs] that crease, of the mesh */

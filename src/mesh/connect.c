@@ -37,6 +37,12 @@ int32_t rg_mesh_edge_between(const rg_mesh *m, int32_t f, int32_t a, int32_t b)
     return -1;
 }
 
+int32_t rg_mesh_opposite(const rg_mesh *m, int32_t triangle, int32_t e)
+{
+    const int32_t *v = m->facet_vertex + m->facet_start[triangle], a = m->edge[e][0], b = m->edge[e][1];
+    return v[0] != a && v[0] != b ? v[0] : v[1] != a && v[1] != b ? v[1] : v[2];
+}
+
 void rg_mesh_sectors_at(const rg_mesh *m, int32_t k, const rg_vec2 *X, double *theta)
 {
     const int32_t first = m->loop_start[k], last = m->loop_start[k + 1], v = m->inner_vertex[k];

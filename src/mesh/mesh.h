@@ -44,6 +44,8 @@ rg_status rg_triangulate_some(const rg_mesh *m, const unsigned char *which, int 
 void rg_triangulate_trace(const rg_mesh *m, const rg_mesh *cut, int32_t *facet);
 /* The edge of facet f between vertices a and b; -1: none. */
 int32_t rg_mesh_edge_between(const rg_mesh *m, int32_t f, int32_t a, int32_t b);
+/* The corner of a triangle that is not on its edge e. */
+int32_t rg_mesh_opposite(const rg_mesh *m, int32_t triangle, int32_t e);
 /* theta[loop_start[M]]: out, the angles between creases round interior vertices on another pattern X[nv], as loop_theta
  * is on m->X. */
 void rg_mesh_sectors(const rg_mesh *m, const rg_vec2 *X, double *theta);

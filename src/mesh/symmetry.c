@@ -27,19 +27,13 @@ static rg_status make_room(rg_symmetry *G, const rg_memory *mem, const rg_mesh *
     G->mem = *mem;
     G->order = order;
     G->nv = m->nv, G->ne = m->ne, G->N = m->N, G->nf = m->nf;
-    G->A = rg_mem_array(mem, (size_t)order, sizeof *G->A);
-    struct { int32_t **to, **orbit; size_t n; } of[] = {{&G->vertex, &G->vertex_orbit, (size_t)m->nv},
-                                                        {&G->edge, &G->edge_orbit, (size_t)m->ne},
-                                                        {&G->crease, &G->crease_orbit, (size_t)m->N},
-                                                        {&G->facet, &G->facet_orbit, (size_t)m->nf}};
-    int ok = G->A != NULL;
-    for (int i = 0; i < 4; i++) {
-        ok &= (*of[i].to = rg_mem_array(mem, of[i].n, (size_t)order * sizeof(int32_t))) != NULL;
-        ok &= (*of[i].orbit = rg_mem_array(mem, of[i].n, sizeof(int32_t))) != NULL;
-    }
-    if (ok) return RG_OK;
-    rg_symmetry_free(G);
-    return RG_ENOMEM;
+    const size_t n = (size_t)order, nv = (size_t)m->nv, ne = (size_t)m->ne, N = (size_t)m->N, nf = (size_t)m->nf;
+    const rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(G->A, n), RG_ARRAY(G->vertex, n * nv), RG_ARRAY(G->edge, n * ne),
+                                      RG_ARRAY(G->crease, n * N), RG_ARRAY(G->facet, n * nf),
+                                      RG_ARRAY(G->vertex_orbit, nv), RG_ARRAY(G->edge_orbit, ne),
+                                      RG_ARRAY(G->crease_orbit, N), RG_ARRAY(G->facet_orbit, nf));
+    if (s != RG_OK) rg_symmetry_free(G);
+    return s;
 }
 
 /* ------------------------------------------------------------------------ where edges, creases and facets go ---- */

@@ -24,33 +24,26 @@ static void take_pattern(const rg_linkage *P, const double *scale, collected *c,
     }
 }
 
-static int32_t third(const rg_mesh *m, int32_t f, int32_t a, int32_t b)
+/* n / h of a facet over its edge from a to b, and how far along it the third corner stands. */
+static rg_vec3 lever(const rg_linkage *P, int32_t a, int32_t b, int32_t third, double *t)
 {
-    const int32_t *v = m->facet_vertex + m->facet_start[f];
-    return v[0] != a && v[0] != b ? v[0] : v[1] != a && v[1] != b ? v[1] : v[2];
-}
-
-/* n / h of facet f over the edge a b, and how far along it its third corner stands. */
-static rg_vec3 lever(const rg_linkage *P, int32_t f, int32_t a, int32_t b, double *t)
-{
-    const rg_vec3 e = rg_vec3_sub(P->p[b], P->p[a]), r = rg_vec3_sub(P->p[third(P->mesh, f, a, b)], P->p[a]);
-    rg_vec3 n = rg_vec3_cross(e, r);
+    const rg_vec3 e = rg_vec3_sub(P->p[b], P->p[a]), r = rg_vec3_sub(P->p[third], P->p[a]), n = rg_vec3_cross(e, r);
     const double squared = rg_vec3_dot(e, e), area = rg_vec3_dot(n, n);
     *t = rg_vec3_dot(e, r) / squared;
-    n = rg_vec3_scale(sqrt(squared) / area, n); /* |n| = area, h = area / |e| */
-    return n;
+    return rg_vec3_scale(sqrt(squared) / area, n); /* |n| = area, h = area / |e| */
 }
 
 static rg_status add_fold(const rg_linkage *P, double scale, int32_t e, rg_rows *fold)
 {
     const rg_mesh *m = P->mesh;
-    const int32_t a = m->edge[e][0], b = m->edge[e][1], f = m->edge_facet[e][0], g = m->edge_facet[e][1];
+    const int32_t a = m->edge[e][0], b = m->edge[e][1];
+    const int32_t x = rg_mesh_opposite(m, m->edge_facet[e][0], e), y = rg_mesh_opposite(m, m->edge_facet[e][1], e);
     double t, u;
-    const rg_vec3 left = rg_vec3_scale(1 / scale, lever(P, f, a, b, &t));
-    const rg_vec3 right = rg_vec3_scale(-1 / scale, lever(P, g, a, b, &u));
+    const rg_vec3 left = rg_vec3_scale(1 / scale, lever(P, a, b, x, &t));
+    const rg_vec3 right = rg_vec3_scale(-1 / scale, lever(P, a, b, y, &u));
     collected c = {0};
-    take_vertex(&c, third(m, f, a, b), left);
-    take_vertex(&c, third(m, g, a, b), right);
+    take_vertex(&c, x, left);
+    take_vertex(&c, y, right);
     take_vertex(&c, a, rg_vec3_axpy(t - 1, left, rg_vec3_scale(u - 1, right)));
     take_vertex(&c, b, rg_vec3_axpy(-t, left, rg_vec3_scale(-u, right)));
     return rg_rows_add(fold, c.n, c.col, c.x);
@@ -93,10 +86,4 @@ rg_status rg_places_rows(const rg_linkage *P, const double *scale, rg_rows *fold
     for (int32_t e = 0; e < m->ne && s == RG_OK; e++) s = add_edge(P, scale, e, rigid);
     for (int i = 0; i < 3 && s == RG_OK; i++) s = add_root(P, scale, root[i], rigid);
     return s;
-}
-
-void rg_places_of(const rg_linkage *P, const double *scale, const double *dz, const rg_vec3 *dp, double *v)
-{
-    for (int32_t k = 0; k < P->mesh->nv; k++) v[3 * k] = dp[k].x, v[3 * k + 1] = dp[k].y, v[3 * k + 2] = dp[k].z;
-    for (int32_t i = 0; i < P->U; i++) v[3 * P->mesh->nv + i] = dz[P->N + i] / scale[P->N + i];
 }

@@ -24,7 +24,5 @@ static inline int32_t rg_places_count(const rg_linkage *P) { return 3 * P->mesh-
 /* Where the linkage is put now: fold[N]: drho / scale of each crease; rigid: what is 0 while facets stay rigid.
  * scale[n] as that of nearest.h. RG_ENOMEM. */
 rg_status rg_places_rows(const rg_linkage *P, const double *scale, rg_rows *fold, rg_rows *rigid);
-/* (dp, du') of a step dz[n] whose velocities are dp[nv]. */
-void rg_places_of(const rg_linkage *P, const double *scale, const double *dz, const rg_vec3 *dp, double *v);
 
 #endif

@@ -24,14 +24,6 @@ static void set_edges(rg_proximity *n, int32_t i, int32_t j)
     set(n, 1, j, i);
 }
 
-/* The corner of facet f that is not on edge e. */
-static int32_t tip(const rg_mesh *m, int32_t f, int32_t e)
-{
-    for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++)
-        if (m->facet_vertex[j] != m->edge[e][0] && m->facet_vertex[j] != m->edge[e][1]) return m->facet_vertex[j];
-    return -1;
-}
-
 static void leave_out(rg_proximity *n)
 {
     const rg_mesh *m = n->mesh;
@@ -45,7 +37,8 @@ static void leave_out(rg_proximity *n)
     for (int32_t e = 0; e < m->ne; e++) {
         const int32_t f = m->edge_facet[e][0], g = m->edge_facet[e][1];
         if (f < 0 || g < 0) continue;
-        const int32_t a = m->edge[e][0], b = m->edge[e][1], x = tip(m, f, e), y = tip(m, g, e);
+        const int32_t a = m->edge[e][0], b = m->edge[e][1];
+        const int32_t x = rg_mesh_opposite(m, f, e), y = rg_mesh_opposite(m, g, e);
         set(n, 0, x, g);
         set(n, 0, y, f);
         set_edges(n, rg_mesh_edge_between(m, f, a, x), rg_mesh_edge_between(m, g, b, y));

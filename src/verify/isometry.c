@@ -354,7 +354,7 @@ static void check_path(const rg_record *r, rg_faults *all, rg_isometry *found)
         if (k == 0) continue;
         for (int32_t e = 0; e < r->ne; e++) {
             const double change = fabs(angles_of(r, k)[e] - angles_of(r, k - 1)[e]);
-            if (side_of(r->assignment[e]) != 0 && change > found->leap) found->leap = change, found->leap_to = k;
+            if (side_of(r->assignment[e]) != 0 && change > found->leap) found->leap = change;
             if (!(change <= LEAP))
                 rg_faults_add(all, k, r->side[e][0], r->side[e][1],
                               "leap: the crease between them turns by %.4g degrees from the frame before",
@@ -382,7 +382,7 @@ rg_status rg_isometry_frames(const rg_record *r, rg_faults *all, rg_isometry *fo
     border b;
     wheels w;
     rg_record_place *place = rg_mem_array(&r->mem, (size_t)r->nf, sizeof *place);
-    *found = (rg_isometry){.leap_to = -1};
+    *found = (rg_isometry){0};
     rg_status s = find_border(r, &b), t = find_wheels(r, &w);
     if (s == RG_OK) s = place ? t : RG_ENOMEM;
     if (s == RG_OK && b.n == 0) rg_faults_add(all, -1, -1, -1, "the border is not one closed line");

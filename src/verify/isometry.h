@@ -11,9 +11,7 @@ typedef struct rg_isometry {
     double rigid;    /* the farthest that a corner is off its facet as placed, over the sheet's size */
     double closed;   /* the largest rotation left round an inner vertex, radians */
     double angle;    /* the largest difference of an angle to the places, radians */
-    /* the largest change of a mountain or valley from one frame to the next, radians, and to which frame */
-    double leap;
-    int32_t leap_to;
+    double leap;     /* the largest change of a mountain or valley from one frame to the next, radians */
     double wrong;    /* the most that a crease is on the wrong side of flat on the way, radians */
 } rg_isometry;
 

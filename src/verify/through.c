@@ -470,7 +470,6 @@ static void check_pair_on_way(look *l, int32_t frame, int32_t a, int32_t b, doub
     const int32_t corner = common_corner(l->r, f, g, &two);
     *side = (rg_vec3){0, 0, 0};
     if (two && are_hinged(l, a, b)) return;
-    l->found->proofs++;
     set_way(l, frame, a, b, corner, &w);
     if (!(w.angle <= LEAP)) {
         rg_faults_add(l->all, frame + 1, f, g,

@@ -15,7 +15,6 @@
 typedef struct rg_through {
     double depth;   /* the deepest crossing in a frame, over the sheet's size; 0: none */
     double allowed; /* between frames no crossing deeper than this part of the sheet was let pass */
-    int32_t proofs; /* pairs of facets and ways that were looked at closely */
     /* of pieces that came near each other before the last frame: on which side of each other they come into it */
     rg_aparts sides;
 } rg_through;

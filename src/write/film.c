@@ -71,7 +71,7 @@ static rg_status write_png(const rg_memory *mem, const rg_dest *to, const rg_pic
     rg_file file;
     rg_status s = rg_file_begin_to_swept(&file, mem, to, why);
     if (s != RG_OK) return s;
-    s = rg_png_write_of(file.stream, p->width, p->height, rgb, run, why);
+    s = rg_png_write(file.stream, p->width, p->height, rgb, run, why);
     if (s == RG_OK) return rg_file_commit(&file, why);
     rg_file_abandon(&file);
     return name_it(s, to->path, why);

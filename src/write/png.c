@@ -57,8 +57,8 @@ static rg_status write_all(png_structp png, png_infop info, int32_t width, int32
     return RG_OK;
 }
 
-rg_status rg_png_write_of(FILE *file, int32_t width, int32_t height, const unsigned char *rgb, const char *run,
-                          rg_diag *why)
+rg_status rg_png_write(FILE *file, int32_t width, int32_t height, const unsigned char *rgb, const char *run,
+                       rg_diag *why)
 {
     if (width < 1 || height < 1)
         return rg_fail(RG_EARG, why, 0, "a picture of %d x %d pixels", (int)width, (int)height);
@@ -73,11 +73,6 @@ rg_status rg_png_write_of(FILE *file, int32_t width, int32_t height, const unsig
     const rg_status s = write_all(png, info, width, height, rgb, run);
     png_destroy_write_struct(&png, &info);
     return s;
-}
-
-rg_status rg_png_write(FILE *file, int32_t width, int32_t height, const unsigned char *rgb, rg_diag *why)
-{
-    return rg_png_write_of(file, width, height, rgb, NULL, why);
 }
 
 /* ---- reading */

@@ -107,7 +107,7 @@ static void paint(const rg_motion *m, const rg_picture *p, bill *b)
         rg_render_frame(render, &shot, rgb);
         sum[DRAWING] += wall() - from_wall;
         const double drawn = cpu();
-        must(rg_png_write(null, p->width, p->height, rgb, &why), "png", &why);
+        must(rg_png_write(null, p->width, p->height, rgb, NULL, &why), "png", &why);
         sum[LAYERS] += laid - begun, sum[PACKING] += cpu() - drawn;
     }
     for (int part = FRAMING; part <= PACKING; part++) least(b, part, sum[part]);
