@@ -20,9 +20,11 @@ static const double STILL_AT_ONCE = 1e-4, CLOSED = 1e-12, CLOSED_ENOUGH = 1e-10;
 static const double NEAR = 6e-3;      /* pairs are looked at this near */
 static const double MAY_CLOSE = 0.7;  /* the part of its distance that a pair may come nearer by */
 static const double SIDE_HARD = 1e-8; /* compliance of what near parts ask while it opens */
-/* Repair: near parts are to be apart by so much, hard, or softly; in the plane by so many times it; less than this part
+/* Repair: near parts are to be apart by so much, hard, or softly; in the plane by so much; less than this part
  * of it counts as touching. Compliances: apart, not nearer, softly. */
-static const double REPAIR_APART = 5e-5, REPAIR_APART_SOFTLY = 1e-3, REPAIR_INSIDE = 4, REPAIR_BESIDE = 0.4;
+static const double REPAIR_APART = 5e-5, REPAIR_APART_SOFTLY = 1e-3;
+/* 2e-4 but for its last bit, on which long motions hang: as it was when they were looked at. */
+static const double REPAIR_INSIDE = 0.00019999999999999998, REPAIR_BESIDE = 2e-5;
 static const double TOUCHING = 0.5;
 static const double REPAIR_HARD = 1e-7, REPAIR_KEEP = 1e-9, REPAIR_SOFT = 1e-4;
 static const double REPAIR_MARGIN = 0.1; /* of the way's */
@@ -241,8 +243,8 @@ static rg_status add_plane_rows(const rg_opening *o)
         if (!is_in_plane(from)) continue;
         rg_row *row = add_end_row(o, from);
         if (!row) return RG_ENOMEM;
-        const double times = from->kind == RG_END_INSIDE ? REPAIR_INSIDE : REPAIR_BESIDE;
-        row->b = times * REPAIR_APART - rg_end_gap(from, o->P->place, o->P->p);
+        const double want = from->kind == RG_END_INSIDE ? REPAIR_INSIDE : REPAIR_BESIDE;
+        row->b = want - rg_end_gap(from, o->P->place, o->P->p);
         row->c = REPAIR_KEEP;
     }
     return RG_OK;
