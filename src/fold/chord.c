@@ -17,11 +17,6 @@ typedef struct chord {
     double *spare;
 } chord;
 
-static void take(const rg_relax *F, const chord *c, double part, double *z)
-{
-    for (int32_t i = 0; i < F->n; i++) z[i] = (1 - part) * c->a[i] + part * c->b[i];
-}
-
 /* The largest change of a crease from a point of the line from low to high. */
 static double off_line(const rg_relax *F, const double *z, const double *low, const double *high, double part)
 {
@@ -32,17 +27,14 @@ static double off_line(const rg_relax *F, const double *z, const double *low, co
 
 /* Does the path stay on its branch between its states low and high, parts `from` and `to` of the chord? Its middle, closed, must lie as
  * near to the chord as a step to its prediction. What is smooth lies a quarter as near to the chord of each half, and so on, while a
- * leap to another branch stays in one of the halves as large as it is. Mostly a correction or two show it. */
+ * leap to another branch stays in one of the halves as large as it is. */
 static int is_smooth(rg_relax *F, const chord *c, const double *low, double from, const double *high, double to, int32_t halved)
 {
     double *middle = c->spare + (size_t)(halved + 1) * (size_t)F->n;
     const double part = (from + to) / 2, s = (1 - part) * c->s0 + part * c->s1;
     const double near = FARTHEST_CORRECTION * c->size / 2 + LITTLE;
     const double smooth = SMOOTH * c->size + sqrt(F->tol); /* near a singular state, what closes to tol is known to its root */
-    take(F, c, part, middle);
-    const double known = rg_closing_nearly(F, c->a, c->b, s, middle);
-    if (off_line(F, middle, c->a, c->b, part) + known <= near && off_line(F, middle, low, high, 0.5) + known <= smooth) return 1;
-    take(F, c, part, middle);
+    for (int32_t i = 0; i < F->n; i++) middle[i] = (1 - part) * c->a[i] + part * c->b[i];
     if (!rg_closing_between(F, c->a, c->b, s, CORRECTIONS_AT_END, middle, c->spare)) return 0;
     if (!(off_line(F, middle, c->a, c->b, part) <= near)) return 0;
     if (off_line(F, middle, low, high, 0.5) <= smooth) return 1;

@@ -172,22 +172,6 @@ static void give_alike(rg_relax *F)
     for (int32_t i = F->N; i < F->n; i++) F->scale[i] = F->how.compliance * F->freedom.reach[i - F->N];
 }
 
-double rg_closing_nearly(rg_relax *F, const double *a, const double *b, double s, double *z)
-{
-    const int evenly = F->symmetry != NULL;
-    double before = INFINITY, far = INFINITY, off;
-    give_alike(F);
-    for (int32_t n = 0; n <= LOOKS; n++) {
-        const int32_t more = put_back(F, a, b, z);
-        F->closure = fmax(rg_closing_assemble(F, z, evenly, &off), off);
-        if (!(F->closure <= MOST_OPEN)) break;
-        if (more == 0 && F->closure <= fmax(F->tol, CURVED * far * far) && n > 0) return far * fmin(1, F->closure / before);
-        before = F->closure;
-        if (n < LOOKS) far = correct_once(F, s, z, evenly, 1);
-    }
-    return INFINITY;
-}
-
 int rg_closing_between(rg_relax *F, const double *a, const double *b, double s, int32_t most, double *z, double *best)
 {
     double least_closure = INFINITY, before = INFINITY, off, least;

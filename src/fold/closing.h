@@ -26,9 +26,6 @@ typedef struct rg_leash { double f, farthest; } rg_leash;
 /* z closed in at most so many corrections, at progress s; s NAN: whatever becomes of progress. leash NULL: changed by anything. Zero: it does
  * not close, or not within its leash. What a drawing is uneven by is left to each vertex, where even corrections get no further. */
 int rg_closing_correct(rg_relax *F, double *z, double s, int32_t most, const rg_leash *by);
-/* z, between the states a and b, after a correction or two at progress s: how far, radians, the closed state is from there, as Newton's
- * method goes; INFINITY where that is not known. F->scale is lost. */
-double rg_closing_nearly(rg_relax *F, const double *a, const double *b, double s, double *z);
 /* z, between the states a and b, closed as well as rounding lets it in at most so many corrections, damped, at progress s; s NAN: whatever
  * becomes of progress. best[n]: scratch. Zero: it does not close. F->scale is lost. */
 int rg_closing_between(rg_relax *F, const double *a, const double *b, double s, int32_t most, double *z, double *best);

@@ -76,10 +76,6 @@ static const double HARDLY_CLOSES = 0.5, LESS_DAMPING = 0.1;
 /* A path is smooth where the middle of a part of a chord, closed, lies within this much of the chord from the middle of its ends; so often
  * it is halved to find out. */
 static const double SMOOTH = 0.02;
-/* Newton's method is seen to converge where it leaves open no more than so many times the square of its correction, radians. */
-static const double CURVED = 10;
-/* So many corrections are made to see it: creases that one takes past half a turn have to be put back and held. */
-static const int32_t LOOKS = 3;
 static const int32_t MOST_HALVES = 4;
 /* Nodes of a path, at most, however short its steps are. */
 static const int32_t MOST_NODES = 12000;
