@@ -104,7 +104,8 @@ rg_status rg_fold_restore(rg_fold *f, const rg_snapshot *s)
         memcpy(f->track.closure, s->track_closure, n * sizeof *s->track_closure);
     }
     if (s->steers) {
-        const rg_vec2 *X = s->steered ? rg_fold_pattern(f, f->first) : m->X; /* the leg's */
+        /* The leg's pattern; of one that is still to begin, that of where it will. */
+        const rg_vec2 *X = s->steered ? rg_fold_pattern(f, s->aimed ? s->states - 1 : s->first) : m->X;
         rg_mesh_sectors(m, X, f->theta);
         rg_steer_return(f->steer, f->theta, &s->leg);
     }
