@@ -93,8 +93,8 @@ static void stop_worker(void)
 
 static void end(const char *why)
 {
-    const options *o = outputs;
     stop_worker();
+    const options *o = outputs; /* read now: until it stood it may have done with them */
     for (int i = 0; o && i < o->outputs; i++) rg_output_sweep(o->output[i], 1);
     if (o && o->report) rg_output_sweep(o->report, 1);
     say_last(why);
