@@ -747,16 +747,22 @@ static void what_a_way_may_bend_is_not_held_against_it(void **state)
     }
 }
 
+/* A strip of three squares with two valleys across it. */
+static rg_pattern *two_flaps(void)
+{
+    rg_lines l = drawing();
+    draw_box(&l, 0, 0, 3, 1);
+    draw(&l, RG_VALLEY, 1, 0, 1, 1);
+    draw(&l, RG_VALLEY, 2, 0, 2, 1);
+    return pattern_of(&l);
+}
+
 /* Two flaps that close through each other, and open again: how many frames cross, and which is the deepest, state by state.
  * What lies between frames counts for what crosses first alone. */
 static void the_deepest_of_all_frames(void **state)
 {
     (void)state;
-    rg_lines l = drawing();
-    draw_box(&l, 0, 0, 3, 1);
-    draw(&l, RG_VALLEY, 1, 0, 1, 1);
-    draw(&l, RG_VALLEY, 2, 0, 2, 1);
-    rg_pattern *d = pattern_of(&l);
+    rg_pattern *d = two_flaps();
     rg_mesh m = mesh_of(d);
     for (int every = 1; every <= 3; every++) {
         rg_tree t;
@@ -806,11 +812,7 @@ static void the_deepest_of_all_frames(void **state)
 static void layers_change_places(void **state)
 {
     (void)state;
-    rg_lines l = drawing();
-    draw_box(&l, 0, 0, 3, 1);
-    draw(&l, RG_VALLEY, 1, 0, 1, 1);
-    draw(&l, RG_VALLEY, 2, 0, 2, 1);
-    rg_pattern *d = pattern_of(&l);
+    rg_pattern *d = two_flaps();
     rg_mesh m = mesh_of(d);
     for (int first = 0; first < 2; first++)
         for (int lifted = 0; lifted < 2; lifted++) {

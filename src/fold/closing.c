@@ -73,11 +73,11 @@ double rg_closing_project_slope(rg_relax *F, const double *z, int evenly)
 
 /* Works off r and r' as assembled, to first order, eqs. (14), (19) with no wish; and where s is a number what progress is off it by, as one more
  * row: with the wish along the part of the slope of progress that the constraint leaves over. renew zero: with the matrix of a state so near
- * that nothing is lost by it. Returns the largest change, of the pattern over its reach. */
-static double correct_once(rg_relax *F, double s, double *z, int evenly, int renew)
+ * that nothing is lost by it. */
+static void correct_once(rg_relax *F, double s, double *z, int evenly, int renew)
 {
     const int held = !isnan(s);
-    double least, along = 0, by = 0, far = 0;
+    double least, along = 0, by = 0;
     if (renew) rg_closing_renew(F, evenly, F->damping * F->closure);
     rg_closing_solve(F, evenly, NULL, F->K.r, F->dz);
     if (held && renew) F->left = rg_closing_project_slope(F, z, evenly);
@@ -85,12 +85,10 @@ static double correct_once(rg_relax *F, double s, double *z, int evenly, int ren
     if (held && F->left > 0) by = (s - rg_closing_progress(F, z, &least) + along) / F->left;
     for (int32_t i = 0; i < F->n; i++) {
         if (held) F->dz[i] -= by * F->t[i];
-        far = fmax(far, fabs(F->dz[i]));
         F->dz[i] *= F->scale[i];
     }
     if (evenly && !F->by_orbits) rg_closing_even_out(F, F->dz);
     for (int32_t i = 0; i < F->n; i++) z[i] -= F->dz[i];
-    return far;
 }
 
 /* Will a correction with the matrix of the last one, which took `before` to closure, do? As much farther off as that one was, it leaves as
@@ -165,19 +163,13 @@ static int32_t put_back(rg_relax *F, const double *a, const double *b, double *z
     return held;
 }
 
-/* Every crease gives way as much as any other, each vertex by its reach; and as much as the others of its orbit. */
-static void give_alike(rg_relax *F)
-{
-    for (int32_t i = 0; i < F->N; i++) F->scale[i] = 1;
-    for (int32_t i = F->N; i < F->n; i++) F->scale[i] = F->how.compliance * F->freedom.reach[i - F->N];
-}
-
 int rg_closing_between(rg_relax *F, const double *a, const double *b, double s, int32_t most, double *z, double *best)
 {
     double least_closure = INFINITY, before = INFINITY, off, least;
     int evenly = F->symmetry != NULL;
     int32_t held = 0;
-    give_alike(F);
+    for (int32_t i = 0; i < F->N; i++) F->scale[i] = 1;
+    for (int32_t i = F->N; i < F->n; i++) F->scale[i] = F->how.compliance * F->freedom.reach[i - F->N];
     F->damping = DAMPING;
     for (int32_t n = 0; n < most; n++) {
         const int32_t more = put_back(F, a, b, z);
