@@ -65,16 +65,38 @@ static int32_t node_before(const rg_relax *F, double s)
     return low;
 }
 
-/* Part t of the chord from node k to the next one. */
-static void take_chord(rg_relax *F, int32_t k, double t, double *z)
+/* Part t of the chord from a to b. Near a singular state ways of vertices are of second order: at a, or at b. */
+static void take_part(const rg_relax *F, const double *a, const double *b, double t, int at_a, int at_b, double *z)
 {
-    const double *a = F->node + (size_t)k * (size_t)F->n, *b = a + F->n;
-    const int at_start = k == 0 && F->from_is_singular, at_end = F->landed && k == F->nodes - 2;
     for (int32_t i = 0; i < F->n; i++) {
-        const double part = i < F->N ? t : at_start ? t * t : at_end ? 1 - (1 - t) * (1 - t) : t;
+        const double part = i < F->N ? t : at_a ? t * t : at_b ? 1 - (1 - t) * (1 - t) : t;
         z[i] = (1 - part) * a[i] + part * b[i];
     }
-    rg_closing_even_out(F, z);
+}
+
+/* z: part t of the path between node k and the next one, closed, its progress held. Where what lies on the chord does not close, what lies on
+ * that of its half does, whose middle has been closed: so often it is halved. */
+static int read_between(rg_relax *F, int32_t k, double t, double *z)
+{
+    const double *a = F->node + (size_t)k * (size_t)F->n, *b = a + F->n, *low = a, *high = b;
+    const double s0 = F->node_s[k], s1 = F->node_s[k + 1];
+    int at_low = k == 0 && F->from_is_singular, at_high = F->landed && k == F->nodes - 2;
+    double from = 0, to = 1;
+    for (int32_t halved = 0;; halved++) {
+        take_part(F, low, high, (t - from) / (to - from), at_low, at_high, z);
+        rg_closing_even_out(F, z);
+        if (rg_closing_between(F, a, b, s0 + t * (s1 - s0), CORRECTIONS_AT_END, z, F->trial)) return 1;
+        if (halved == MOST_HALVES) return 0;
+        const double middle = (from + to) / 2;
+        const int is_low = t < middle;
+        double *closed = is_low ? F->wish : F->chord; /* neither is at work here */
+        take_part(F, low, high, 0.5, at_low, at_high, z);
+        rg_closing_even_out(F, z);
+        if (!rg_closing_between(F, a, b, s0 + middle * (s1 - s0), CORRECTIONS_AT_END, z, F->trial)) return 0;
+        memcpy(closed, z, (size_t)F->n * sizeof *z);
+        if (is_low) high = closed, to = middle, at_high = 0;
+        else low = closed, from = middle, at_low = 0;
+    }
 }
 
 double rg_chord_at(rg_relax *F, double s, double *z)
@@ -83,13 +105,7 @@ double rg_chord_at(rg_relax *F, double s, double *z)
     const int32_t last = F->nodes - 1, k = last > 0 ? node_before(F, s) : 0;
     const double s0 = F->node_s[k], s1 = last > 0 ? F->node_s[k + 1] : s0;
     const double t = s >= F->node_s[last] ? 1 : s1 > s0 ? fmin(1, fmax(0, (s - s0) / (s1 - s0))) : 1;
-    if (t > 0 && t < 1) {
-        const double *a = F->node + (size_t)k * n;
-        for (int held = 1; held >= 0; held--) {
-            take_chord(F, k, t, z);
-            if (rg_closing_between(F, a, a + n, held ? s0 + t * (s1 - s0) : NAN, CORRECTIONS_AT_END, z, F->trial)) return F->closure;
-        }
-    }
+    if (t > 0 && t < 1 && read_between(F, k, t, z)) return F->closure;
     /* A node, closed as it is; or the nearer one, where nothing between closes. */
     const int32_t at = s >= F->node_s[last] ? last : last > 0 && t >= 0.5 ? k + 1 : k;
     memcpy(z, F->node + (size_t)at * n, n * sizeof *z);
