@@ -115,6 +115,16 @@ static void a_column_with_three_blocks_is_refused(void **state)
     assert_int_equal(rg_sparse_init(&C, &mem, 3, 1, start, col), RG_EARG);
 }
 
+/* |b - C x| */
+static double left_over(const rg_sparse *C, const double *b, const double *x)
+{
+    double Cx[24], sum = 0;
+    assert_true(3 * C->M <= 24);
+    rg_sparse_mul(C, x, Cx);
+    for (int i = 0; i < 3 * C->M; i++) sum += (b[i] - Cx[i]) * (b[i] - Cx[i]);
+    return sqrt(sum);
+}
+
 static void regular_system_gives_pseudo_inverse(void **state)
 {
     (void)state;
@@ -127,7 +137,7 @@ static void regular_system_gives_pseudo_inverse(void **state)
     pseudo_inverse(&s.C, b, truth);
     solve(&s.C, b, 1e-13, x, &rep);
     assert_int_equal(rep.stop, RG_CG_CONVERGED);
-    below(rep.residual, 1e-11 * rep.b_norm);
+    below(left_over(&s.C, b, x), 1e-11);
     for (int i = 0; i < s.C.N; i++) near(x[i], truth[i], 1e-10);
     rg_sparse_free(&s.C);
 }
@@ -165,7 +175,7 @@ static void flat_state_inconsistent(void **state)
     double out_of_reach = pseudo_inverse(&s.C, b, truth);
     solve(&s.C, b, 1e-10, x, &rep);
     assert_in_range(rep.stop, RG_CG_CONVERGED, RG_CG_LEAST_SQUARES);
-    near(rep.residual, out_of_reach, 1e-9);
+    near(left_over(&s.C, b, x), out_of_reach, 1e-9);
     assert_true(out_of_reach > 0.1);
     for (int i = 0; i < s.C.N; i++) near(x[i], truth[i], 1e-8);
     rg_sparse_free(&s.C);
@@ -189,7 +199,7 @@ static void singular_between_vertices(void **state)
     }
     double out_of_reach = pseudo_inverse(&C, b, truth);
     solve(&C, b, 1e-10, x, &rep);
-    near(rep.residual, out_of_reach, 1e-9);
+    near(left_over(&C, b, x), out_of_reach, 1e-9);
     for (int i = 0; i < 6; i++) near(x[i], truth[i], 1e-8);
     rg_sparse_free(&C);
 }

@@ -1,4 +1,5 @@
 #include "fold/integrate.h"
+#include "base/lanes.h"
 #include "fold/newton.h"
 
 #include <string.h>
@@ -35,7 +36,7 @@ static const double FARTHEST_SET_RIGHT = 10;
  * makes them even; and the 60 frames that a motion has unless others are asked for lie on nodes. */
 static const int32_t GRID = 59;
 /* t's in Adams's formula at the most, the new one among them. */
-static const int32_t ADAMS_NODES = 8;
+enum { ADAMS_NODES = 8 };
 /* How far from the folded state, radians, the prediction of it may be. */
 static const double LANDING = 0.01;
 /* The part of the wish that the constraint must leave over for the motion to count as going on. */
@@ -117,10 +118,7 @@ static void adams(const rg_path *p, int32_t first, int32_t n, int32_t from, doub
     double w[RG_PATH_NODES];
     rg_path_integral(p, first, n, p->node[from].s, s, w);
     memcpy(out, p->node[from].rho, (size_t)p->N * sizeof *out);
-    for (int32_t j = 0; j < n; j++) {
-        const double *t = p->node[first + j].t;
-        for (int32_t i = 0; i < p->N; i++) out[i] += w[j] * t[i];
-    }
+    for (int32_t j = 0; j < n; j++) rg_lanes_add(p->N, w[j], p->node[first + j].t, out);
 }
 
 /* f->trial moves to where Adams and Moulton's formula leads from the last node, f->t being t at f->trial. Returns how
@@ -157,21 +155,32 @@ static void predict(rg_straight *f, double s)
 }
 
 /* The order that would have predicted the last node best is taken for the next one: where a freedom of the sheet is stiff
- * the higher orders are the first to be unstable, and it shows in them. */
-static void choose_order(rg_straight *f)
+ * the higher orders are the first to be unstable, and it shows in them. All orders are tried in one walk over the creases. */
+RG_WIDE static void choose_order(rg_straight *f)
 {
     const rg_path *p = &f->path;
-    const rg_node *last = &p->node[p->count - 1];
-    double least = INFINITY;
-    rg_path before = *p; /* without the last node; arrays are shared */
-    before.count--;
-    for (int32_t order = 1; order <= ADAMS_NODES; order++) {
-        int32_t first, n = adams_nodes(&before, order, &first);
-        if (n < order) break;
-        adams(&before, first, n, before.count - 1, last->s, f->k[0]);
-        double e = 0;
-        for (int32_t i = 0; i < p->N; i++) e += (f->k[0][i] - last->rho[i]) * (f->k[0][i] - last->rho[i]);
-        if (e < least) least = e, f->order = order;
+    const int32_t last = p->count - 1;
+    const double *from = p->node[last - 1].rho, *now = p->node[last].rho, *t[ADAMS_NODES];
+    double weight[ADAMS_NODES][ADAMS_NODES], least = INFINITY;
+    rg_quad off[ADAMS_NODES] = {{0}};
+    int32_t orders = 0;
+    for (; orders < ADAMS_NODES && orders < last && p->node[last - 1 - orders].has_t; orders++) {
+        t[orders] = p->node[last - 1 - orders].t;
+        rg_path_integral(p, last - 1 - orders, orders + 1, p->node[last - 1].s, p->node[last].s, weight[orders]);
+    }
+    for (int32_t i = 0; i < p->N; i += 4) {
+        const rg_quad way = *(const rg_quad_anywhere *)(now + i) - *(const rg_quad_anywhere *)(from + i);
+        rg_quad u[ADAMS_NODES];
+        for (int32_t k = 0; k < orders; k++) {
+            rg_quad e = -way;
+            u[k] = *(const rg_quad_anywhere *)(t[k] + i);
+            for (int32_t j = 0; j <= k; j++) e += weight[k][k - j] * u[j];
+            off[k] += e * e;
+        }
+    }
+    for (int32_t k = 0; k < orders; k++) {
+        const double e = (off[k][0] + off[k][1]) + (off[k][2] + off[k][3]);
+        if (e < least) least = e, f->order = k + 1;
     }
 }
 

@@ -39,14 +39,14 @@ double rg_limit_pull(const rg_limit *l, const double *rho, double *pull)
             for (int k = 0; k < 4; k++) {
                 if (near[k] < 0) continue;
                 double angle = rho[near[k]];
-                low = fmax(low, -RG_PI - fmin(angle, 0));
-                high = fmin(high, RG_PI - fmax(angle, 0));
+                if (angle < 0 && -RG_PI - angle > low) low = -RG_PI - angle;
+                if (angle > 0 && RG_PI - angle < high) high = RG_PI - angle;
             }
             if (low > 0) low = 0; /* a neighbour beyond half a turn leaves nothing but flat */
             if (high < 0) high = 0;
         }
         pull[i] = rho[i] < low ? low - rho[i] : rho[i] > high ? high - rho[i] : 0;
-        worst = fmax(worst, fabs(pull[i]));
+        if (fabs(pull[i]) > worst) worst = fabs(pull[i]);
     }
     return worst;
 }

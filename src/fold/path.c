@@ -9,9 +9,10 @@ rg_status rg_path_init(rg_path *p, const rg_memory *mem, int32_t N)
     memset(p, 0, sizeof *p);
     p->mem = *mem;
     p->N = N;
+    const size_t room = ((size_t)N + 3) / 4 * 4;
     for (int32_t i = 0; i < RG_PATH_NODES; i++) {
-        p->node[i].rho = rg_mem_array(mem, (size_t)N, sizeof(double));
-        p->node[i].t = rg_mem_array(mem, (size_t)N, sizeof(double));
+        p->node[i].rho = rg_mem_array(mem, room, sizeof(double));
+        p->node[i].t = rg_mem_array(mem, room, sizeof(double));
         if (!p->node[i].rho || !p->node[i].t) {
             rg_path_free(p);
             return RG_ENOMEM;

@@ -10,8 +10,8 @@ enum { RG_PATH_WINDOW = 6, RG_PATH_NODES = 16 };
 
 typedef struct rg_node {
     double s;    /* progress */
-    double *rho; /* [N] */
-    double *t;   /* [N] drho/ds */
+    double *rho; /* [N], and zeros to a multiple of four */
+    double *t;   /* likewise; drho/ds */
     int has_t;   /* zero: t is not known there, as at flat and at flat-folded */
 } rg_node;
 

@@ -142,20 +142,17 @@ static rg_status prepare(rg_project *P, const rg_constraint *K, const double *ho
 static rg_status solve_direct(rg_project *P, const double *hold, const double *b, double *x, double relative,
                               double absolute, rg_cg_report *rep)
 {
-    const int32_t N = P->scale.B.N;
-    memset(x, 0, (size_t)N * sizeof *x);
     rg_cg_refine(&P->scale.B, pinv_held, P, b, x, relative, absolute, P->stale ? STALE_ITERATIONS : DIRECT_ITERATIONS,
                  &P->cg, rep);
     P->iterations += rep->iterations;
-    P->products += rep->iterations + 2;
+    P->products += rep->iterations;
     if (!P->stale || rep->stop == RG_CG_CONVERGED) return RG_OK;
     rg_status s = factor(P, hold);
     if (s != RG_OK) return s;
     hold_on(P, hold);
-    memset(x, 0, (size_t)N * sizeof *x);
     rg_cg_refine(&P->scale.B, pinv_held, P, b, x, relative, absolute, DIRECT_ITERATIONS, &P->cg, rep);
     P->iterations += rep->iterations;
-    P->products += rep->iterations + 2;
+    P->products += rep->iterations;
     return RG_OK;
 }
 
@@ -167,14 +164,14 @@ static rg_status solve_any(rg_project *P, const rg_constraint *K, const double *
         int32_t N = K->C.N, most = ITERATIONS_PER_CREASE * N > ITERATIONS_AT_LEAST ? ITERATIONS_PER_CREASE * N : ITERATIONS_AT_LEAST;
         rg_cg_solve(&K->C, rg_jacobi_apply, &P->jacobi, hold, P->b, P->y, x, relative, most, &P->cg, rep); /* eq. (15) */
         P->iterations += rep->iterations;
-        P->products += 2 * rep->iterations + 6;
+        P->products += 2 * rep->iterations + 5;
         return RG_OK;
     }
     rg_scale_rows(&P->scale, P->b);
     if (P->solver == RG_SOLVER_CHOLESKY) return solve_direct(P, hold, P->b, x, relative, absolute, rep);
     rg_pinv_apply(&P->pinv, P->b, x, P->y);
     rg_scale_rows_t(&P->scale, P->y);
-    *rep = (rg_cg_report){RG_CG_CONVERGED, 0, 0, 0};
+    *rep = (rg_cg_report){RG_CG_CONVERGED, 0};
     return RG_OK;
 }
 

@@ -124,9 +124,6 @@ void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double 
         rep->iterations++;
     }
     mul_t_held(C, hold, y, x);
-    residual(C, b, x, r);
-    rep->b_norm = sqrt(rg_lanes_dot(m, b, b));
-    rep->residual = sqrt(rg_lanes_dot(m, r, r));
 }
 
 /* So many steps in a row none of which is shorter than half the shortest before: that is rounding. */
@@ -146,7 +143,8 @@ void rg_cg_refine(const rg_sparse *B, rg_apply_pinv *G, void *ctx, const double 
     int32_t since = 0;
 
     forget_directions(n, p, m, w);
-    residual(B, b, x, r);
+    memset(x, 0, (size_t)n * sizeof *x);
+    memcpy(r, b, (size_t)m * sizeof *r);
     rep->stop = RG_CG_MAX_ITERATIONS;
     for (rep->iterations = 0;; rep->iterations++) {
         G(ctx, r, z);
@@ -180,7 +178,4 @@ void rg_cg_refine(const rg_sparse *B, rg_apply_pinv *G, void *ctx, const double 
         }
         before = length;
     }
-    residual(B, b, x, r);
-    rep->b_norm = sqrt(rg_lanes_dot(m, b, b));
-    rep->residual = sqrt(rg_lanes_dot(m, r, r));
 }

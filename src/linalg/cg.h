@@ -23,8 +23,6 @@ const char *rg_cg_stop_text(rg_cg_stop s);
 typedef struct rg_cg_report {
     rg_cg_stop stop;
     int32_t iterations;
-    double b_norm;   /* ||b||_2 */
-    double residual; /* ||b - C C^T y||_2, computed anew from y when the iteration has stopped */
 } rg_cg_report;
 
 typedef struct rg_cg_work {
@@ -58,7 +56,7 @@ typedef void rg_apply_pinv(void *ctx, const double *r, double *z);
  * It stops on the length of that step or, where steps become shorter regularly, of what the next one would be, in radians,
  * not on a residual: where a sheet is over-constrained some of the residual, as small as rounding, is out of reach, and
  * whoever chases it freezes the sheet.
- *   x[N]      in  where to start, out  the solution: x and the start differ in the range of G
+ *   x[N]      out  the solution, in the range of G
  *   relative  stop at this part of the first step's length
  *   absolute  stop at this length
  * Allocates nothing. One work per thread. */

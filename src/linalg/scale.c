@@ -1,4 +1,5 @@
 #include "linalg/scale.h"
+#include "base/lanes.h"
 
 #include <string.h>
 
@@ -27,17 +28,22 @@ void rg_scale_free(rg_scale *S)
     memset(S, 0, sizeof *S);
 }
 
-static double inverse_root(double pivot)
+/* What is of four vertices at once: roots and quotients of one alone would wait for each other. */
+RG_WITHIN void inverse_root(const rg_quad *pivot, rg_quad *root)
 {
-    return pivot > LEAST_PIVOT ? 1 / sqrt(pivot) : 0;
+    for (int i = 0; i < 4; i++) (*root)[i] = (*pivot)[i] > LEAST_PIVOT ? 1 / sqrt((*pivot)[i]) : 0;
 }
 
-/* The first crease of a loop is e_x, so xx >= 1, and two neighbours are never in line: only the third pivot can go. */
-static void invert(rg_vec3 diagonal, double xy, double xz, double yz, double *w)
+/* d: xx, yy, zz, xy, xz, yz of C C^T at each; w: six numbers of the inverse of its factor. The first crease of a loop is e_x, so xx >= 1, and
+ * two neighbours are never in line: only the third pivot can go. */
+RG_WITHIN void invert(const rg_quad *d, rg_quad *w)
 {
-    double a = inverse_root(diagonal.x), l21 = xy * a, l31 = xz * a;
-    double b = inverse_root(diagonal.y - l21 * l21), l32 = (yz - l31 * l21) * b;
-    double c = inverse_root(diagonal.z - l31 * l31 - l32 * l32);
+    rg_quad a, b, c;
+    inverse_root(&d[0], &a);
+    const rg_quad l21 = d[3] * a, l31 = d[4] * a, second = d[1] - l21 * l21;
+    inverse_root(&second, &b);
+    const rg_quad l32 = (d[5] - l31 * l21) * b, third = d[2] - l31 * l31 - l32 * l32;
+    inverse_root(&third, &c);
     w[0] = a;
     w[1] = -l21 * a * b;
     w[2] = b;
@@ -46,20 +52,29 @@ static void invert(rg_vec3 diagonal, double xy, double xz, double yz, double *w)
     w[5] = c;
 }
 
-void rg_scale_update(rg_scale *S, const rg_sparse *C)
+RG_WIDE void rg_scale_update(rg_scale *S, const rg_sparse *C)
 {
-    for (int32_t k = 0; k < C->M; k++) {
-        rg_vec3 d = {0, 0, 0};
-        double xy = 0, xz = 0, yz = 0, *w = S->inverse[k];
-        for (int32_t j = C->start[k]; j < C->start[k + 1]; j++) {
-            rg_vec3 v = C->x[j];
-            d.x += v.x * v.x, d.y += v.y * v.y, d.z += v.z * v.z;
-            xy += v.x * v.y, xz += v.x * v.z, yz += v.y * v.z;
+    for (int32_t first = 0; first < C->M; first += 4) {
+        const int32_t n = C->M - first < 4 ? C->M - first : 4;
+        rg_quad d[6] = {{0}}, inverse[6];
+        for (int32_t i = 0; i < n; i++) {
+            rg_vec3 square = {0, 0, 0};
+            double xy = 0, xz = 0, yz = 0;
+            for (int32_t j = C->start[first + i]; j < C->start[first + i + 1]; j++) {
+                const rg_vec3 v = C->x[j];
+                square.x += v.x * v.x, square.y += v.y * v.y, square.z += v.z * v.z;
+                xy += v.x * v.y, xz += v.x * v.z, yz += v.y * v.z;
+            }
+            d[0][i] = square.x, d[1][i] = square.y, d[2][i] = square.z, d[3][i] = xy, d[4][i] = xz, d[5][i] = yz;
         }
-        invert(d, xy, xz, yz, w);
-        for (int32_t j = C->start[k]; j < C->start[k + 1]; j++) {
-            rg_vec3 v = C->x[j];
-            S->B.x[j] = (rg_vec3){w[0] * v.x, w[1] * v.x + w[2] * v.y, w[3] * v.x + w[4] * v.y + w[5] * v.z};
+        invert(d, inverse);
+        for (int32_t i = 0; i < n; i++) {
+            double *w = S->inverse[first + i];
+            for (int k = 0; k < 6; k++) w[k] = inverse[k][i];
+            for (int32_t j = C->start[first + i]; j < C->start[first + i + 1]; j++) {
+                const rg_vec3 v = C->x[j];
+                S->B.x[j] = (rg_vec3){w[0] * v.x, w[1] * v.x + w[2] * v.y, w[3] * v.x + w[4] * v.y + w[5] * v.z};
+            }
         }
     }
 }
