@@ -6,6 +6,7 @@
 #ifndef RG_LANES_H
 #define RG_LANES_H
 
+#include <math.h>
 #include <stdint.h>
 
 typedef double rg_quad __attribute__((vector_size(32)));
@@ -39,6 +40,15 @@ static inline double rg_lanes_dot(int32_t n, const double *a, const double *b)
     double sum = (s[0] + s[1]) + (s[2] + s[3]);
     for (; i < n; i++) sum += a[i] * b[i];
     return sum;
+}
+
+/* The largest |a_i|; NaN where there is one. */
+static inline double rg_lanes_largest(int32_t n, const double *a)
+{
+    double most = 0;
+    for (int32_t i = 0; i < n; i++)
+        if (!(fabs(a[i]) <= most)) most = fabs(a[i]);
+    return most;
 }
 
 /* y <- y + a x */

@@ -119,7 +119,7 @@ int rg_closing_correct(rg_relax *F, double *z, double s, int32_t most, const rg_
             stiff = F->U > 0;
         }
         poor = F->closure > BETTER_CLOSED * least ? poor + 1 : 0;
-        if (poor >= MOST_POOR || (poor > 0 && fabs(F->closure - before) <= OUT_OF_REACH * before)) break;
+        if (poor >= MOST_POOR_MOVING || (poor > 0 && fabs(F->closure - before) <= OUT_OF_REACH * before)) break;
         least = fmin(least, F->closure);
         near = is_near(F->closure, before, F->tol);
         before = F->closure;

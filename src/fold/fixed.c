@@ -1,27 +1,10 @@
 #include "fold/fixed.h"
-#include "fold/newton.h"
+#include "base/lanes.h"
 #include "fold/integrate.h"
+#include "fold/newton.h"
+#include "fold/tuning.h"
 
 #include <string.h>
-
-/* Steps smaller than this part of the whole way are no progress. */
-static const double SMALLEST_STEP = 1e-6;
-static const double SOLVE_TOLERANCE = 1e-8;
-static const int32_t CORRECTIONS = 8;
-/* A correction this much longer than the step it corrects has left the branch. */
-static const double FARTHEST_CORRECTION = 0.5;
-/* How strongly a limit pulls, per step; and how often again, where more than this is left. */
-static const double LIMIT_GAIN = 0.5;
-static const int32_t MOST_PULLS = 12;
-static const double LITTLE_PULL = 1e-3;
-
-static double largest(int32_t n, const double *a)
-{
-    double most = 0;
-    for (int32_t i = 0; i < n; i++)
-        if (!(fabs(a[i]) <= most)) most = fabs(a[i]);
-    return most;
-}
 
 /* Creases beyond their limits are pulled back, along what the constraint allows; f->trial is then corrected. */
 static int pull_back(rg_straight *f, double least, double gain)
@@ -29,7 +12,7 @@ static int pull_back(rg_straight *f, double least, double gain)
     rg_cg_report rep;
     if (!(rg_limit_pull(&f->limit, f->trial, f->pull) > least)) return 0;
     for (int32_t i = 0; i < f->mesh.N; i++) f->pull[i] *= gain;
-    if (rg_project_step(&f->P, &f->K, f->pull, 0, NULL, f->pull, SOLVE_TOLERANCE, &rep) != RG_OK) return 0;
+    if (rg_project_step(&f->P, &f->K, f->pull, 0, NULL, f->pull, DIRECTION_SOLVED, &rep) != RG_OK) return 0;
     for (int32_t i = 0; i < f->mesh.N; i++) f->trial[i] += f->pull[i];
     return 1;
 }
@@ -87,12 +70,12 @@ void rg_fixed_newton(rg_straight *f)
         return;
     }
     if (land(f)) return;
-    double fastest = largest(N, f->t), most = f->settings.step / fastest;
+    double fastest = rg_lanes_largest(N, f->t), most = f->settings.step / fastest;
     const double left = f->s_end - f->s;
     double ds = fmin(f->ds, most);
-    if (!(ds < left - SMALLEST_STEP)) ds = left; /* leaves no rest that would be too small a step */
+    if (!(ds < left - SHORTEST)) ds = left; /* leaves no rest that would be too small a step */
     for (;; ds /= 2) {
-        if (!(ds > SMALLEST_STEP)) {
+        if (!(ds > SHORTEST)) {
             rg_straight_stop(f, "the facets leave no way on: even the smallest step does not close");
             return;
         }
@@ -102,7 +85,7 @@ void rg_fixed_newton(rg_straight *f)
             double d = fabs(f->trial[i] - f->rho[i] - ds * f->t[i]);
             if (!(d <= strayed)) strayed = d;
         }
-        if (strayed <= FARTHEST_CORRECTION * way + 1e-6) break;
+        if (strayed <= FARTHEST_CORRECTION * way + LITTLE_STRAIGHT) break;
     }
     const double s = ds >= left ? f->s_end : f->s + ds;
     f->ds = 2 * ds;
@@ -118,21 +101,21 @@ void rg_fixed_euler(rg_straight *f)
     rg_constraint_assemble(&f->K, f->rho);
     f->assemblies++;
     rg_project_renew(&f->P);
-    rg_drive_wish(&f->drive, f->rho, fmin(f->s, 1 - SMALLEST_STEP), f->wish);
-    double h = fmin(f->settings.step / fmax(largest(N, f->wish), 1e-300), 1);
+    rg_drive_wish(&f->drive, f->rho, fmin(f->s, 1 - SHORTEST), f->wish);
+    double h = fmin(f->settings.step / fmax(rg_lanes_largest(N, f->wish), 1e-300), 1);
     rg_limit_pull(&f->limit, f->rho, f->pull);
     for (int32_t i = 0; i < N; i++) f->wish[i] = h * f->wish[i] + LIMIT_GAIN * f->pull[i];
-    if (rg_project_step(&f->P, &f->K, f->wish, 1, NULL, f->t, SOLVE_TOLERANCE, &rep) != RG_OK) { /* eqs. (14), (15) */
+    if (rg_project_step(&f->P, &f->K, f->wish, 1, NULL, f->t, DIRECTION_SOLVED, &rep) != RG_OK) { /* eqs. (14), (15) */
         rg_straight_stop(f, "the solver failed");
         return;
     }
-    double ds = rg_drive_progress(&f->drive, f->t), part = 1, way = largest(N, f->t);
+    double ds = rg_drive_progress(&f->drive, f->t), part = 1, way = rg_lanes_largest(N, f->t);
     if (!(way <= RG_PI)) {
         rg_straight_stop(f, "the step diverged");
         return;
     }
-    if (f->s + ds > f->s_end - SMALLEST_STEP && ds > 0) part = (f->s_end - f->s) / ds;
-    if (!(part * way > SMALLEST_STEP * f->settings.step) || !(ds > 0)) {
+    if (f->s + ds > f->s_end - SHORTEST && ds > 0) part = (f->s_end - f->s) / ds;
+    if (!(part * way > SHORTEST * f->settings.step) || !(ds > 0)) {
         rg_straight_stop(f, "no motion that the facets allow folds any further");
         return;
     }

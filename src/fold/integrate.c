@@ -1,47 +1,12 @@
 #include "fold/integrate.h"
 #include "base/lanes.h"
 #include "fold/newton.h"
+#include "fold/tuning.h"
 
 #include <string.h>
 
-static const double SOLVE_TOLERANCE = 1e-10;
-/* Of a node where closing says nothing of where along its freedoms the sheet goes: this part of what it is set right by. */
-static const double FREE_SOLVE_PART = 0.1;
-static const int32_t CORRECTIONS = 8;
-/* The polynomial between nodes must close this much better than asked for. Where the sheet can go one way only its angles
- * are off by closure over the slowest mode, and could be exact: so much better there, and between fixed steps, which are that exact. */
-static const double READ_OFF_MARGIN = 0.5, READ_OFF_MARGIN_ONE_WAY = 1e-3;
-static const double ROUNDING = 1e-13;
-/* And steps are planned for this part of that. */
-static const double STEP_MARGIN = 0.3;
-/* A prediction that closes to this is near enough for one factorisation there to serve the node. */
-static const double GOOD_PREDICTION = 1e-5, POOR_PREDICTION = 1e-2;
-/* The next step against this one. */
-static const double LARGEST_GROWTH = 2.5, LARGEST_CUT = 0.2;
-static const double SMALLEST_STEP = 1e-5;
-/* Every so many nodes it is asked again whether the sheet can go one way only: whether closing undoes all but this
- * part of what Adams's formula moves. */
-static const int32_t ASK_AGAIN = 8;
-static const double ONE_WAY = 1e-2;
-/* Adams's formula moves less than this: rounding, which is not worth a correction. */
-static const double SET_RIGHT_FROM = 1e-13;
-/* And this far it may move along the paper's motions without the direction being asked for again. */
-static const double SAME_DIRECTION = 1e-7;
-/* What it should move, radians, for the motion to be true to some tenth of that: so many times the root of the tolerance, as the
- * tolerance is one of closure, and most who ask for little there do not ask for another motion. */
-static const double GOOD_SET_RIGHT = 10, MOST_SET_RIGHT = 5e-4;
-/* More than so many times that is no correction: the step was too long. */
-static const double FARTHEST_SET_RIGHT = 10;
-/* Where the sheet can go several ways nodes are put on a grid of so many parts of the way as soon as steps come down to it, which
- * makes them even; and the 60 frames that a motion has unless others are asked for lie on nodes. */
-static const int32_t GRID = 59;
 /* t's in Adams's formula at the most, the new one among them. */
 enum { ADAMS_NODES = 8 };
-/* How far from the folded state, radians, the prediction of it may be. */
-static const double LANDING = 0.01;
-/* The part of the wish that the constraint must leave over for the motion to count as going on. */
-static const double LEAST_EFFICIENCY = 1e-5;
-
 
 static double good_set_right(const rg_straight *f)
 {
@@ -60,7 +25,7 @@ double rg_integrate_tangent(rg_straight *f, const double *rho, double s, int nea
     rg_drive_wish(&f->drive, rho, s, f->wish);
     const int free = f->smooth && !f->one_way && N > 3 * f->mesh.M;
     memset(f->P.y, 0, 3 * (size_t)f->mesh.M * sizeof *f->P.y); /* the last answer may be of a frame, of which a node knows nothing */
-    if (rg_project_tangent(&f->P, &f->K, f->wish, t, free ? FREE_SOLVE_PART * good_set_right(f) : SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (9) */
+    if (rg_project_tangent(&f->P, &f->K, f->wish, t, free ? FREE_SOLVE_PART * good_set_right(f) : DIRECTION_SOLVED, &rep) != RG_OK) return 0; /* eq. (9) */
     double along = rg_drive_progress(&f->drive, t);
     if (!(along > LEAST_EFFICIENCY)) return 0;
     for (int32_t i = 0; i < N; i++) t[i] /= along;
@@ -286,7 +251,7 @@ int rg_integrate_advance(rg_straight *f)
     rg_path *p = &f->path;
     const double from = p->node[p->count - 1].s;
     for (double h = f->h;; h /= 2) {
-        if (!(h > SMALLEST_STEP)) return 0;
+        if (!(h > SHORTEST)) return 0;
         double s = snap(f, from, h), far;
         h = s - from;
         predict(f, s);

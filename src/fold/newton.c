@@ -1,25 +1,8 @@
 /* newton.c -- drift worked off: eq. (14) again and again until every vertex closes. */
 #include "fold/newton.h"
+#include "fold/tuning.h"
 
 #include <string.h>
-
-/* Each correction gains this factor at the least where Newton's own rate does not gain more. */
-static const double SOLVE_TOLERANCE = 1e-5, NEAR_SOLVE_TOLERANCE = 1e-4;
-/* Where there is one correction only, what it leaves is looked at anyway: the factor is used once. */
-static const double ONCE = 1;
-/* Progress is held to this; a frame's percent is then exact to 1e-8. */
-static const double PROGRESS_TOLERANCE = 1e-10;
-/* A correction that leaves more than this part of the residual is not converging; three in a row end the attempt. */
-static const double POOR_GAIN = 0.7;
-/* One that leaves no less than this is rounding, if it closes to tolerance; if not, the factor is made anew. */
-static const double GOOD_GAIN = 0.1;
-/* A factor is kept while no crease has moved farther than this since it was made. It is off by as much, against slow
- * modes of 1e-4 or so; and with more equations than creases those that say the same thing twice no longer agree, which
- * the factor takes for a mode of that size, to be seen beside the square root of its beta. */
-static const double NEAR = 1e-4, NEAR_OVERCONSTRAINED = 1e-6;
-/* Rounding leaves some 1e-15 at a vertex. What closes to the tolerance asked for is corrected down to this as long as
- * that is quick, since angles are off by more than closure is: by its ratio to the slowest mode. */
-static const double ROUNDING = 1e-13;
 
 /* Eq. (14) with the wish for what progress is off. It is held to the letter: without that, an over-constrained sheet, whose C
  * has one more rank off the path than on it, would trade progress for closure and creep. */
@@ -43,22 +26,22 @@ static int correct_along(rg_straight *f, double off, double tol, const double *t
 int rg_newton_close(rg_straight *f, double s, int32_t most_corrections, int near, const double *t)
 {
     const int32_t N = f->mesh.N;
-    const double tol = f->settings.tol, solve_tol = most_corrections == 1 ? ONCE : near ? NEAR_SOLVE_TOLERANCE : SOLVE_TOLERANCE;
-    const double far = f->mesh.N <= 3 * f->mesh.M ? NEAR_OVERCONSTRAINED : NEAR;
+    const double tol = f->settings.tol, solve_tol = most_corrections == 1 ? SOLVED_ONCE : near ? CORRECTION_SOLVED_NEAR : CORRECTION_SOLVED;
+    const double far = f->mesh.N <= 3 * f->mesh.M ? SAME_FACTOR_OVERCONSTRAINED : SAME_FACTOR;
     double before = INFINITY;
     int poor = 0;
     if (!near) f->moved = INFINITY;
     for (int32_t n = 0;; n++) {
         f->closure = rg_constraint_assemble(&f->K, f->trial);
         f->assemblies++;
-        if (f->moved <= far && (n == 0 || f->closure <= GOOD_GAIN * before)) rg_project_renew_near(&f->P);
+        if (f->moved <= far && (n == 0 || f->closure <= STILL_CLOSES * before)) rg_project_renew_near(&f->P);
         else rg_project_renew(&f->P);
         double off = s - rg_drive_progress(&f->drive, f->trial);
-        int closed = f->closure <= tol && fabs(off) <= PROGRESS_TOLERANCE;
-        if (closed && (f->closure <= ROUNDING || f->closure > GOOD_GAIN * before || n >= most_corrections)) return 1;
-        if (n >= most_corrections || !(f->closure <= 3)) return 0;
-        poor = f->closure > POOR_GAIN * before && f->closure > 10 * tol ? poor + 1 : 0;
-        if (poor >= 3) return 0;
+        int closed = f->closure <= tol && fabs(off) <= SAME_PROGRESS;
+        if (closed && (f->closure <= ROUNDING || f->closure > STILL_CLOSES * before || n >= most_corrections)) return 1;
+        if (n >= most_corrections || !(f->closure <= MOST_OPEN)) return 0;
+        poor = f->closure > BETTER_CLOSED * before && f->closure > 10 * tol ? poor + 1 : 0;
+        if (poor >= MOST_POOR) return 0;
         before = f->closure;
 
         memset(f->P.y, 0, 3 * (size_t)f->mesh.M * sizeof *f->P.y); /* the last answer has nothing to do with this one */

@@ -7,18 +7,9 @@
  * crease comes out on the wrong side the attempt is repeated with that crease asked for more strongly. */
 #include "fold/start.h"
 #include "fold/newton.h"
+#include "fold/tuning.h"
 
 #include <string.h>
-
-static const double SOLVE_TOLERANCE = 1e-8;
-/* Attempts, and how much louder a wrong-sided crease is asked each time. */
-static const int32_t ATTEMPTS = 24;
-static const double LOUDER = 1.8;
-static const int32_t CORRECTIONS = 24;
-/* Sliding along the branches of one component, towards the wish, at fixed progress. */
-static const int32_t SLIDES = 12;
-/* Below this part of the mean a crease is locked, not wrong-sided. */
-static const double LOCKED = 1e-6;
 
 /* Sum of the wrong-sided parts, each over the mean; 0: all on the right side. */
 static double wrongness(const rg_straight *f, const double *rho, double s1)
@@ -27,7 +18,7 @@ static double wrongness(const rg_straight *f, const double *rho, double s1)
     for (int32_t i = 0; i < f->mesh.N; i++) {
         if (f->drive.lean[i] == 0) continue;
         double part = rho[i] / f->drive.lean[i] / s1;
-        if (!(part >= -LOCKED)) sum += fmin(-part, 1e3);
+        if (!(part >= -HARDLY_TURNS)) sum += fmin(-part, MOST_WRONG);
     }
     return sum;
 }
@@ -41,7 +32,7 @@ static int flat_direction(rg_straight *f)
     f->assemblies++;
     rg_project_renew(&f->P);
     memset(f->P.y, 0, 3 * (size_t)f->mesh.M * sizeof *f->P.y);
-    if (rg_project_step(&f->P, &f->K, f->wish, 0, NULL, f->t, SOLVE_TOLERANCE, &rep) != RG_OK) return 0; /* eq. (9) */
+    if (rg_project_step(&f->P, &f->K, f->wish, 0, NULL, f->t, DIRECTION_SOLVED, &rep) != RG_OK) return 0; /* eq. (9) */
     double along = rg_drive_progress(&f->drive, f->t);
     if (!(along > 0)) return 0;
     for (int32_t i = 0; i < f->mesh.N; i++) f->t[i] /= along;
@@ -58,9 +49,9 @@ static int slide(rg_straight *f, double s1, double gain)
         f->wish[i] = isnan(target) ? 0 : gain * (s1 * target - f->trial[i]);
     }
     memset(f->P.y, 0, 3 * (size_t)f->mesh.M * sizeof *f->P.y);
-    if (rg_project_step(&f->P, &f->K, f->wish, 0, NULL, f->wish, SOLVE_TOLERANCE, &rep) != RG_OK) return 0;
+    if (rg_project_step(&f->P, &f->K, f->wish, 0, NULL, f->wish, DIRECTION_SOLVED, &rep) != RG_OK) return 0;
     for (int32_t i = 0; i < N; i++) f->trial[i] += f->wish[i];
-    return rg_newton_correct(f, s1, CORRECTIONS);
+    return rg_newton_correct(f, s1, CORRECTIONS_OFF_FLAT);
 }
 
 int rg_start_leave_flat(rg_straight *f, double s1)
@@ -71,20 +62,20 @@ int rg_start_leave_flat(rg_straight *f, double s1)
     double *loud = f->pull; /* how strongly each crease is asked */
     for (int32_t i = 0; i < N; i++) loud[i] = 1;
 
-    for (int32_t attempt = 0; attempt < ATTEMPTS && least > 0; attempt++) {
+    for (int32_t attempt = 0; attempt < MOST_STARTS && least > 0; attempt++) {
         for (int32_t i = 0; i < N; i++)
             f->wish[i] = loud[i] * f->drive.lean[i];
         if (!flat_direction(f)) break;
         for (int32_t i = 0; i < N; i++) f->trial[i] = s1 * f->t[i];
-        int closed = rg_newton_correct(f, s1, CORRECTIONS);
-        for (int32_t n = 0; closed && n < SLIDES && wrongness(f, f->trial, s1) > 0; n++) closed = slide(f, s1, 0.5);
+        int closed = rg_newton_correct(f, s1, CORRECTIONS_OFF_FLAT);
+        for (int32_t n = 0; closed && n < SLIDES && wrongness(f, f->trial, s1) > 0; n++) closed = slide(f, s1, SLIDE_GAIN);
         double wrong = closed ? wrongness(f, f->trial, s1) : INFINITY;
         if (wrong < least) {
             least = wrong;
             memcpy(f->best, f->trial, bytes);
         }
         for (int32_t i = 0; i < N; i++)
-            if (f->drive.lean[i] != 0 && !(f->trial[i] / f->drive.lean[i] >= 0.02 * s1)) loud[i] *= LOUDER;
+            if (f->drive.lean[i] != 0 && !(f->trial[i] / f->drive.lean[i] >= HARDLY_RIGHT * s1)) loud[i] *= LOUDER;
     }
     if (!(least < INFINITY)) return 0;
     memcpy(f->rho, f->best, bytes);

@@ -1,33 +1,10 @@
 #include "fold/steer.h"
+#include "base/lanes.h"
+#include "fold/blame.h"
 #include "fold/start.h"
 #include "fold/tuning.h"
 
-#include <stdlib.h>
 #include <string.h>
-
-typedef struct rg_force { double size; int32_t k; } force;
-
-static const double SOLVE_TOLERANCE = 1e-10;
-static const int32_t CLOSINGS = 10;
-/* A closing that leaves more than this part of the residual gains no more: it is rounding, if it closes. */
-static const double GOOD_GAIN = 0.1, POOR_GAIN = 0.7;
-/* The mean angle at which flat paper is left: as straight.c has it. Below NOTHING, radians, a sheet is flat. */
-static const double FIRST_ANGLE = 0.01, NOTHING = 1e-9;
-/* What closes with a crease this far from flat, radians, has not just left it: a whole turn closes, too. */
-static const double FARTHEST_OFF_FLAT = RG_PI / 2;
-/* A step shorter than this, in progress, is none; one whose end is this much of it off its prediction has left the branch. */
-static const double SHORTEST = 1e-6, FARTHEST = 0.5, A_LITTLE = 1e-6;
-/* Progress that is asked for is met to this. */
-static const double SAME_PROGRESS_HELD = 1e-12;
-/* Of a wish for progress this much must be left over. */
-static const double LEAST_EFFICIENCY = 1e-5;
-/* The wish points straight at the targets; so near to them, in progress, it no longer grows. */
-static const double NEAREST = 1e-3;
-/* All creases this near to their targets, radians, are put there, if that closes. */
-static const double LANDING = 0.05;
-/* Past half a turn by more than this, radians, is beyond it. */
-static const double PAST = 1e-9;
-static const int32_t HOLDS = 6;
 
 rg_status rg_steer_init(rg_steer *F, const rg_memory *mem, const rg_mesh *m, const rg_settings *s)
 {
@@ -74,14 +51,6 @@ static int is_driven(const rg_steer *F, int32_t i) { return F->role[i] == RG_ROL
 
 static double way(const rg_steer *F, int32_t i) { return F->target[i] - F->from[i]; }
 
-static double largest(int32_t n, const double *a)
-{
-    double most = 0;
-    for (int32_t i = 0; i < n; i++)
-        if (!(fabs(a[i]) <= most)) most = fabs(a[i]);
-    return most;
-}
-
 /* -------------------------------------------------------------------------------------------------- closing ---- */
 
 /* The creases whose columns are not asked. */
@@ -108,15 +77,15 @@ static int close_trial(rg_steer *F, double s, double *trial)
         rg_cg_report rep;
         F->closure = rg_constraint_assemble(&F->K, trial);
         const double off = holds ? s - progress(F, trial) : 0;
-        if (F->closure <= F->tol && fabs(off) <= SAME_PROGRESS_HELD && (F->closure > GOOD_GAIN * before || n >= CLOSINGS)) return 1;
-        if (n >= CLOSINGS + 2 || !(F->closure <= 2.5)) return F->closure <= F->tol && fabs(off) <= SAME_PROGRESS_HELD;
-        poor = F->closure > POOR_GAIN * before && F->closure > 10 * F->tol ? poor + 1 : 0;
-        if (poor >= 3) return 0;
+        if (F->closure <= F->tol && fabs(off) <= SAME_PROGRESS && (F->closure > STILL_CLOSES * before || n >= CORRECTIONS)) return 1;
+        if (n >= CORRECTIONS || !(F->closure <= MOST_OPEN)) return F->closure <= F->tol && fabs(off) <= SAME_PROGRESS;
+        poor = F->closure > BETTER_CLOSED * before && F->closure > 10 * F->tol ? poor + 1 : 0;
+        if (poor >= MOST_POOR) return 0;
         before = F->closure;
         rg_project_renew(&F->P);
         memset(F->P.y, 0, 3 * (size_t)F->K.C.M * sizeof *F->P.y);
         for (int32_t i = 0; holds && i < F->K.C.N; i++) F->wish[i] = off / F->steepness * F->along[i];
-        if (rg_project_step(&F->P, &F->K, holds ? F->wish : NULL, 1, holds ? F->along : NULL, F->wish, SOLVE_TOLERANCE, &rep) != RG_OK) return 0;
+        if (rg_project_step(&F->P, &F->K, holds ? F->wish : NULL, 1, holds ? F->along : NULL, F->wish, DIRECTION_SOLVED, &rep) != RG_OK) return 0;
         for (int32_t i = 0; i < F->K.C.N; i++) trial[i] += F->wish[i];
     }
 }
@@ -180,7 +149,7 @@ static int leave_flat(rg_steer *F)
     memcpy(F->ray, f->rho, (size_t)N * sizeof *F->ray);
     put_driven(F, F->ray_s, F->ray);
     hold_still(F);
-    if (!close_trial(F, F->ray_s, F->ray) || !(largest(N, F->ray) <= FARTHEST_OFF_FLAT)) return 0;
+    if (!close_trial(F, F->ray_s, F->ray) || !(rg_lanes_largest(N, F->ray) <= FARTHEST_OFF_FLAT)) return 0;
     memcpy(F->rho, F->ray, (size_t)N * sizeof *F->rho);
     F->s = F->ray_s;
     return 1;
@@ -204,7 +173,7 @@ void rg_steer_begin(rg_steer *F, const double *theta, const double *rho)
     int moves = F->wishing > 0;
     for (int32_t i = 0; i < N; i++) moves |= is_driven(F, i) && way(F, i) != 0;
     if (!moves) stop(F, RG_FOLDED, "every crease is where it shall be");
-    else if (largest(N, rho) <= NOTHING && !leave_flat(F)) stop(F, RG_STOPPED, "no way off the flat state was found");
+    else if (rg_lanes_largest(N, rho) <= IS_FLAT && !leave_flat(F)) stop(F, RG_STOPPED, "no way off the flat state was found");
 }
 
 /* ---------------------------------------------------------------------------------------------------- a step ---- */
@@ -222,9 +191,9 @@ static int tangent(rg_steer *F, const double *rho, double s, double *t)
     rg_constraint_forget_still(&F->K);
     rg_project_renew(&F->P);
     for (int32_t i = 0; i < N; i++)
-        if (F->role[i] == RG_ROLE_WISHES && !F->held[i]) F->wish[i] = (F->target[i] - rho[i]) / fmax(1 - s, NEAREST);
+        if (F->role[i] == RG_ROLE_WISHES && !F->held[i]) F->wish[i] = (F->target[i] - rho[i]) / fmax(1 - s, NEAREST_TARGET);
     memset(F->P.y, 0, 3 * (size_t)F->K.C.M * sizeof *F->P.y);
-    if (rg_project_step(&F->P, &F->K, F->wish, 1, NULL, t, SOLVE_TOLERANCE, &rep) != RG_OK) return 0;
+    if (rg_project_step(&F->P, &F->K, F->wish, 1, NULL, t, DIRECTION_SOLVED, &rep) != RG_OK) return 0;
     if (F->driven) return 1;
     double along = 0;
     for (int32_t i = 0; i < N; i++) along += F->gradient[i] * t[i];
@@ -277,7 +246,7 @@ static int is_on_branch(const rg_steer *F, double ds)
         if (!(d <= off)) off = d;
         if (!(t <= far)) far = t;
     }
-    return off <= FARTHEST * far + A_LITTLE;
+    return off <= FARTHEST_CORRECTION * far + LITTLE_STRAIGHT;
 }
 
 static void accept(rg_steer *F, double s)
@@ -312,16 +281,16 @@ static void go_on(rg_steer *F, double goal)
     memset(F->held, 0, (size_t)F->K.C.N);
     hold_still(F);
     if (land(F, goal, F->rho)) return;
-    for (int32_t round = 0; round < HOLDS; round++) {
+    for (int32_t round = 0; round < ROUNDS; round++) {
         if (!tangent(F, F->rho, F->s, F->t)) break;
-        const double fastest = largest(F->K.C.N, F->t);
+        const double fastest = rg_lanes_largest(F->K.C.N, F->t);
         double ds = fmin(fmin(F->h, left), F->step / fastest);
         if (left - ds < SHORTEST) ds = left;
         int made = 0;
         for (; !made && ds > fmin(SHORTEST, left / 2); ds /= made ? 1 : 2) made = try_step(F, ds) && is_on_branch(F, ds);
         if (!made) break;
         if (ds == left && land(F, goal, F->trial)) return; /* the end itself, which a step may be past by its error */
-        if (round + 1 < HOLDS && hold_what_overfolds(F)) continue;
+        if (round + 1 < ROUNDS && hold_what_overfolds(F)) continue;
         F->h = ds == left ? fmax(F->h, 2 * ds) : 2 * ds;
         accept(F, ds == left ? goal : F->s + ds);
         return;
@@ -348,23 +317,11 @@ void rg_steer_to(rg_steer *F, double goal)
 
 /* ---------------------------------------------------------------------------------------------------- blame ---- */
 
-/* Vertices that resist at least half as hard as the hardest, and no list too long to read. */
-static const double STRONG = 0.5;
-static const int32_t MOST_VERTICES = 12;
-
-static int stronger(const void *a, const void *b)
-{
-    const force *p = a, *q = b;
-    if (p->size != q->size) return p->size > q->size ? -1 : 1;
-    return p->k < q->k ? -1 : p->k > q->k;
-}
-
 void rg_steer_blame(rg_steer *F, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases)
 {
     const rg_sparse *C = &F->K.C;
     rg_cg_report rep;
     *vertices = *creases = 0;
-    force *by = F->force;
     for (int32_t i = 0; i < C->N; i++) {
         F->wish[i] = F->role[i] == RG_ROLE_DRIVEN || F->role[i] == RG_ROLE_WISHES ? F->target[i] - F->rho[i] : 0;
         F->K.still[i] = F->role[i] == RG_ROLE_STILL;
@@ -374,16 +331,8 @@ void rg_steer_blame(rg_steer *F, int32_t *vertex, int32_t *vertices, int32_t *cr
     rg_constraint_assemble(&F->K, F->rho);
     rg_project_renew(&F->P);
     memset(F->P.y, 0, 3 * (size_t)C->M * sizeof *F->P.y);
-    const rg_status s = rg_project_step(&F->P, &F->K, F->wish, 0, NULL, F->t, SOLVE_TOLERANCE, &rep); /* y of eq. (15) */
-    for (int32_t k = 0; s == RG_OK && k < C->M; k++) {
-        const double *y = F->P.y + 3 * k;
-        double sum = 0;
-        for (int32_t j = C->start[k]; j < C->start[k + 1]; j++) sum += fabs(C->x[j].x * y[0] + C->x[j].y * y[1] + C->x[j].z * y[2]);
-        by[k] = (force){sum, k};
-    }
-    if (s == RG_OK) qsort(by, (size_t)C->M, sizeof *by, stronger);
-    for (int32_t k = 0; s == RG_OK && k < C->M && k < MOST_VERTICES && by[k].size > 0 && by[k].size >= STRONG * by[0].size; k++)
-        vertex[(*vertices)++] = F->mesh.inner_vertex[by[k].k];
+    const rg_status s = rg_project_step(&F->P, &F->K, F->wish, 0, NULL, F->t, DIRECTION_SOLVED, &rep); /* y of eq. (15) */
+    if (s == RG_OK) *vertices = rg_blame_vertices(&F->mesh, C->x, F->P.y, F->force, vertex);
 }
 
 /* --------------------------------------------------------------------------------------------------- keeping ---- */

@@ -10,6 +10,7 @@
 #ifndef RG_STEER_H
 #define RG_STEER_H
 
+#include "fold/blame.h"
 #include "fold/straight.h"
 
 typedef enum rg_role { RG_ROLE_FREE, RG_ROLE_WISHES, RG_ROLE_DRIVEN, RG_ROLE_STILL } rg_role;
@@ -34,7 +35,7 @@ typedef struct rg_steer {
     double h;              /* of the next step, in s */
     double *trial, *wish, *t, *pull, *k[3]; /* [N] */
     unsigned char *held;   /* [N] at its limit in this step */
-    struct rg_force *force; /* [M] scratch */
+    rg_force *force; /* [M] scratch */
     double closure;
     int64_t steps;
     rg_outcome outcome;

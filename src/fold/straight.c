@@ -5,21 +5,10 @@
 #include "fold/integrate.h"
 #include "fold/fixed.h"
 #include "fold/start.h"
+#include "fold/tuning.h"
 
 #include <stdio.h>
 #include <string.h>
-
-/* The first step off the flat state, as mean angle: far above rounding, where the branches are apart, and far below
- * where they bend. */
-static const double FIRST_ANGLE = 0.01;
-/* Whatever the step; and so many times what half a turn takes by the largest. */
-static const double MOST_STEPS = 20000, MOST_WAYS = 8;
-/* So many steps must reach a frame, or gain this much of the way, or, with steps that are small by order, this part of what
- * they could or, graded, of what lies behind or before them: a motion that only creeps is over. */
-static const int32_t MOST_IDLE = 60;
-static const double LEAST_GAIN = 1e-3, LEAST_PART = 0.01;
-/* Where there are more equations than creases they must agree this well, or what is open at vertices holds the sheet. */
-static const double LOOSEST = 1e-6;
 
 /* The one system of all creases, and what its time loop works on. */
 static rg_status make_system(rg_straight *f, rg_diag *why)
@@ -32,7 +21,7 @@ static rg_status make_system(rg_straight *f, rg_diag *why)
     for (int i = 0; i < 9; i++)
         if (!(*array[i] = rg_mem_array(mem, (size_t)f->mesh.N, sizeof(double))) && s == RG_OK) s = RG_ENOMEM;
     if (s != RG_OK) return s;
-    if (f->mesh.N <= 3 * f->mesh.M) f->settings.tol = fmin(f->settings.tol, LOOSEST);
+    if (f->mesh.N <= 3 * f->mesh.M) f->settings.tol = fmin(f->settings.tol, LOOSEST_OVERCONSTRAINED);
     for (int32_t i = 0; i < f->mesh.N; i++) f->end[i] = isnan(f->drive.target[i]) ? 0 : f->drive.target[i];
     f->end_is_closed = rg_constraint_closure(&f->K, f->end, NULL) <= f->settings.tol;
     return RG_OK;
@@ -227,10 +216,10 @@ int rg_straight_between(rg_straight *f, double s, double *rho)
 static int creeps(rg_straight *f)
 {
     const double s = f->path.count > 0 ? f->path.node[f->path.count - 1].s : f->s;
-    const double could = MOST_IDLE * f->settings.step / RG_PI;
-    const double part = LEAST_PART * (f->graded ? fmin(could, fmin(s, 1 - s)) : could);
-    if (s - f->idle_s >= fmin(LEAST_GAIN, part)) f->idle = 0, f->idle_s = s;
-    return f->idle++ >= MOST_IDLE;
+    const double could = MOST_CREEPING * f->settings.step / RG_PI;
+    const double part = LEAST_WAY_PART * (f->graded ? fmin(could, fmin(s, 1 - s)) : could);
+    if (s - f->idle_s >= fmin(LEAST_WAY, part)) f->idle = 0, f->idle_s = s;
+    return f->idle++ >= MOST_CREEPING;
 }
 
 /* One step of one system. Returns the frame that it ends on, -1: none. */
@@ -241,7 +230,7 @@ static int32_t step(rg_straight *f)
         f->s = rg_straight_frame_progress(f, f->frame);
         return f->frame;
     }
-    if (f->steps > (f->most_steps ? f->most_steps : fmax(MOST_STEPS, MOST_WAYS * RG_PI / f->settings.step))) {
+    if (f->steps > (f->most_steps ? f->most_steps : fmax(MOST_STRAIGHT_STEPS, MOST_STRAIGHT_WAYS * RG_PI / f->settings.step))) {
         rg_straight_stop(f, "the number of steps ran out");
     } else if (creeps(f)) {
         rg_straight_stop(f, "the facets leave hardly any way on: it goes on in steps too small to get anywhere");

@@ -1,42 +1,11 @@
 #include "motion/diagnose.h"
+#include "fold/blame.h"
 #include "fold/tuning.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-/* Vertices that resist at least half as hard as the hardest, and no list too long to read. */
-static const double STRONG = 0.5;
-static const int32_t MOST_VERTICES = 12;
 /* A crease that is let this much of its wish or less, and is short of its target by more than 1 %, is blocked. */
 static const double HELD = 0.01;
-static const double SOLVE_TOLERANCE = 1e-8;
-
-typedef struct force { double size; int32_t k; } force;
-
-static int stronger(const void *a, const void *b)
-{
-    const force *p = a, *q = b;
-    if (p->size != q->size) return p->size > q->size ? -1 : 1;
-    return p->k < q->k ? -1 : p->k > q->k;
-}
-
-/* The strongest of by[M], as vertex numbers; by is sorted. */
-static int32_t strongest(const rg_mesh *m, force *by, int32_t *vertex)
-{
-    int32_t n = 0;
-    qsort(by, (size_t)m->M, sizeof *by, stronger);
-    for (int32_t k = 0; k < m->M && k < MOST_VERTICES; k++)
-        if (by[k].size > 0 && by[k].size >= STRONG * by[0].size) vertex[n++] = m->inner_vertex[by[k].k];
-    return n;
-}
-
-/* How hard a vertex with reaction y turns its creases. */
-static double turn(int32_t n, const rg_vec3 *column, const double *y)
-{
-    double sum = 0;
-    for (int32_t j = 0; j < n; j++) sum += fabs(column[j].x * y[0] + column[j].y * y[1] + column[j].z * y[2]);
-    return sum;
-}
 
 /* Is crease i short of its target and not let any nearer? */
 static int is_blocked(double rho, double from, double target, double wish, double step)
@@ -52,18 +21,16 @@ static rg_status diagnose(rg_straight *f, int32_t *vertex, int32_t *vertices, in
     const rg_sparse *C = &f->K.C;
     rg_cg_report rep;
     *vertices = *creases = 0;
-    force *by = rg_mem_array(&f->mem, (size_t)C->M, sizeof *by);
+    rg_force *by = rg_mem_array(&f->mem, (size_t)C->M, sizeof *by);
     if (!by) return RG_ENOMEM;
 
     rg_constraint_assemble(&f->K, f->rho);
     rg_project_renew(&f->P);
     rg_drive_wish(&f->drive, f->rho, fmin(f->s, 0.999), f->wish);
     memset(f->P.y, 0, 3 * (size_t)C->M * sizeof *f->P.y);
-    rg_status s = rg_project_step(&f->P, &f->K, f->wish, 0, NULL, f->t, SOLVE_TOLERANCE, &rep); /* eq. (9) */
+    rg_status s = rg_project_step(&f->P, &f->K, f->wish, 0, NULL, f->t, DIRECTION_SOLVED, &rep); /* eq. (9) */
     if (s == RG_OK) {
-        for (int32_t k = 0; k < C->M; k++)
-            by[k] = (force){turn(C->start[k + 1] - C->start[k], C->x + C->start[k], f->P.y + 3 * k), k};
-        *vertices = strongest(&f->mesh, by, vertex);
+        *vertices = rg_blame_vertices(&f->mesh, C->x, f->P.y, by, vertex);
         for (int32_t i = 0; i < f->mesh.N; i++)
             if (rg_drive_is_driven(&f->drive, i) && is_blocked(f->rho[i], 0, f->drive.target[i], f->wish[i], f->t[i]))
                 crease[(*creases)++] = i;
@@ -91,14 +58,10 @@ rg_status rg_diagnose_relaxed(rg_relax *F, int32_t *vertex, int32_t *vertices, i
 {
     const rg_mesh *m = &F->mesh;
     *vertices = *creases = 0;
-    force *by = rg_mem_array(&F->mem, (size_t)m->M, sizeof *by);
+    rg_force *by = rg_mem_array(&F->mem, (size_t)m->M, sizeof *by);
     if (!by) return RG_ENOMEM;
     rg_relax_wish_and_step(F);
-    for (int32_t k = 0; k < m->M; k++) {
-        const int32_t first = m->loop_start[k];
-        by[k] = (force){turn(m->loop_start[k + 1] - first, F->K.C.x + first, F->J.A.y + 3 * k), k};
-    }
-    *vertices = strongest(m, by, vertex);
+    *vertices = rg_blame_vertices(m, F->K.C.x, F->J.A.y, by, vertex);
     for (int32_t i = 0; i < F->limit.first_added; i++)
         if (is_blocked(F->z[i], F->from[i], F->target[i], F->wish[i], F->dz[i])) crease[(*creases)++] = i;
     rg_mem_free(&F->mem, by);
