@@ -38,7 +38,8 @@ static int closed(const rg_mesh *m, int32_t k, int32_t *drawn, rg_vec2 *directio
     for (int32_t i = 0; n >= 3 && i < n; i++) {
         const int32_t a = drawn[i], c = drawn[(i + 1) % n], b = drawn[(i + 2) % n];
         const rg_vec2 xa = spoke(m, v, a), xc = spoke(m, v, c), xb = spoke(m, v, b);
-        const int inside = rg_closed_inside(assignment(m, a), assignment(m, c), assignment(m, b), sector(xa, xc), sector(xc, xb));
+        const int inside = rg_closed_inside(assignment(m, a), assignment(m, c), assignment(m, b), sector(xa, xc),
+                                            sector(xc, xb));
         if (!inside) continue;
         const rg_vec2 grows = inside == 1 ? growth(xa, xc) : growth(xc, xb);
         const double length = rg_vec2_length(grows);

@@ -4,14 +4,17 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Parts of one sheet, counted out: the part of each crease and its number there, how many vertices and corners there are
- * before each part. */
+/* Parts of one sheet, counted out: the part of each crease and its number there, how many vertices and corners there
+ * are before each part. */
 typedef struct deal {
     int32_t *part, *local;                       /* [N] */
     int32_t *count, *vertex_start, *corner_start; /* [parts + 1] */
 } deal;
 
-static int32_t part_of_vertex(const rg_mesh *m, const deal *d, int32_t k) { return d->part[m->loop_crease[m->loop_start[k]]]; }
+static int32_t part_of_vertex(const rg_mesh *m, const deal *d, int32_t k)
+{
+    return d->part[m->loop_crease[m->loop_start[k]]];
+}
 
 static void deal_out(const rg_mesh *m, rg_apart *a, deal *d)
 {
@@ -30,8 +33,9 @@ static void deal_out(const rg_mesh *m, rg_apart *a, deal *d)
     for (int32_t i = 0; i < m->N; i++) a->crease[a->start[d->part[i]] + d->local[i]] = i;
 }
 
-/* What the time loop takes of a mesh, for one part: creases' assignments and targets, the loops round their vertices, and the two triangles at each
- * added crease. Edge i is crease i, edge N stands for all of the perimeter. Vertices keep their numbers. */
+/* What the time loop takes of a mesh, for one part: creases' assignments and targets, the loops round their vertices,
+ * and the two triangles at each added crease. Edge i is crease i, edge N stands for all of the perimeter. Vertices keep
+ * their numbers. */
 static rg_status make_room(rg_mesh *out, const rg_memory *mem, int32_t N, int32_t M, int32_t added, int32_t corners)
 {
     memset(out, 0, sizeof *out);
@@ -49,7 +53,8 @@ static rg_status make_room(rg_mesh *out, const rg_memory *mem, int32_t N, int32_
     out->loop_start = rg_mem_array(mem, (size_t)M + 1, sizeof *out->loop_start);
     out->loop_crease = rg_mem_array(mem, (size_t)corners, sizeof *out->loop_crease);
     out->loop_theta = rg_mem_array(mem, (size_t)corners, sizeof *out->loop_theta);
-    return out->target && out->assignment && out->still && out->edge_facet && out->edge_crease && out->crease_edge && out->facet_start &&
+    return out->target && out->assignment && out->still && out->edge_facet && out->edge_crease && out->crease_edge &&
+        out->facet_start &&
                    out->facet_edge && out->inner_vertex && out->loop_start && out->loop_crease && out->loop_theta
                ? RG_OK
                : RG_ENOMEM;
@@ -112,7 +117,9 @@ static rg_status make_parts(rg_apart *a, const rg_mesh *m, deal *d, const rg_set
     d->vertex_start = rg_mem_array(&a->mem, parts + 1, sizeof *d->vertex_start);
     d->corner_start = rg_mem_array(&a->mem, parts + 1, sizeof *d->corner_start);
     d->local = rg_mem_array(&a->mem, (size_t)m->N, sizeof *d->local);
-    rg_status s = piece && a->part && a->start && a->crease && d->count && d->vertex_start && d->corner_start && d->local ? RG_OK : RG_ENOMEM;
+    const int has_room = piece && a->part && a->start && a->crease && d->count && d->vertex_start && d->corner_start &&
+                         d->local;
+    rg_status s = has_room ? RG_OK : RG_ENOMEM;
     if (s == RG_OK) deal_out(m, a, d);
     for (int32_t p = 0; p < a->parts && s == RG_OK; p++) s = cut(m, a, d, p, &piece[p]);
     if (s == RG_OK) deal_loops(m, d, a->parts, piece);
@@ -122,7 +129,8 @@ static rg_status make_parts(rg_apart *a, const rg_mesh *m, deal *d, const rg_set
     return s;
 }
 
-rg_status rg_apart_init(rg_apart *a, const rg_apart_of *of, const rg_memory *mem, const rg_mesh *m, const rg_settings *settings, rg_diag *why)
+rg_status rg_apart_init(rg_apart *a, const rg_apart_of *of, const rg_memory *mem, const rg_mesh *m,
+                        const rg_settings *settings, rg_diag *why)
 {
     deal d = {0};
     int32_t count = 0;
@@ -200,6 +208,7 @@ void rg_apart_tell(const rg_apart *a, char *text, size_t room)
         first = a->part[p];
         stopped++;
     }
-    if (stopped) snprintf(text, room, "%d of %d independent parts stop short: %s", stopped, (int)a->parts, first->reason);
+    if (stopped)
+        snprintf(text, room, "%d of %d independent parts stop short: %s", stopped, (int)a->parts, first->reason);
     else snprintf(text, room, "all parts are folded");
 }

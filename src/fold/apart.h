@@ -1,8 +1,9 @@
 /* apart.h -- independent components of a sheet, each a fold of its own: a system, steps and an end of its own.
- * Paper    eq. (11): the blocks that the constraint falls into        Uses  system.h components.h        Used by  chart, fold
+ * Paper    eq. (11): the blocks that the constraint falls into        Uses  system.h components.h        Used by 
+ * chart, fold
  *
- * Each component goes evenly from 0 to 100 % of its own way, frame by frame with the others. One that is done, or was never
- * asked to move, is not solved any more; one that is held stays where it is, and the others go on. */
+ * Each component goes evenly from 0 to 100 % of its own way, frame by frame with the others. One that is done, or was
+ * never asked to move, is not solved any more; one that is held stays where it is, and the others go on. */
 #ifndef RG_APART_H
 #define RG_APART_H
 
@@ -10,18 +11,21 @@
 
 /* What a component is made, stepped, read off and destroyed by: those who know how have components themselves. */
 typedef struct rg_apart_of {
-    rg_status (*make)(rg_mesh *m, const rg_settings *s, rg_straight **part, rg_diag *why); /* takes *m over, also on failure */
+    /* takes *m over, also on failure */
+    rg_status (*make)(rg_mesh *m, const rg_settings *s, rg_straight **part, rg_diag *why);
     rg_status (*step)(rg_straight *part, rg_step_info *info);
-    const double *(*between)(rg_straight *part, double s); /* [part N] at a progress that it has passed; NULL: not known */
+    /* [part N] at a progress that it has passed; NULL: not known */
+    const double *(*between)(rg_straight *part, double s);
     void (*destroy)(rg_straight *part);
 } rg_apart_of;
 
 /* `of` is borrowed. RG_ENOMEM, RG_EABSENT. Owner: the caller, rg_apart_free, also after a failure. */
-rg_status rg_apart_init(rg_apart *a, const rg_apart_of *of, const rg_memory *mem, const rg_mesh *m, const rg_settings *s, rg_diag *why);
+rg_status rg_apart_init(rg_apart *a, const rg_apart_of *of, const rg_memory *mem, const rg_mesh *m,
+                        const rg_settings *s, rg_diag *why);
 void rg_apart_free(rg_apart *a);
 
-/* Each part that has not reached that frame yet makes a step. *reached: whether all that can have. *outcome: RG_RUNNING as long as
- * a part is. */
+/* Each part that has not reached that frame yet makes a step. *reached: whether all that can have. *outcome: RG_RUNNING
+ * as long as a part is. */
 void rg_apart_step(rg_apart *a, int32_t frame, int *reached, rg_outcome *outcome);
 /* rho[N]: out. closure: out, the largest. Returns the progress of the whole. */
 double rg_apart_gather(const rg_apart *a, double *rho, double *closure);

@@ -16,7 +16,8 @@ int32_t rg_blame_vertices(const rg_mesh *m, const rg_vec3 *C, const double *y, r
     for (int32_t k = 0; k < m->M; k++) {
         const rg_vec3 reaction = {y[3 * k], y[3 * k + 1], y[3 * k + 2]};
         by[k] = (rg_force){0, k};
-        for (int32_t j = m->loop_start[k]; j < m->loop_start[k + 1]; j++) by[k].size += fabs(rg_vec3_dot(C[j], reaction));
+        for (int32_t j = m->loop_start[k]; j < m->loop_start[k + 1]; j++)
+            by[k].size += fabs(rg_vec3_dot(C[j], reaction));
     }
     qsort(by, (size_t)m->M, sizeof *by, stronger);
     while (n < m->M && n < MOST_BLAMED && by[n].size > 0 && by[n].size >= AS_STRONG * by[0].size) {

@@ -25,15 +25,17 @@ static double off_line(const rg_relax *F, const double *z, const double *low, co
     return off;
 }
 
-/* Does the path stay on its branch between its states low and high, parts `from` and `to` of the chord? Its middle, closed, must lie as
- * near to the chord as a step to its prediction. What is smooth lies a quarter as near to the chord of each half, and so on, while a
- * leap to another branch stays in one of the halves as large as it is. */
-static int is_smooth(rg_relax *F, const chord *c, const double *low, double from, const double *high, double to, int32_t halved)
+/* Does the path stay on its branch between its states low and high, parts `from` and `to` of the chord? Its middle,
+ * closed, must lie as near to the chord as a step to its prediction. What is smooth lies a quarter as near to the chord
+ * of each half, and so on, while a leap to another branch stays in one of the halves as large as it is. */
+static int is_smooth(rg_relax *F, const chord *c, const double *low, double from, const double *high, double to,
+                     int32_t halved)
 {
     double *middle = c->spare + (size_t)(halved + 1) * (size_t)F->n;
     const double part = (from + to) / 2, s = (1 - part) * c->s0 + part * c->s1;
     const double near = FARTHEST_CORRECTION * c->size / 2 + LITTLE;
-    const double smooth = SMOOTH * c->size + sqrt(F->tol); /* near a singular state, what closes to tol is known to its root */
+    /* near a singular state, what closes to tol is known to its root */
+    const double smooth = SMOOTH * c->size + sqrt(F->tol);
     for (int32_t i = 0; i < F->n; i++) middle[i] = (1 - part) * c->a[i] + part * c->b[i];
     if (!rg_closing_between(F, c->a, c->b, s, CORRECTIONS_AT_END, middle, c->spare)) return 0;
     if (!(off_line(F, middle, c->a, c->b, part) <= near)) return 0;
@@ -46,7 +48,8 @@ int rg_chord_holds(rg_relax *F, const double *a, const double *b, double *spare)
 {
     const size_t n = (size_t)F->n;
     double least;
-    const chord c = {a, b, rg_closing_progress(F, a, &least), rg_closing_progress(F, b, &least), rg_chord_size(F, a, b), spare + n};
+    const chord c = {a, b, rg_closing_progress(F, a, &least), rg_closing_progress(F, b, &least), rg_chord_size(F, a, b),
+                     spare + n};
     memcpy(spare, F->scale, n * sizeof *spare);
     const int holds = is_smooth(F, &c, a, 0, b, 1, 0);
     memcpy(F->scale, spare, n * sizeof *spare);
@@ -74,8 +77,8 @@ static void take_part(const rg_relax *F, const double *a, const double *b, doubl
     }
 }
 
-/* z: part t of the path between node k and the next one, closed, its progress held. Where what lies on the chord does not close, what lies on
- * that of its half does, whose middle has been closed: so often it is halved. */
+/* z: part t of the path between node k and the next one, closed, its progress held. Where what lies on the chord does
+ * not close, what lies on that of its half does, whose middle has been closed: so often it is halved. */
 static int read_between(rg_relax *F, int32_t k, double t, double *z)
 {
     const double *a = F->node + (size_t)k * (size_t)F->n, *b = a + F->n, *low = a, *high = b;

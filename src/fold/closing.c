@@ -23,7 +23,8 @@ void rg_closing_even_out(rg_relax *F, double *z)
     rg_freedom_mean(&F->freedom, F->symmetry, z + F->N, F->spare);
 }
 
-/* -------------------------------------------------- the constraint; evenly: one of each orbit, if that tells all ---- */
+/* -------------------------------------------------- the constraint; evenly: one of each orbit, if that tells all ----
+ * */
 
 static rg_coupled *system_of(rg_relax *F, int evenly) { return evenly && F->by_orbits ? &F->orbits : &F->J; }
 
@@ -71,9 +72,9 @@ double rg_closing_project_slope(rg_relax *F, const double *z, int evenly)
     return left > LEAST_LEFT * all ? left : 0;
 }
 
-/* Works off r and r' as assembled, to first order, eqs. (14), (19) with no wish; and where s is a number what progress is off it by, as one more
- * row: with the wish along the part of the slope of progress that the constraint leaves over. renew zero: with the matrix of a state so near
- * that nothing is lost by it. */
+/* Works off r and r' as assembled, to first order, eqs. (14), (19) with no wish; and where s is a number what progress
+ * is off it by, as one more row: with the wish along the part of the slope of progress that the constraint leaves over.
+ * renew zero: with the matrix of a state so near that nothing is lost by it. */
 static void correct_once(rg_relax *F, double s, double *z, int evenly, int renew)
 {
     const int held = !isnan(s);
@@ -91,8 +92,8 @@ static void correct_once(rg_relax *F, double s, double *z, int evenly, int renew
     for (int32_t i = 0; i < F->n; i++) z[i] -= F->dz[i];
 }
 
-/* Will a correction with the matrix of the last one, which took `before` to closure, do? As much farther off as that one was, it leaves as
- * large a part. */
+/* Will a correction with the matrix of the last one, which took `before` to closure, do? As much farther off as that
+ * one was, it leaves as large a part. */
 static int is_near(double closure, double before, double tol) { return closure * closure <= tol * before; }
 
 static int is_within(const rg_relax *F, const rg_leash *by)
@@ -148,8 +149,8 @@ int rg_closing_on_pattern(rg_relax *F, double *rho)
 
 /* ------------------------------------------------------------------------------------- between two nodes ---- */
 
-/* Creases past half a turn, farther than they are at a and b, are put back and give way less than the others: how many. What is allowed there is
- * allowed between, else states near them would not come nearer to them. */
+/* Creases past half a turn, farther than they are at a and b, are put back and give way less than the others: how many.
+ * What is allowed there is allowed between, else states near them would not come nearer to them. */
 static int32_t put_back(rg_relax *F, const double *a, const double *b, double *z)
 {
     int32_t held = 0;

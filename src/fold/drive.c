@@ -4,8 +4,8 @@
 
 static int side(char assignment) { return assignment == RG_VALLEY ? 1 : assignment == RG_MOUNTAIN ? -1 : 0; }
 
-/* Creases that follow lean as far as the driven ones turn in the mean, and to the other side where these go against their
- * assignments: then it is the back of the paper that is folded. */
+/* Creases that follow lean as far as the driven ones turn in the mean, and to the other side where these go against
+ * their assignments: then it is the back of the paper that is folded. */
 static void set_lean(rg_drive *d, const rg_mesh *m, const unsigned char *still)
 {
     double far = 0;
@@ -18,7 +18,8 @@ static void set_lean(rg_drive *d, const rg_mesh *m, const unsigned char *still)
     }
     for (int32_t i = 0; i < m->N; i++) {
         const int follows = isnan(d->target[i]) && !(still && still[i]);
-        d->lean[i] = rg_drive_is_driven(d, i) ? d->target[i] : follows ? (with < 0 ? -far : far) * side(m->assignment[m->crease_edge[i]]) : 0;
+        d->lean[i] = rg_drive_is_driven(d, i) ? d->target[i] : follows
+            ? (with < 0 ? -far : far) * side(m->assignment[m->crease_edge[i]]) : 0;
     }
 }
 

@@ -48,7 +48,8 @@ static int try_step(rg_straight *f, double ds)
     for (int32_t i = 0; i < f->mesh.N; i++) f->trial[i] = f->rho[i] + ds * f->t[i];
     pull_back(f, 0, LIMIT_GAIN);
     int closed = rg_newton_correct(f, f->s + ds, CORRECTIONS);
-    for (int32_t n = 0; n < MOST_PULLS && closed && pull_back(f, LITTLE_PULL, 1); n++) closed = rg_newton_correct(f, f->s + ds, CORRECTIONS);
+    for (int32_t n = 0; n < MOST_PULLS && closed && pull_back(f, LITTLE_PULL, 1); n++)
+        closed = rg_newton_correct(f, f->s + ds, CORRECTIONS);
     return closed;
 }
 

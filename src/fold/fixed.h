@@ -5,7 +5,8 @@
 
 #include "fold/system.h"
 
-/* A step of newton, heun or rk4, closed, what is beyond a limit pulled back; or the end of the fold, f->reason says why. */
+/* A step of newton, heun or rk4, closed, what is beyond a limit pulled back; or the end of the fold, f->reason says
+ * why. */
 void rg_fixed_newton(rg_straight *f);
 /* The paper's: one solve, no correction. */
 void rg_fixed_euler(rg_straight *f);

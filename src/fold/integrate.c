@@ -24,8 +24,10 @@ double rg_integrate_tangent(rg_straight *f, const double *rho, double s, int nea
     }
     rg_drive_wish(&f->drive, rho, s, f->wish);
     const int free = f->smooth && !f->one_way && N > 3 * f->mesh.M;
-    memset(f->P.y, 0, 3 * (size_t)f->mesh.M * sizeof *f->P.y); /* the last answer may be of a frame, of which a node knows nothing */
-    if (rg_project_tangent(&f->P, &f->K, f->wish, t, free ? FREE_SOLVE_PART * good_set_right(f) : DIRECTION_SOLVED, &rep) != RG_OK) return 0; /* eq. (9) */
+    /* the last answer may be of a frame, of which a node knows nothing */
+    memset(f->P.y, 0, 3 * (size_t)f->mesh.M * sizeof *f->P.y);
+    const double solved = free ? FREE_SOLVE_PART * good_set_right(f) : DIRECTION_SOLVED;
+    if (rg_project_tangent(&f->P, &f->K, f->wish, t, solved, &rep) != RG_OK) return 0; /* eq. (9) */
     double along = rg_drive_progress(&f->drive, t);
     if (!(along > LEAST_EFFICIENCY)) return 0;
     for (int32_t i = 0; i < N; i++) t[i] /= along;
@@ -119,8 +121,9 @@ static void predict(rg_straight *f, double s)
     }
 }
 
-/* The order that would have predicted the last node best is taken for the next one: where a freedom of the sheet is stiff
- * the higher orders are the first to be unstable, and it shows in them. All orders are tried in one walk over the creases. */
+/* The order that would have predicted the last node best is taken for the next one: where a freedom of the sheet is
+ * stiff the higher orders are the first to be unstable, and it shows in them. All orders are tried in one walk over the
+ * creases. */
 RG_WIDE static void choose_order(rg_straight *f)
 {
     const rg_path *p = &f->path;
@@ -173,7 +176,8 @@ static double scale(double e, double most, int order)
     return pow(most / fmax(e, 1e-3 * most), 1.0 / order);
 }
 
-/* The next step. h: the one just made, `rate`: error of closure of its prediction over its reach, far: see set_right. */
+/* The next step. h: the one just made, `rate`: error of closure of its prediction over its reach, far: see
+ * set_right. */
 static double next_step(rg_straight *f, double h, double rate, double far)
 {
     const rg_path *p = &f->path;
@@ -186,7 +190,8 @@ static double next_step(rg_straight *f, double h, double rate, double far)
         longest = fmin(longest, spacing);
     } else if (p->count > RG_PATH_WINDOW) {
         double between = p->node[p->count - 3].s - p->node[p->count - 4].s;
-        rg_path_evaluate(p, p->count - RG_PATH_WINDOW, RG_PATH_WINDOW, p->node[p->count - 4].s + between / 2, f->k[0], NULL);
+        const double middle = p->node[p->count - 4].s + between / 2;
+        rg_path_evaluate(p, p->count - RG_PATH_WINDOW, RG_PATH_WINDOW, middle, f->k[0], NULL);
         between *= scale(rg_constraint_closure(&f->K, f->k[0], NULL), goal, 12);
         longest = fmin(longest, between < 1.5 * spacing ? spacing : between);
     }
@@ -204,8 +209,8 @@ static int land(rg_straight *f)
     return 1;
 }
 
-/* With more creases than equations t is known beside the path as well as on it, and a good prediction need not be closed
- * to ask for it there. */
+/* With more creases than equations t is known beside the path as well as on it, and a good prediction need not be
+ * closed to ask for it there. */
 static int make_node_at_once(rg_straight *f, double s, double *far)
 {
     if (!(rg_integrate_tangent(f, f->trial, s, 0, f->t) > 0)) return 0;
@@ -238,7 +243,8 @@ static int make_node(rg_straight *f, double s, double error, double *far)
     return !(rg_limit_pull(&f->limit, f->trial, f->pull) > 0);
 }
 
-/* Where the next node is put for a step of h: the end if that is near, the last place of the grid that is within reach. */
+/* Where the next node is put for a step of h: the end if that is near, the last place of the grid that is within
+ * reach. */
 static double snap(const rg_straight *f, double from, double h)
 {
     if (from + 1.2 * h >= f->s_end) return f->s_end;
@@ -277,7 +283,8 @@ int rg_integrate_read_off(rg_straight *f, double s)
     if (f->smooth) rg_path_window(p, s, &first, &n);
     else rg_path_around(p, s, &first, &n);
     rg_path_evaluate(p, first, n, s, f->trial, f->t);
-    if (!is_euler && p->count > 1 && p->node[0].s == 0 && s < p->node[1].s) /* so near flat what closes is homogeneous: a ray */
+    /* so near flat what closes is homogeneous: a ray */
+    if (!is_euler && p->count > 1 && p->node[0].s == 0 && s < p->node[1].s)
         for (int32_t i = 0; i < p->N; i++) {
             f->t[i] = p->node[1].rho[i] / p->node[1].s;
             f->trial[i] = s * f->t[i];

@@ -1,8 +1,8 @@
 /* integrate.h -- steps of higher order along the motion.
  * Paper    eq. (10), for which it takes Euler's method        Uses  system.h        Used by  order.c fixed.c straight.c
  *
- * The motion is drho/ds = t(rho): progress s instead of time, the wish projected at rho (9) and scaled to ds = 1. C has the
- * rank it ought to have on the path only, so t is asked for at closed points, and every stage is closed first. */
+ * The motion is drho/ds = t(rho): progress s instead of time, the wish projected at rho (9) and scaled to ds = 1. C has
+ * the rank it ought to have on the path only, so t is asked for at closed points, and every stage is closed first. */
 #ifndef RG_INTEGRATE_H
 #define RG_INTEGRATE_H
 

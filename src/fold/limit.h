@@ -3,8 +3,9 @@
  *
  * One keeps every crease within [-pi, pi], so that two facets at a crease do not pass through each other. The other
  * keeps an added crease within what its neighbours leave: where an original crease next to it has turned by rho > 0,
- * two facets already stand at pi - rho, and turning the third the same way by more than that runs it through the first. Both
- * are wishes, as in the paper, not walls: at the flat start the linear step must be free to be wrong-sided for a moment. */
+ * two facets already stand at pi - rho, and turning the third the same way by more than that runs it through the first.
+ * Both are wishes, as in the paper, not walls: at the flat start the linear step must be free to be wrong-sided for a
+ * moment. */
 #ifndef RG_LIMIT_H
 #define RG_LIMIT_H
 

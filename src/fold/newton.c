@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-/* Eq. (14) with the wish for what progress is off. It is held to the letter: without that, an over-constrained sheet, whose C
- * has one more rank off the path than on it, would trade progress for closure and creep. */
+/* Eq. (14) with the wish for what progress is off. It is held to the letter: without that, an over-constrained sheet,
+ * whose C has one more rank off the path than on it, would trade progress for closure and creep. */
 static int correct_held(rg_straight *f, double off, double tol)
 {
     rg_cg_report rep;
@@ -26,7 +26,8 @@ static int correct_along(rg_straight *f, double off, double tol, const double *t
 int rg_newton_close(rg_straight *f, double s, int32_t most_corrections, int near, const double *t)
 {
     const int32_t N = f->mesh.N;
-    const double tol = f->settings.tol, solve_tol = most_corrections == 1 ? SOLVED_ONCE : near ? CORRECTION_SOLVED_NEAR : CORRECTION_SOLVED;
+    const double usual = near ? CORRECTION_SOLVED_NEAR : CORRECTION_SOLVED;
+    const double tol = f->settings.tol, solve_tol = most_corrections == 1 ? SOLVED_ONCE : usual;
     const double far = f->mesh.N <= 3 * f->mesh.M ? SAME_FACTOR_OVERCONSTRAINED : SAME_FACTOR;
     double before = INFINITY;
     int poor = 0;

@@ -51,8 +51,8 @@ void rg_path_insert(rg_path *p, double s, const double *rho, const double *t)
     if (t) memcpy(p->node[at].t, t, bytes);
 }
 
-/* Hermite's polynomials in Lagrange's form: with q_i(s) = prod over j != i of ((s - s_j) / (s_i - s_j))^m_j, m_j conditions
- * at node j, and c = q_i'(s_i), the polynomial is
+/* Hermite's polynomials in Lagrange's form: with q_i(s) = prod over j != i of ((s - s_j) / (s_i - s_j))^m_j, m_j
+ * conditions at node j, and c = q_i'(s_i), the polynomial is
  *     sum of rho_i q_i (1 - c (s - s_i)) + t_i q_i (s - s_i)      where t is known, else rho_i q_i.
  * a, b: their values at s; da, db: their slopes. */
 static void hermite(const rg_node *node, int32_t n, double s, double *a, double *b, double *da, double *db)

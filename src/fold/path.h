@@ -28,7 +28,8 @@ void rg_path_clear(rg_path *p);
 /* Copies a node in, at its place by s; the oldest makes room where there is none. t NULL: not known. */
 void rg_path_insert(rg_path *p, double s, const double *rho, const double *t);
 
-/* The polynomial through nodes first ... first + n - 1, rho and, where known, t.   rho[N], t[N]: out; either may be NULL */
+/* The polynomial through nodes first ... first + n - 1, rho and, where known, t.   rho[N], t[N]: out; either may be
+ * NULL */
 void rg_path_evaluate(const rg_path *p, int32_t first, int32_t n, double s, double *rho, double *t);
 /* The window of up to RG_PATH_WINDOW nodes that suits s best. */
 void rg_path_window(const rg_path *p, double s, int32_t *first, int32_t *n);

@@ -42,8 +42,8 @@ static int is_singular(const double *rho, int32_t N)
     return 1;
 }
 
-rg_status rg_relax_init(rg_relax *F, const rg_mesh *m, const rg_settings *s, const rg_relaxation *how, const double *from,
-                        const double *target)
+rg_status rg_relax_init(rg_relax *F, const rg_mesh *m, const rg_settings *s, const rg_relaxation *how,
+                        const double *from, const double *target)
 {
     const rg_memory mem = rg_mem_default(s->memory);
     memset(F, 0, sizeof *F);
@@ -142,7 +142,7 @@ static void make_wish(rg_relax *F)
     }
     rg_freedom_room(&F->freedom, F->K.X, LEAST_AREA, F->wish + F->N);
     for (int32_t i = F->N; i < F->n; i++)
-        F->scale[i] = F->how.compliance * F->freedom.reach[i - F->N] * sqrt(fmax(LEAST_READY * LEAST_READY, F->wish[i]));
+        F->scale[i] = F->how.compliance * F->freedom.reach[i - F->N] * fmax(LEAST_READY, sqrt(F->wish[i]));
     rg_adjust_wish(&F->adjust, F->z, F->how.gain, F->wish + F->N);
     for (int32_t i = F->N; i < F->n; i++) F->wish[i] = RETURN * part * (F->wish[i] - F->z[i]);
 }
@@ -254,8 +254,9 @@ static int advance(rg_relax *F)
 
 /* --------------------------------------------------------------------------------------- starts and ends ---- */
 
-/* Nodes from z down to the singular state `at`, nearer and nearer: what closes there is homogeneous, u of second order where rho
- * is of first. node, s: out, the nearest last. Returns how many; zero: the branch of z does not lead there. */
+/* Nodes from z down to the singular state `at`, nearer and nearer: what closes there is homogeneous, u of second order
+ * where rho is of first. node, s: out, the nearest last. Returns how many; zero: the branch of z does not lead
+ * there. */
 static int32_t approach(rg_relax *F, const double *z, const double *at, double *node, double *s)
 {
     double least, nearer = NEARER;
@@ -267,7 +268,8 @@ static int32_t approach(rg_relax *F, const double *z, const double *at, double *
         rg_closing_even_out(F, F->trial);
         memcpy(F->chord, F->trial, (size_t)F->n * sizeof *F->trial);
         const double most = FARTHEST_CORRECTION * (1 - nearer) * rg_chord_size(F, last, at) + sqrt(F->tol);
-        if (rg_closing_between(F, at, at, NAN, CORRECTIONS_TOWARDS, F->trial, node) && rg_chord_size(F, F->trial, F->chord) <= most &&
+        if (rg_closing_between(F, at, at, NAN, CORRECTIONS_TOWARDS, F->trial, node) &&
+            rg_chord_size(F, F->trial, F->chord) <= most &&
             rg_chord_holds(F, last, F->trial, node)) {
             if (++k > END_NODES) return 0;
             memcpy(node, F->trial, (size_t)F->n * sizeof *node);
@@ -295,7 +297,8 @@ static void swap_nodes(rg_relax *F, int32_t a, int32_t b)
     F->node_s[b] = s;
 }
 
-/* To see whether a branch leads to a singular state costs as much as many steps: each time that it does not, twice as many are left out. */
+/* To see whether a branch leads to a singular state costs as much as many steps: each time that it does not, twice as
+ * many are left out. */
 static int may_look(rg_relax *F)
 {
     if (F->steps < F->look_after) return 0;
@@ -304,8 +307,8 @@ static int may_look(rg_relax *F)
     return 1;
 }
 
-/* The first state past the free start that keeps the limits begins the path: from the start straight to it. Where both a way
- * of first and one of second order lie near a singular start, the nodes tell which is which. */
+/* The first state past the free start that keeps the limits begins the path: from the start straight to it. Where both
+ * a way of first and one of second order lie near a singular start, the nodes tell which is which. */
 static int begin_path(rg_relax *F)
 {
     for (int32_t i = 0; i < F->N; i++)
@@ -339,7 +342,9 @@ static void stop(rg_relax *F, const char *why)
     rg_closing_progress(F, F->z, &least);
     const int arrived = least >= 1 - ARRIVED && F->s_end >= 1 && F->nodes > 1, moved = arrived && !has_returned(F);
     F->outcome = arrived && !moved ? RG_FOLDED : RG_STOPPED;
-    if (arrived) why = moved ? "folded, but with no way back to the pattern given" : F->landed ? "folded" : "folded, as far as the pattern closes at its end";
+    if (arrived)
+        why = moved ? "folded, but with no way back to the pattern given" : F->landed ? "folded"
+            : "folded, as far as the pattern closes at its end";
     snprintf(F->reason, sizeof F->reason, "%s", why);
 }
 
@@ -417,7 +422,8 @@ void rg_relax_step(rg_relax *F)
         snprintf(F->reason, sizeof F->reason, "as far as was asked for");
     } else if (land(F, least)) {
         return;
-    } else if (F->nodes + END_NODES + RG_CHORD_SPARE + 1 > F->room || (F->budget > 0 && F->work > F->budget / F->share)) {
+    } else if (F->nodes + END_NODES + RG_CHORD_SPARE + 1 > F->room ||
+               (F->budget > 0 && F->work > F->budget / F->share)) {
         stop(F, "the effort ran out");
     } else if (F->foresees && (is_slow(F) || will_run_out(F))) {
         F->waits = 1;

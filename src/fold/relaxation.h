@@ -1,5 +1,6 @@
 /* relaxation.h -- one relaxation on its way: what it may do, its state, its path, what it works on.
- * Paper    eqs. (14), (19), section 4        Uses  coupled.h adjust.h limit.h        Used by  closing.c chord.c relax.c */
+ * Paper    eqs. (14), (19), section 4        Uses  coupled.h adjust.h limit.h        Used by  closing.c chord.c relax.c
+ * */
 #ifndef RG_RELAXATION_H
 #define RG_RELAXATION_H
 
@@ -35,7 +36,8 @@ typedef struct rg_relax {
     double *end;              /* [N] target where there is one, closed on the pattern given if that is possible */
     int32_t driven;
     int from_is_singular, end_is_closed, landed;
-    int32_t look_after, look_pause; /* the step from which it is seen whether the branch leads to the start, then to the end; steps till then */
+    /* the step from which it is seen whether the branch leads to the start, then to the end; steps till then */
+    int32_t look_after, look_pause;
     double *z, s;             /* [n] the state, closed; its progress */
     int32_t nodes;
     double *node, *node_s;    /* [nodes][n]; the path, by rising progress */

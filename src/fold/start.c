@@ -1,8 +1,8 @@
 /* start.c -- leaving the flat state.
  *
- * Flat, C has rank 2 at each vertex: every in-plane combination of rates is allowed to first order, and which of them can
- * go on is a question of second order, sum over i < j of rho_i rho_j (e_i x e_j) = 0 at each vertex. That is a cone of
- * branches through the flat state. A first linear step followed by Newton at a fixed small progress solves these
+ * Flat, C has rank 2 at each vertex: every in-plane combination of rates is allowed to first order, and which of them
+ * can go on is a question of second order, sum over i < j of rho_i rho_j (e_i x e_j) = 0 at each vertex. That is a cone
+ * of branches through the flat state. A first linear step followed by Newton at a fixed small progress solves these
  * homogeneous equations for the branch nearest to the wish; whether it is the right one shows in its signs. Where a
  * crease comes out on the wrong side the attempt is repeated with that crease asked for more strongly. */
 #include "fold/start.h"
@@ -68,7 +68,8 @@ int rg_start_leave_flat(rg_straight *f, double s1)
         if (!flat_direction(f)) break;
         for (int32_t i = 0; i < N; i++) f->trial[i] = s1 * f->t[i];
         int closed = rg_newton_correct(f, s1, CORRECTIONS_OFF_FLAT);
-        for (int32_t n = 0; closed && n < SLIDES && wrongness(f, f->trial, s1) > 0; n++) closed = slide(f, s1, SLIDE_GAIN);
+        for (int32_t n = 0; closed && n < SLIDES && wrongness(f, f->trial, s1) > 0; n++)
+            closed = slide(f, s1, SLIDE_GAIN);
         double wrong = closed ? wrongness(f, f->trial, s1) : INFINITY;
         if (wrong < least) {
             least = wrong;

@@ -15,8 +15,8 @@ rg_status rg_steer_init(rg_steer *F, const rg_memory *mem, const rg_mesh *m, con
     F->tol = s->tol;
     F->reason = "";
     const size_t N = (size_t)m->N;
-    double **array[] = {&F->target, &F->from, &F->gradient, &F->along, &F->ray, &F->rho, &F->out, &F->trial, &F->wish, &F->t, &F->pull,
-                        &F->k[0], &F->k[1], &F->k[2]};
+    double **array[] = {&F->target, &F->from, &F->gradient, &F->along, &F->ray, &F->rho, &F->out, &F->trial, &F->wish,
+                        &F->t, &F->pull, &F->k[0], &F->k[1], &F->k[2]};
     rg_mesh copy;
     rg_settings mine = *s;
     rg_status status = rg_constraint_init(&F->K, mem, m);
@@ -41,8 +41,8 @@ void rg_steer_free(rg_steer *F)
     rg_project_free(&F->P);
     rg_limit_free(&F->limit);
     rg_straight_destroy(F->start);
-    void *block[] = {F->role, F->held, F->target, F->from, F->gradient, F->along, F->ray, F->rho, F->out, F->trial, F->wish, F->t, F->pull,
-                     F->k[0], F->k[1], F->k[2], F->force};
+    void *block[] = {F->role, F->held, F->target, F->from, F->gradient, F->along, F->ray, F->rho, F->out, F->trial,
+                     F->wish, F->t, F->pull, F->k[0], F->k[1], F->k[2], F->force};
     for (int i = 0; i < 17; i++) rg_mem_free(&F->mem, block[i]);
     memset(F, 0, sizeof *F);
 }
@@ -77,7 +77,8 @@ static int close_trial(rg_steer *F, double s, double *trial)
         rg_cg_report rep;
         F->closure = rg_constraint_assemble(&F->K, trial);
         const double off = holds ? s - progress(F, trial) : 0;
-        if (F->closure <= F->tol && fabs(off) <= SAME_PROGRESS && (F->closure > STILL_CLOSES * before || n >= CORRECTIONS)) return 1;
+        if (F->closure <= F->tol && fabs(off) <= SAME_PROGRESS &&
+            (F->closure > STILL_CLOSES * before || n >= CORRECTIONS)) return 1;
         if (n >= CORRECTIONS || !(F->closure <= MOST_OPEN)) return F->closure <= F->tol && fabs(off) <= SAME_PROGRESS;
         poor = F->closure > BETTER_CLOSED * before && F->closure > 10 * F->tol ? poor + 1 : 0;
         if (poor >= MOST_POOR) return 0;
@@ -85,7 +86,8 @@ static int close_trial(rg_steer *F, double s, double *trial)
         rg_project_renew(&F->P);
         memset(F->P.y, 0, 3 * (size_t)F->K.C.M * sizeof *F->P.y);
         for (int32_t i = 0; holds && i < F->K.C.N; i++) F->wish[i] = off / F->steepness * F->along[i];
-        if (rg_project_step(&F->P, &F->K, holds ? F->wish : NULL, 1, holds ? F->along : NULL, F->wish, DIRECTION_SOLVED, &rep) != RG_OK) return 0;
+        if (rg_project_step(&F->P, &F->K, holds ? F->wish : NULL, 1, holds ? F->along : NULL, F->wish, DIRECTION_SOLVED,
+                            &rep) != RG_OK) return 0;
         for (int32_t i = 0; i < F->K.C.N; i++) trial[i] += F->wish[i];
     }
 }
@@ -110,8 +112,10 @@ static void set_gradient(rg_steer *F)
         F->driven += is_driven(F, i);
         F->wishing += F->role[i] == RG_ROLE_WISHES && way(F, i) != 0;
     }
+    memset(F->gradient, 0, (size_t)F->K.C.N * sizeof *F->gradient);
     for (int32_t i = 0; i < F->K.C.N; i++)
-        F->gradient[i] = F->driven == 0 && F->role[i] == RG_ROLE_WISHES && way(F, i) != 0 ? 1 / (F->wishing * way(F, i)) : 0;
+        if (F->driven == 0 && F->role[i] == RG_ROLE_WISHES && way(F, i) != 0)
+            F->gradient[i] = 1 / (F->wishing * way(F, i));
     for (int32_t i = 0; i < F->K.C.N; i++) F->steepness = hypot(F->steepness, F->gradient[i]);
     for (int32_t i = 0; i < F->K.C.N; i++) F->along[i] = F->steepness > 0 ? F->gradient[i] / F->steepness : 0;
 }
@@ -142,7 +146,8 @@ static int leave_flat(rg_steer *F)
     }
     rg_constraint_set_still(&f->K);
     rg_drive_aim(&f->drive, &f->mesh, F->trial, f->K.still);
-    for (int32_t i = 0; i < N; i++) mean += rg_drive_is_driven(&f->drive, i) ? fabs(f->drive.target[i]) / f->drive.count : 0;
+    for (int32_t i = 0; i < N; i++)
+        mean += rg_drive_is_driven(&f->drive, i) ? fabs(f->drive.target[i]) / f->drive.count : 0;
     if (!(mean > 0)) return 0;
     F->ray_s = fmin(FIRST_ANGLE / mean, 0.5);
     if (!rg_start_leave_flat(f, F->ray_s)) return 0;
@@ -173,7 +178,8 @@ void rg_steer_begin(rg_steer *F, const double *theta, const double *rho)
     int moves = F->wishing > 0;
     for (int32_t i = 0; i < N; i++) moves |= is_driven(F, i) && way(F, i) != 0;
     if (!moves) stop(F, RG_FOLDED, "every crease is where it shall be");
-    else if (rg_lanes_largest(N, rho) <= IS_FLAT && !leave_flat(F)) stop(F, RG_STOPPED, "no way off the flat state was found");
+    else if (rg_lanes_largest(N, rho) <= IS_FLAT && !leave_flat(F))
+        stop(F, RG_STOPPED, "no way off the flat state was found");
 }
 
 /* ---------------------------------------------------------------------------------------------------- a step ---- */
@@ -191,7 +197,8 @@ static int tangent(rg_steer *F, const double *rho, double s, double *t)
     rg_constraint_forget_still(&F->K);
     rg_project_renew(&F->P);
     for (int32_t i = 0; i < N; i++)
-        if (F->role[i] == RG_ROLE_WISHES && !F->held[i]) F->wish[i] = (F->target[i] - rho[i]) / fmax(1 - s, NEAREST_TARGET);
+        if (F->role[i] == RG_ROLE_WISHES && !F->held[i])
+            F->wish[i] = (F->target[i] - rho[i]) / fmax(1 - s, NEAREST_TARGET);
     memset(F->P.y, 0, 3 * (size_t)F->K.C.M * sizeof *F->P.y);
     if (rg_project_step(&F->P, &F->K, F->wish, 1, NULL, t, DIRECTION_SOLVED, &rep) != RG_OK) return 0;
     if (F->driven) return 1;
@@ -210,14 +217,16 @@ static int stage(rg_steer *F, double ds, const double *k, double s, double *next
     return close_trial(F, s, F->trial) && tangent(F, F->trial, s, next);
 }
 
-/* The classical method of Runge and Kutta from s to s + ds, into trial; where it has no direction at its end, Euler's. */
+/* The classical method of Runge and Kutta from s to s + ds, into trial; where it has no direction at its end,
+ * Euler's. */
 static int try_step(rg_steer *F, double ds)
 {
     const int32_t N = F->K.C.N;
     const double *k1 = F->t, *k2 = F->k[0], *k3 = F->k[1], *k4 = F->k[2];
     const int whole = stage(F, ds / 2, k1, F->s + ds / 2, F->k[0]) && stage(F, ds / 2, k2, F->s + ds / 2, F->k[1]) &&
                       stage(F, ds, k3, F->s + ds, F->k[2]);
-    for (int32_t i = 0; i < N; i++) F->trial[i] = F->rho[i] + (whole ? ds / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]) : ds * k1[i]);
+    for (int32_t i = 0; i < N; i++)
+        F->trial[i] = F->rho[i] + (whole ? ds / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]) : ds * k1[i]);
     put_driven(F, F->s + ds, F->trial);
     for (int32_t i = 0; i < N; i++)
         if (F->held[i]) F->trial[i] = copysign(RG_PI, F->trial[i]);
@@ -287,7 +296,8 @@ static void go_on(rg_steer *F, double goal)
         double ds = fmin(fmin(F->h, left), F->step / fastest);
         if (left - ds < SHORTEST) ds = left;
         int made = 0;
-        for (; !made && ds > fmin(SHORTEST, left / 2); ds /= made ? 1 : 2) made = try_step(F, ds) && is_on_branch(F, ds);
+        for (; !made && ds > fmin(SHORTEST, left / 2); ds /= made ? 1 : 2)
+            made = try_step(F, ds) && is_on_branch(F, ds);
         if (!made) break;
         if (ds == left && land(F, goal, F->trial)) return; /* the end itself, which a step may be past by its error */
         if (round + 1 < ROUNDS && hold_what_overfolds(F)) continue;
@@ -331,7 +341,7 @@ void rg_steer_blame(rg_steer *F, int32_t *vertex, int32_t *vertices, int32_t *cr
     rg_constraint_assemble(&F->K, F->rho);
     rg_project_renew(&F->P);
     memset(F->P.y, 0, 3 * (size_t)C->M * sizeof *F->P.y);
-    const rg_status s = rg_project_step(&F->P, &F->K, F->wish, 0, NULL, F->t, DIRECTION_SOLVED, &rep); /* y of eq. (15) */
+    const rg_status s = rg_project_step(&F->P, &F->K, F->wish, 0, NULL, F->t, DIRECTION_SOLVED, &rep); /* eq. (15): y */
     if (s == RG_OK) *vertices = rg_blame_vertices(&F->mesh, C->x, F->P.y, F->force, vertex);
 }
 
@@ -339,7 +349,8 @@ void rg_steer_blame(rg_steer *F, int32_t *vertex, int32_t *vertices, int32_t *cr
 
 rg_status rg_steer_kept_init(rg_steer_kept *k, const rg_memory *mem, int32_t N)
 {
-    *k = (rg_steer_kept){.number = rg_mem_array(mem, 5 * (size_t)N, sizeof *k->number), .role = rg_mem_array(mem, (size_t)N, 1), .reason = ""};
+    *k = (rg_steer_kept){.number = rg_mem_array(mem, 5 * (size_t)N, sizeof *k->number),
+                         .role = rg_mem_array(mem, (size_t)N, 1), .reason = ""};
     if (k->number && k->role) return RG_OK;
     rg_steer_kept_free(k, mem);
     return RG_ENOMEM;

@@ -1,12 +1,14 @@
 /* steer.h -- from any state on: some creases are driven, some stay, some have a wish, and the others follow.
  * Paper    eqs. (9), (10), (14)        Uses  straight.h        Used by  motion
  *
- * Driven creases D turn evenly from where they are to where they shall be; the columns of C of D and of those that stay are not asked:
+ * Driven creases D turn evenly from where they are to where they shall be; the columns of C of D and of those that stay
+ * are not asked:
  *
  *     drho_F = drho0_F - C_F^+ (r + C_D drho_D + C_F drho0_F)        F: all others;  drho0: 0, or what they wish
  *
- * the least motion that the facets allow. Progress s is the part of the driven creases' way; where none is driven it is the mean part of the
- * ways of those that have targets, and steps hold it as straight.h does. Steps are of order four, each closed. */
+ * the least motion that the facets allow. Progress s is the part of the driven creases' way; where none is driven it is
+ * the mean part of the ways of those that have targets, and steps hold it as straight.h does. Steps are of order four,
+ * each closed. */
 #ifndef RG_STEER_H
 #define RG_STEER_H
 
@@ -55,16 +57,16 @@ typedef struct rg_steer_kept {
 rg_status rg_steer_init(rg_steer *F, const rg_memory *mem, const rg_mesh *m, const rg_settings *s);
 void rg_steer_free(rg_steer *F);
 
-/* Stands at rho[N], closed on a pattern with sector angles theta (in the order of loop_theta; NULL: those of the mesh), at the beginning of
- * a leg with the roles and targets that are set now. Allocates nothing. */
+/* Stands at rho[N], closed on a pattern with sector angles theta (in the order of loop_theta; NULL: those of the mesh),
+ * at the beginning of a leg with the roles and targets that are set now. Allocates nothing. */
 void rg_steer_begin(rg_steer *F, const double *theta, const double *rho);
-/* On to progress s, at most 1 and never less than before: F->out is the state there, or F->outcome says that it stopped, and F->out is
- * as far as it came. Allocates nothing. */
+/* On to progress s, at most 1 and never less than before: F->out is the state there, or F->outcome says that it
+ * stopped, and F->out is as far as it came. Allocates nothing. */
 void rg_steer_to(rg_steer *F, double s);
 /* rho[N]: closed with crease c as it is. Returns the closure; NAN: it does not close. Allocates nothing. */
 double rg_steer_close(rg_steer *F, const double *theta, int32_t c, double *rho);
-/* What holds it at F->rho: vertex[M], vertex numbers that resist most, the strongest first; crease[N], those short of their targets.
- * Allocates nothing. */
+/* What holds it at F->rho: vertex[M], vertex numbers that resist most, the strongest first; crease[N], those short of
+ * their targets. Allocates nothing. */
 void rg_steer_blame(rg_steer *F, int32_t *vertex, int32_t *vertices, int32_t *crease, int32_t *creases);
 
 /* RG_ENOMEM. Owner: the caller, rg_steer_kept_free. */

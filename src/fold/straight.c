@@ -230,7 +230,8 @@ static int32_t step(rg_straight *f)
         f->s = rg_straight_frame_progress(f, f->frame);
         return f->frame;
     }
-    if (f->steps > (f->most_steps ? f->most_steps : fmax(MOST_STRAIGHT_STEPS, MOST_STRAIGHT_WAYS * RG_PI / f->settings.step))) {
+    const double most = fmax(MOST_STRAIGHT_STEPS, MOST_STRAIGHT_WAYS * RG_PI / f->settings.step);
+    if (f->steps > (f->most_steps ? f->most_steps : most)) {
         rg_straight_stop(f, "the number of steps ran out");
     } else if (creeps(f)) {
         rg_straight_stop(f, "the facets leave hardly any way on: it goes on in steps too small to get anywhere");
@@ -270,8 +271,9 @@ rg_status rg_straight_step(rg_straight *f, rg_step_info *info)
     }
     f->seconds_solving += rg_seconds() - from;
     const rg_cost is = rg_straight_cost(f);
-    *info = (rg_step_info){.outcome = f->outcome, .progress = f->s, .frame = frame, .closure = f->closure, .frames = f->settings.frames,
-                           .solves = (int32_t)(is.solves - was.solves), .iterations = (int32_t)(is.iterations - was.iterations),
+    *info = (rg_step_info){.outcome = f->outcome, .progress = f->s, .frame = frame, .closure = f->closure,
+                           .frames = f->settings.frames, .solves = (int32_t)(is.solves - was.solves),
+                           .iterations = (int32_t)(is.iterations - was.iterations),
                            .reason = f->outcome == RG_RUNNING ? "" : f->reason};
     return RG_OK;
 }

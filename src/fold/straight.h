@@ -1,14 +1,15 @@
 /* straight.h -- straight on: the time loop from flat to folded on the pattern given, one step at a time.
  * Paper    eqs. (10), (14), section 4        Uses  system.h        Used by  run.c steer.c attempt.c diagnose.c rest.c
  *
- * Creases that no vertex joins are systems of their own, in step frame by frame; one that is held does not hold the others. */
+ * Creases that no vertex joins are systems of their own, in step frame by frame; one that is held does not hold the
+ * others. */
 #ifndef RG_STRAIGHT_H
 #define RG_STRAIGHT_H
 
 #include "fold/system.h"
 
-/* Takes a copy of what it needs of the pattern. RG_ESHEET: not one sheet without holes, why->text says where; RG_ENOMEM, RG_EABSENT.
- * Owner: the caller, rg_straight_destroy. */
+/* Takes a copy of what it needs of the pattern. RG_ESHEET: not one sheet without holes, why->text says where;
+ * RG_ENOMEM, RG_EABSENT. Owner: the caller, rg_straight_destroy. */
 rg_status rg_straight_create(const rg_pattern *p, const rg_settings *s, rg_straight **fold, rg_diag *why);
 void rg_straight_destroy(rg_straight *f);
 /* One step of the time loop; allocates nothing. A run that cannot go on is no error: info->outcome is RG_STOPPED. */
@@ -29,8 +30,8 @@ rg_solver rg_straight_solver(const rg_straight *f);
 void rg_straight_set_due(rg_straight *f, const double *due);
 /* One system stands at rho, closed, at progress s, and goes on from there step by step; the next frame is `frame`. */
 void rg_straight_stand(rg_straight *f, const double *rho, double s, int32_t frame);
-/* rho[N]: out, the state at progress s, a little before the frame that was made last; between frames the way stays as it is. Zero: it
- * is not known. Allocates nothing. */
+/* rho[N]: out, the state at progress s, a little before the frame that was made last; between frames the way stays as
+ * it is. Zero: it is not known. Allocates nothing. */
 int rg_straight_between(rg_straight *f, double s, double *rho);
 /* It gives up after so many steps; 0: only where it creeps, or after very many. */
 void rg_straight_set_most_steps(rg_straight *f, int32_t most);

@@ -23,5 +23,6 @@ void rg_straight_stop(rg_straight *f, const char *why)
 
 double rg_straight_frame_progress(const rg_straight *f, int32_t frame)
 {
-    return f->due ? f->due[frame] : f->s_end * ((double)frame / (f->settings.frames - 1)); /* a part has the same bits among any number */
+    /* a part has the same bits among any number */
+    return f->due ? f->due[frame] : f->s_end * ((double)frame / (f->settings.frames - 1));
 }

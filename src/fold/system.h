@@ -36,7 +36,8 @@ struct rg_straight {
     rg_constraint K;
     rg_drive drive;
     rg_limit limit;
-    rg_apart apart;               /* the folds of its components; with any, of what follows only the state and the end are used */
+    /* the folds of its components; with any, of what follows only the state and the end are used */
+    rg_apart apart;
     rg_straight *self;
     rg_project P;
     double *rho;                  /* [N] the state: always closed to settings.tol under newton */

@@ -56,7 +56,8 @@ rg_status rg_trace_follow(rg_trace *q, const rg_straight *f)
         rg_trace_part *a = &q->part[p];
         if (!g->smooth) continue;
         for (int32_t k = 0; s == RG_OK && k < g->path.count; k++)
-            if (a->count == 0 || g->path.node[k].s > a->s[a->count - 1]) s = add(a, &q->mem, &g->path.node[k], g->one_way);
+            if (a->count == 0 || g->path.node[k].s > a->s[a->count - 1])
+                s = add(a, &q->mem, &g->path.node[k], g->one_way);
         a->until = g->s;
         if (g->path_ended && !a->ended) a->ended = 1, a->ended_one_way = g->one_way;
     }
@@ -108,9 +109,11 @@ double rg_trace_read(rg_trace *q, double s, double *rho)
     rg_straight_systems(f, &system);
     for (int32_t p = 0; p < q->parts; p++) {
         rg_straight *g = system[p];
-        const double *at = g->drive.count == 0 ? g->rho : read(&q->part[p], g, s, &closure); /* what nobody drives stays flat */
+        /* what nobody drives stays flat */
+        const double *at = g->drive.count == 0 ? g->rho : read(&q->part[p], g, s, &closure);
         if (!at) return NAN;
-        for (int32_t i = 0; i < g->mesh.N; i++) rho[f->apart.parts ? f->apart.crease[f->apart.start[p] + i] : i] = at[i];
+        for (int32_t i = 0; i < g->mesh.N; i++)
+            rho[f->apart.parts ? f->apart.crease[f->apart.start[p] + i] : i] = at[i];
     }
     return closure;
 }

@@ -1,8 +1,9 @@
 /* trace.h -- the nodes of a motion straight on, kept, so that its states can be read off again, to the bit.
  * Paper    eq. (10): what its integral is        Uses  straight.h        Used by  attempt.c forth.c stepping.c
  *
- * A run lets its nodes go as it goes on. What was read off them depends on the last few that there were as soon as it could be read, and
- * on nothing else: with these it is read again. Where a run is no longer smooth, its steps end on frames, and there is nothing to keep. */
+ * A run lets its nodes go as it goes on. What was read off them depends on the last few that there were as soon as it
+ * could be read, and on nothing else: with these it is read again. Where a run is no longer smooth, its steps end on
+ * frames, and there is nothing to keep. */
 #ifndef RG_TRACE_H
 #define RG_TRACE_H
 
