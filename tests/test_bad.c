@@ -135,6 +135,25 @@ static void coordinates_have_one_limit(void **state)
     is_refused("large.cp", "a coordinate of 1e+154 is too large to compute with");
 }
 
+/* Selectors whose brackets do not end, thousands deep, and whose numbers no computer has are told, and the rest is drawn. */
+static void selectors_are_within(void **state)
+{
+    (void)state;
+    static const char *const name[] = {"brackets-in-selector.svg", "number-in-selector.svg"};
+    for (int k = 0; k < 2; k++) {
+        char path[80];
+        const rg_reading r = rg_reading_default();
+        rg_pattern *p = NULL;
+        rg_diag why = {0, ""};
+        snprintf(path, sizeof path, "%s/%s", FOLDER, name[k]);
+        assert_int_equal(rg_pattern_read(path, &r, &p, &why), RG_OK);
+        assert_int_equal(rg_pattern_get_info(p)->creases, 1);
+        const rg_diag *told;
+        assert_true(rg_pattern_warnings(p, &told) > 0);
+        rg_pattern_destroy(p);
+    }
+}
+
 /* A sheet without a crease has nothing to fold, and folds: angles between its frames are none. */
 static void a_sheet_without_creases_folds(void **state)
 {
@@ -164,6 +183,7 @@ int main(void)
         cmocka_unit_test(a_number_is_no_pattern),
         cmocka_unit_test(lines_without_length_are_no_pattern),
         cmocka_unit_test(coordinates_have_one_limit),
+        cmocka_unit_test(selectors_are_within),
         cmocka_unit_test(a_sheet_without_creases_folds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

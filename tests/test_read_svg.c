@@ -198,7 +198,8 @@ static void selectors(void **state)
         {"[class$=two]", 1}, {"[class*='e t']", 1}, {"[lang|=en]", 1}, {":not(rect)", 1}, {"line:not(.one)", 0}, {"line:not([x2='1'], .b)", 1},
         {":is(line, rect)", 1}, {"line:last-child", 1}, {"line:first-child", 0}, {"line:nth-child(3)", 1}, {"line:nth-child(2n)", 0},
         {"line:nth-child(odd)", 1}, {"line:only-of-type", 1}, {"line:hover", 0}, {"line::before", 0}, {"g.a line.two#z", 1}, {"*", 1}, {".b line, #z", 1},
-        {"@media screen { line", 1}};
+        {"@media screen { line", 1}, {"line:nth-child(+3)", 1}, {"line:nth-child(-2n+5)", 1}, {"line:nth-child(-n+2)", 0},
+        {"line:not([x2=')'])", 1}, {"line:not(:is([x2='9'], rect))", 0}};
     for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
         char text[700];
         snprintf(text, sizeof text, SVG("<style>line{stroke:black} %s{stroke:red !important}%s</style><g class='a'><path/><rect/>"

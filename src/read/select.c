@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Levels of :not(:is(...)), and parts of one selector: more than anybody writes. */
-enum { MOST_DEEP = 4, MOST_PARTS = 32 };
+/* Levels of :not(:is(...)), parts of one selector, brackets in brackets: more than anybody writes. */
+enum { MOST_DEEP = 4, MOST_PARTS = 32, MOST_ENCLOSED = 32 };
 /* Elements looked at for one selector and element: `a a a a x` in deep trees could be tried without end. */
 enum { MOST_TRIED = 20000 };
 enum { OF_TAG = 1, OF_CLASS = 1000, OF_ID = 1000000 }; /* no selector has a thousand of one kind */
@@ -22,21 +22,24 @@ static const char *trim(const char *s, size_t *n)
     return s;
 }
 
-/* Past what brackets or quotes enclose, if s[i] opens them: the place of their end, n: they have none. */
+static int opens(char c) { return c == '[' || c == '(' || c == '"' || c == '\''; }
+
+/* Past what brackets or quotes enclose, which s[i] opens: the place of their end, n: they have none, or are deeper than that. */
 static size_t enclosed(const char *s, size_t n, size_t i)
 {
-    if (s[i] == '"' || s[i] == '\'') {
-        const char quote = s[i];
-        for (i++; i < n && s[i] != quote;) i++;
-        return i;
+    char end[MOST_ENCLOSED];
+    int depth = 0;
+    for (; i < n; i++) {
+        const char inside = depth > 0 ? end[depth - 1] : 0;
+        if (inside && s[i] == inside) {
+            if (--depth == 0) return i;
+        } else if (inside != '"' && inside != '\'' && opens(s[i])) {
+            if (depth == MOST_ENCLOSED) return n;
+            end[depth++] = s[i] == '[' ? ']' : s[i] == '(' ? ')' : s[i];
+        }
     }
-    const char end = s[i] == '[' ? ']' : ')';
-    for (i++; i < n && s[i] != end; i++)
-        if (s[i] == '[' || s[i] == '(' || s[i] == '"' || s[i] == '\'') i = enclosed(s, n, i);
-    return i;
+    return n;
 }
-
-static int opens(char c) { return c == '[' || c == '(' || c == '"' || c == '\''; }
 
 size_t rg_select_comma(const char *s, size_t n)
 {
@@ -127,10 +130,10 @@ static const char *const PLACES[] = {"root", "first-child", "last-child", "only-
 static const char *const NTHS[] = {"nth-child", "nth-last-child", "nth-of-type", "nth-last-of-type", NULL};
 static const char *const LISTS[] = {"not", "is", "where", NULL};
 
-/* a n + b; 0: it is not that. */
+/* a n + b; 0: it is not that, or has numbers that are longer than any count of elements. */
 static int progression(const char *s, size_t n, long *a, long *b)
 {
-    char text[24] = "";
+    char text[10] = "";
     size_t length = 0;
     for (size_t i = 0; i < n; i++) {
         if (is_blank(s[i])) continue;
