@@ -222,6 +222,35 @@ static void straight_on_with_fewer_cuts(void **state)
     }
 }
 
+/* Between two nodes of a path near its folded end, creases at half a turn, not every point of the chord closes: frames must not fall on a node
+ * for that. It leaped by three times the even turn, and percents fell. */
+static void between_nodes_where_chords_do_not_close(void **state)
+{
+    (void)state;
+    char path[4096];
+    rg_pattern *p;
+    rg_settings s = with(RG_ADJUST_AUTO, RG_TRIANGULATE_AUTO);
+    s.contact = RG_CONTACT_IGNORE;
+    s.pace = RG_PACE_STEADY;
+    s.frames = 601;
+    const char *const file = corpus("foldability/101-ku-turkey-2-1.fold", path, sizeof path);
+    assert_int_equal(rg_pattern_read(file, NULL, &p, NULL), RG_OK);
+    rg_motion *m = motion_of(p, &s);
+    const rg_report *r = rg_motion_report(m);
+    assert_int_equal(r->outcome, RG_FOLDED);
+    double even = 0, most = 0;
+    for (int32_t k = 1; k < r->frame_count; k++) {
+        const double *a = rg_motion_angles(m, k - 1), *b = rg_motion_angles(m, k);
+        double turn = 0;
+        for (int32_t i = 0; i < m->mesh.N; i++) turn = fmax(turn, fabs(b[i] - a[i]));
+        even += turn / (r->frame_count - 1);
+        most = fmax(most, turn);
+        assert_true(m->frame[k].percent >= m->frame[k - 1].percent - 1e-9);
+    }
+    below(most, 1.5 * even);
+    rg_motion_destroy(m);
+}
+
 static void closed_vertices_that_adjusting_frees(void **state)
 {
     (void)state;
@@ -594,6 +623,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plain_ways_come_first), cmocka_unit_test(closed_vertices_that_splitting_frees),
+        cmocka_unit_test(between_nodes_where_chords_do_not_close),
         cmocka_unit_test(closed_vertices_that_adjusting_frees), cmocka_unit_test(more_that_fold_adjusted),
         cmocka_unit_test(switched_off_nothing_moves), cmocka_unit_test(what_cannot_fold_is_told), cmocka_unit_test(the_other_way),
         cmocka_unit_test(interrupted), cmocka_unit_test(no_more_cuts_than_have_to_be), cmocka_unit_test(straight_on_with_fewer_cuts), cmocka_unit_test(a_part_of_the_way), cmocka_unit_test(a_part_too_far),
