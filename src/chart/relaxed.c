@@ -63,8 +63,7 @@ static rg_status begin(rg_relax *F, const rg_attempt *best, const rg_settings *s
     memset(F, 0, sizeof *F);
     rg_status status = from && to ? rg_relax_init(F, &best->mesh, s, &best->relax->how, best->backwards ? from : NULL, to) : RG_ENOMEM;
     if (status == RG_OK && best->symmetry) status = rg_relax_keep(F, best->symmetry);
-    rg_mem_free(&best->mem, from);
-    rg_mem_free(&best->mem, to);
+    RG_MEM_FREE(&best->mem, from, to);
     return status;
 }
 
@@ -200,8 +199,7 @@ static rg_status halve(rg_relaxed *R, const rg_settings *s, rg_watch *watch)
     R->folds = status == RG_OK && !watch->cancelled && R->points > RG_RELAXED_DEFAULT && R->run[RG_RELAXED_DEFAULT].outcome == RG_FOLDED;
     if (R->folds) compare(R, of, m->size);
     for (int32_t k = 0; k < RG_RELAXED_POINTS; k++) {
-        rg_mem_free(&R->mem, of[k].rho.rho);
-        rg_mem_free(&R->mem, of[k].pattern.rho);
+        RG_MEM_FREE(&R->mem, of[k].rho.rho, of[k].pattern.rho);
     }
     return status;
 }

@@ -5,58 +5,61 @@
 
 #include <string.h>
 
+static int32_t degree(const rg_sparse *C, int32_t k) { return C->start[k + 1] - C->start[k]; }
+
+/* sorted[count]: out, the vertices by rising degree. of_degree[most + 2]: scratch, zero. *fours: out, how many there are
+ * of them. Returns the blocks that they take. */
+static size_t sort_by_degree(const rg_sparse *C, const int32_t *vertex, int32_t count, int32_t most,
+                             int32_t *of_degree, int32_t *sorted, int32_t *fours)
+{
+    size_t blocks = 0;
+    *fours = 0;
+    for (int32_t n = 0; n < count; n++) of_degree[degree(C, vertex ? vertex[n] : n) + 1]++;
+    for (int32_t d = 0; d <= most; d++) {
+        const size_t more = ((size_t)of_degree[d + 1] + 3) / 4;
+        *fours += (int32_t)more;
+        blocks += 4 * more * (size_t)d;
+        of_degree[d + 1] += of_degree[d];
+    }
+    for (int32_t n = 0; n < count; n++) {
+        const int32_t k = vertex ? vertex[n] : n;
+        sorted[of_degree[degree(C, k)]++] = k;
+    }
+    return blocks;
+}
+
 rg_status rg_fours_init(rg_fours *w, const rg_memory *mem, const rg_sparse *C, const int32_t *vertex, int32_t count)
 {
     int32_t most = 0, at = 0;
     memset(w, 0, sizeof *w);
     for (int32_t k = 0; k < C->M; k++)
-        if (C->start[k + 1] - C->start[k] > most) most = C->start[k + 1] - C->start[k];
-    int32_t *of_degree = rg_mem_array(mem, (size_t)most + 2, sizeof *of_degree);
-    int32_t *sorted = rg_mem_array(mem, (size_t)count, sizeof *sorted);
-    size_t blocks = 0;
-    if (of_degree && sorted) {
-        for (int32_t n = 0; n < count; n++) {
-            const int32_t k = vertex ? vertex[n] : n;
-            of_degree[C->start[k + 1] - C->start[k] + 1]++;
-        }
-        for (int32_t d = 0; d <= most; d++) {
-            size_t fours = ((size_t)of_degree[d + 1] + 3) / 4;
-            w->count += (int32_t)fours;
-            blocks += 4 * fours * (size_t)d;
-            of_degree[d + 1] += of_degree[d];
-        }
-        for (int32_t n = 0; n < count; n++) {
-            const int32_t k = vertex ? vertex[n] : n;
-            sorted[of_degree[C->start[k + 1] - C->start[k]]++] = k;
-        }
-        w->four = rg_mem_array(mem, (size_t)w->count, sizeof *w->four);
-        w->crease = rg_mem_array(mem, blocks, sizeof *w->crease);
-        w->theta_cos = rg_mem_array(mem, blocks, sizeof *w->theta_cos);
-        w->theta_sin = rg_mem_array(mem, blocks, sizeof *w->theta_sin);
-    }
-    int ok = w->four && w->crease && w->theta_cos && w->theta_sin;
-    for (int32_t k = 0, g = 0; ok && k < count; g++) {
+        if (degree(C, k) > most) most = degree(C, k);
+    int32_t *of_degree, *sorted;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(of_degree, (size_t)most + 2), RG_ARRAY(sorted, (size_t)count));
+    if (s != RG_OK) return s;
+    const size_t blocks = sort_by_degree(C, vertex, count, most, of_degree, sorted, &w->count);
+    s = RG_MEM_ARRAYS(mem, RG_ARRAY(w->four, (size_t)w->count), RG_ARRAY(w->crease, blocks),
+                      RG_ARRAY(w->theta_cos, blocks), RG_ARRAY(w->theta_sin, blocks));
+    for (int32_t k = 0, g = 0; s == RG_OK && k < count; g++) {
         rg_four *four = &w->four[g];
-        four->degree = C->start[sorted[k] + 1] - C->start[sorted[k]];
+        four->degree = degree(C, sorted[k]);
         four->at = at;
         for (int lane = 0; lane < 4; lane++) {
-            int32_t last = lane ? four->vertex[lane - 1] : sorted[k];
-            int more = k < count && C->start[sorted[k] + 1] - C->start[sorted[k]] == four->degree;
-            four->vertex[lane] = more ? sorted[k++] : last;
-            for (int32_t i = 0; i < four->degree; i++) w->crease[4 * (at + i) + lane] = C->col[C->start[four->vertex[lane]] + i];
+            const int32_t last = lane ? four->vertex[lane - 1] : sorted[k];
+            const int32_t v = k < count && degree(C, sorted[k]) == four->degree ? sorted[k++] : last;
+            four->vertex[lane] = v;
+            for (int32_t i = 0; i < four->degree; i++) w->crease[4 * (at + i) + lane] = C->col[C->start[v] + i];
         }
         at += four->degree;
     }
-    rg_mem_free(mem, of_degree);
-    rg_mem_free(mem, sorted);
-    if (!ok) rg_fours_free(w, mem);
-    return ok ? RG_OK : RG_ENOMEM;
+    RG_MEM_FREE(mem, of_degree, sorted);
+    if (s != RG_OK) memset(w, 0, sizeof *w);
+    return s;
 }
 
 void rg_fours_free(rg_fours *w, const rg_memory *mem)
 {
-    void *all[] = {w->four, w->crease, w->theta_cos, w->theta_sin};
-    for (int i = 0; i < 4; i++) rg_mem_free(mem, all[i]);
+    RG_MEM_FREE(mem, w->four, w->crease, w->theta_cos, w->theta_sin);
     memset(w, 0, sizeof *w);
 }
 
@@ -72,14 +75,10 @@ static rg_status make_moving(rg_constraint *K, const rg_mesh *m, const rg_freedo
     const size_t blocks = (size_t)m->loop_start[m->M];
     K->mesh = m;
     K->freedom = f;
-    K->X = rg_mem_array(&K->mem, (size_t)m->nv, sizeof *K->X);
-    K->kawasaki = rg_mem_array(&K->mem, (size_t)m->M, sizeof *K->kawasaki);
-    K->far = rg_mem_array(&K->mem, blocks, sizeof *K->far);
-    K->toward = rg_mem_array(&K->mem, blocks, sizeof *K->toward);
-    K->turning = rg_mem_array(&K->mem, blocks, sizeof *K->turning);
-    K->normal = rg_mem_array(&K->mem, blocks, sizeof *K->normal);
-    K->sector = rg_mem_array(&K->mem, blocks, sizeof *K->sector);
-    if (!K->X || !K->kawasaki || !K->far || !K->toward || !K->turning || !K->normal || !K->sector) return RG_ENOMEM;
+    const rg_status s = RG_MEM_ARRAYS(&K->mem, RG_ARRAY(K->X, (size_t)m->nv), RG_ARRAY(K->kawasaki, (size_t)m->M),
+                                      RG_ARRAY(K->far, blocks), RG_ARRAY(K->turning, blocks),
+                                      RG_ARRAY(K->normal, blocks), RG_ARRAY(K->sector, blocks));
+    if (s != RG_OK) return s;
     memcpy(K->X, m->X, (size_t)m->nv * sizeof *K->X);
     memcpy(K->sector, m->loop_theta, blocks * sizeof *K->sector);
     for (int32_t k = 0; k < m->M; k++) {
@@ -90,7 +89,8 @@ static rg_status make_moving(rg_constraint *K, const rg_mesh *m, const rg_freedo
     return RG_OK;
 }
 
-static rg_status init(rg_constraint *K, const rg_memory *mem, const rg_mesh *m, const rg_freedom *f, int kawasaki)
+rg_status rg_constraint_init_moving(rg_constraint *K, const rg_memory *mem, const rg_mesh *m, const rg_freedom *f,
+                                    int kawasaki)
 {
     memset(K, 0, sizeof *K);
     rg_status s = rg_sparse_init(&K->C, mem, m->M, m->N, m->loop_start, m->loop_crease);
@@ -98,14 +98,13 @@ static rg_status init(rg_constraint *K, const rg_memory *mem, const rg_mesh *m, 
     K->mem = *mem;
     const size_t whole = ((size_t)m->N + 3) & ~(size_t)3;
     if (f) s = make_moving(K, m, f, kawasaki);
-    K->r = rg_mem_array(mem, 3 * (size_t)m->M + (size_t)K->kept, sizeof *K->r);
-    K->theta = rg_mem_array(mem, (size_t)m->loop_start[m->M], sizeof *K->theta);
-    K->cos = rg_mem_array(mem, whole, sizeof *K->cos);
-    K->sin = rg_mem_array(mem, whole, sizeof *K->sin);
-    K->still = rg_mem_array(mem, (size_t)m->N, 1);
-    if (s != RG_OK || !K->r || !K->theta || !K->cos || !K->sin || !K->still || rg_fours_init(&K->all, mem, &K->C, NULL, m->M) != RG_OK) {
+    if (s == RG_OK) s = RG_MEM_ARRAYS(mem, RG_ARRAY(K->r, 3 * (size_t)m->M + (size_t)K->kept),
+                                      RG_ARRAY(K->theta, (size_t)m->loop_start[m->M]), RG_ARRAY(K->cos, whole),
+                                      RG_ARRAY(K->sin, whole), RG_ARRAY(K->still, (size_t)m->N));
+    if (s == RG_OK) s = rg_fours_init(&K->all, mem, &K->C, NULL, m->M);
+    if (s != RG_OK) {
         rg_constraint_free(K);
-        return RG_ENOMEM;
+        return s;
     }
     rg_constraint_set_theta(K, m->loop_theta);
     for (int32_t i = 0; m->still && i < m->N; i++) K->still[i] = m->still[m->crease_edge[i]];
@@ -113,11 +112,9 @@ static rg_status init(rg_constraint *K, const rg_memory *mem, const rg_mesh *m, 
     return RG_OK;
 }
 
-rg_status rg_constraint_init(rg_constraint *K, const rg_memory *mem, const rg_mesh *m) { return init(K, mem, m, NULL, 0); }
-
-rg_status rg_constraint_init_moving(rg_constraint *K, const rg_memory *mem, const rg_mesh *m, const rg_freedom *f, int kawasaki)
+rg_status rg_constraint_init(rg_constraint *K, const rg_memory *mem, const rg_mesh *m)
 {
-    return init(K, mem, m, f, kawasaki);
+    return rg_constraint_init_moving(K, mem, m, NULL, 0);
 }
 
 void rg_constraint_free(rg_constraint *K)
@@ -126,8 +123,8 @@ void rg_constraint_free(rg_constraint *K)
     rg_memory mem = K->mem;
     rg_sparse_free(&K->C);
     rg_fours_free(&K->all, &mem);
-    void *all[] = {K->r, K->theta, K->cos, K->sin, K->still, K->X, K->kawasaki, K->far, K->toward, K->turning, K->normal, K->sector};
-    for (int i = 0; i < 12; i++) rg_mem_free(&mem, all[i]);
+    RG_MEM_FREE(&mem, K->r, K->theta, K->cos, K->sin, K->still, K->X, K->kawasaki, K->far, K->turning, K->normal,
+                K->sector);
     memset(K, 0, sizeof *K);
 }
 
@@ -152,30 +149,32 @@ void rg_constraint_set_theta(rg_constraint *K, const double *theta)
     deal_sectors(K, &K->all);
 }
 
-/* Directions from vertex k on the pattern as it is moved, and the cosines and sines between them, which is all that closure asks for. */
+/* The cosines and sines between the directions from vertex k, on the pattern as it is moved, and how those turn. */
 static void look_round(rg_constraint *K, int32_t k)
 {
     const int32_t first = K->C.start[k], last = K->C.start[k + 1];
     const rg_vec2 at = K->X[K->mesh->inner_vertex[k]];
+    rg_vec2 start = {0, 0}, before = {0, 0}; /* unit vectors: the first one, the one before */
     for (int32_t j = first; j < last; j++) {
         const rg_vec2 d = rg_vec2_sub(K->X[K->far[j]], at);
         const double inverse = 1 / sqrt(rg_vec2_dot(d, d));
         const rg_vec2 e = {inverse * d.x, inverse * d.y};
-        K->toward[j] = e;
         K->turning[j] = (rg_vec2){-inverse * e.y, inverse * e.x};
+        if (j == first) start = e;
+        else K->theta[j - 1] = (rg_turn){rg_vec2_dot(before, e), rg_vec2_cross(before, e)};
+        before = e;
     }
-    for (int32_t j = first; j < last; j++) {
-        const rg_vec2 a = K->toward[j], b = K->toward[j + 1 < last ? j + 1 : first];
-        K->theta[j] = (rg_turn){rg_vec2_dot(a, b), rg_vec2_cross(a, b)};
-    }
+    if (first < last) K->theta[last - 1] = (rg_turn){rg_vec2_dot(before, start), rg_vec2_cross(before, start)};
 }
 
 static void move(rg_constraint *K, rg_fours *w, const double *u)
 {
     if (K->freedom->U) rg_freedom_move(K->freedom, u, K->X);
     for (int32_t g = 0; g < w->count; g++)
-        for (int lane = 0; lane < 4; lane++)
-            if (lane == 0 || w->four[g].vertex[lane] != w->four[g].vertex[lane - 1]) look_round(K, w->four[g].vertex[lane]);
+        for (int lane = 0; lane < 4; lane++) {
+            const int32_t k = w->four[g].vertex[lane];
+            if (lane == 0 || k != w->four[g].vertex[lane - 1]) look_round(K, k);
+        }
     deal_sectors(K, w);
 }
 
@@ -217,8 +216,9 @@ RG_WITHIN void advance(rg_quad *x, rg_quad *y, rg_quad *z, const rg_quad *rho_co
     *x = *theta_cos * *x + *theta_sin * turned;
 }
 
-/* v[4] <- four vectors */
-RG_WITHIN void scatter(const rg_quad *x, const rg_quad *y, const rg_quad *z, rg_vec3 *v0, rg_vec3 *v1, rg_vec3 *v2, rg_vec3 *v3)
+/* v0 ... v3 <- four vectors */
+RG_WITHIN void scatter(const rg_quad *x, const rg_quad *y, const rg_quad *z, rg_vec3 *v0, rg_vec3 *v1, rg_vec3 *v2,
+                       rg_vec3 *v3)
 {
     *v0 = (rg_vec3){(*x)[0], (*y)[0], (*z)[0]};
     *v1 = (rg_vec3){(*x)[1], (*y)[1], (*z)[1]};
@@ -226,28 +226,30 @@ RG_WITHIN void scatter(const rg_quad *x, const rg_quad *y, const rg_quad *z, rg_
     *v3 = (rg_vec3){(*x)[3], (*y)[3], (*z)[3]};
 }
 
-/* Round each vertex of the four, as rg_loop_walk does: C's numbers and r if they are wanted, and normals if they are. bad: out, a measure of the
- * rotation angle of F that rises with it, sin^2 up to a right angle and 2 - sin^2 beyond; NaN for NaN. Loops of three and
- * four are written out: compilers unroll them at -O3 only. */
-RG_WITHIN void walk_four(rg_constraint *K, const rg_fours *w, const rg_four *four, int wanted, int normals, rg_quad *bad)
+/* Round each vertex of the four, as rg_loop_walk does: C's numbers and r if they are wanted, and normals if they are.
+ *   bad  out  rises with the rotation angle of F: sin^2 up to a right angle, 2 - sin^2 beyond; NaN for NaN
+ * Loops of three and four are written out: compilers unroll them at -O3 only. */
+RG_WITHIN void walk_four(rg_constraint *K, const rg_fours *w, const rg_four *four, int wanted, int normals,
+                         rg_quad *bad)
 {
     const int32_t *crease = w->crease + 4 * four->at, *start = K->C.start, *vertex = four->vertex;
     const double *tc = w->theta_cos + 4 * four->at, *ts = w->theta_sin + 4 * four->at;
     const double *cosine = K->cos, *sine = K->sin;
     rg_vec3 *c0 = K->C.x + start[vertex[0]], *c1 = K->C.x + start[vertex[1]];
     rg_vec3 *c2 = K->C.x + start[vertex[2]], *c3 = K->C.x + start[vertex[3]];
-    rg_quad xx = {1, 1, 1, 1}, xy = {0}, xz = {0}, yx = {0}, yy = xx, yz = {0}, zx = {0}, zy = {0}, zz = xx; /* columns of A */
+    rg_quad xx = {1, 1, 1, 1}, xy = {0}, xz = {0}, yx = {0}, yy = xx, yz = {0}, zx = {0}, zy = {0}, zz = xx; /* of A */
     for (int32_t i = 0; i < four->degree; i++, crease += 4, tc += 4, ts += 4) {
         const rg_quad rc = {cosine[crease[0]], cosine[crease[1]], cosine[crease[2]], cosine[crease[3]]};
         const rg_quad rs = {sine[crease[0]], sine[crease[1]], sine[crease[2]], sine[crease[3]]};
         const rg_quad c = *(const rg_quad_anywhere *)tc, s = *(const rg_quad_anywhere *)ts;
-        if (wanted) scatter(&xx, &xy, &xz, c0 + i, c1 + i, c2 + i, c3 + i); /* (b, c, a)_i = A_i e_x      eqs. (2)-(7) */
+        if (wanted) scatter(&xx, &xy, &xz, c0 + i, c1 + i, c2 + i, c3 + i); /* (b, c, a)_i = A_i e_x   eqs. (2)-(7) */
         advance(&xx, &yx, &zx, &rc, &rs, &c, &s);
         advance(&xy, &yy, &zy, &rc, &rs, &c, &s);
         advance(&xz, &yz, &zz, &rc, &rs, &c, &s);
         if (normals) { /* A_(i+1) e_z: turning by theta is about the facet's normal, which it leaves as it is */
-            rg_vec3 *n = K->normal + i;
-            scatter(&zx, &zy, &zz, n + start[vertex[0]], n + start[vertex[1]], n + start[vertex[2]], n + start[vertex[3]]);
+            rg_vec3 *n0 = K->normal + start[vertex[0]], *n1 = K->normal + start[vertex[1]];
+            rg_vec3 *n2 = K->normal + start[vertex[2]], *n3 = K->normal + start[vertex[3]];
+            scatter(&zx, &zy, &zz, n0 + i, n1 + i, n2 + i, n3 + i);
         }
     }
     const rg_quad r0 = (yz - zy) * 0.5, r1 = (zx - xz) * 0.5, r2 = (xy - yx) * 0.5; /* eq. (13) */

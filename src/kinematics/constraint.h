@@ -1,9 +1,9 @@
-/* constraint.h -- all vertices: C (3M x N) and r at given fold angles; and where the pattern may give way, what vertices do to r.
+/* constraint.h -- all vertices: C (3M x N) and r at given fold angles; where the pattern may give way, what that does to r.
  * Paper    eqs. (6)-(8), (11), (12); (16)-(18)        Uses  loop.h turn.h sparse.h freedom.h kawasaki.h
  * Used by  mobility.c project.c tangent.c coupled.c
  *
- * F depends on the sector angles theta as it does on rho: dF/dtheta_i = [A_(i+1) e_z]x F, the normal of that facet, seen from
- * the first. So what rho cannot close, X can:
+ * F depends on the sector angles theta as it does on rho: dF/dtheta_i = [A_(i+1) e_z]x F, the normal of that facet, seen
+ * from the first. So what rho cannot close, X can:
  *
  *     [ C  D ] [drho]      [r ]        D = dr/dX          eqs. (11), (17)
  *     [ 0  G ] [ dX ] = -  [r']        G = dG/dX          eqs. (17), (18) */
@@ -32,10 +32,10 @@ typedef struct rg_fours {
 typedef struct rg_constraint {
     rg_memory mem;
     rg_sparse C;    /* eq. (8) */
-    double *r;      /* [3M + kept] eq. (12), per vertex in the order b, c, a, which is x, y, z of the axial vector; then r', eq. (19) */
+    double *r;      /* [3M + kept] eq. (12): per vertex b, c, a, the x, y, z of the axial vector; then r', eq. (19) */
     rg_turn *theta; /* per block of C: cosine and sine of the sector angle */
     double *cos, *sin; /* [N] of the fold angles given last */
-    unsigned char *still; /* [N] non-zero: this crease does not turn, its column of C is 0; the mesh's, or set by the owner */
+    unsigned char *still; /* [N] non-zero: the crease does not turn, its column of C is 0; may be set by the owner */
     int32_t stills;       /* how many */
     rg_fours all;
     /* Where the pattern may give way; else 0 and NULL: */
@@ -45,15 +45,16 @@ typedef struct rg_constraint {
     int32_t kept;                 /* vertices kept flat-foldable */
     int32_t *kawasaki;            /* [M] their entries of r, -1: not kept */
     int32_t *far;                 /* per block of C: the vertex at the other end of that crease */
-    rg_vec2 *toward, *turning;    /* per block: unit vector there; by how much its direction turns with dX of that end */
+    rg_vec2 *turning;             /* per block: by how much its direction turns with dX of that end */
     rg_vec3 *normal;              /* per block: change of r by the sector angle behind it */
     double *sector;               /* per block: that angle, where it is asked for */
 } rg_constraint;
 
 rg_status rg_constraint_init(rg_constraint *K, const rg_memory *mem, const rg_mesh *m);
-/* The same, and the pattern may give way; kawasaki non-zero: eq. (16) is kept at every vertex where the pattern given obeys it. Both of
- * RG_ENOMEM. Owner: the caller, rg_constraint_free. */
-rg_status rg_constraint_init_moving(rg_constraint *K, const rg_memory *mem, const rg_mesh *m, const rg_freedom *f, int kawasaki);
+/* The same, and the pattern may give way; f NULL: it may not. kawasaki non-zero: eq. (16) is kept at every vertex where the
+ * pattern given obeys it. Both: RG_ENOMEM. Owner: the caller, rg_constraint_free. */
+rg_status rg_constraint_init_moving(rg_constraint *K, const rg_memory *mem, const rg_mesh *m, const rg_freedom *f,
+                                    int kawasaki);
 void rg_constraint_free(rg_constraint *K);
 
 /* still[N] has changed. */
@@ -66,8 +67,8 @@ void rg_constraint_set_theta(rg_constraint *K, const double *theta);
 /* Refills C and r for rho[N], radians. Returns the largest rotation angle of F over the vertices, radians (NaN if one
  * is NaN). Allocates nothing. */
 double rg_constraint_assemble(rg_constraint *K, const double *rho);
-/* The same at u[U] of the freedom, for some vertices only (NULL: for all); of the others all stays as it is. *off: out, the largest |r'|
- * (may be NULL). */
+/* The same at u[U] of the freedom, for some vertices only (NULL: for all); of the others all stays as it is.
+ * *off: out, the largest |r'|; may be NULL. */
 double rg_constraint_assemble_at(rg_constraint *K, rg_fours *some, const double *rho, const double *u, double *off);
 /* Fours of interior vertices, vertex[count] (NULL: all). Owner: the caller, rg_fours_free. */
 rg_status rg_fours_init(rg_fours *w, const rg_memory *mem, const rg_sparse *C, const int32_t *vertex, int32_t count);

@@ -12,8 +12,8 @@ void rg_coupled_free(rg_coupled *J)
     const rg_memory mem = J->mem;
     rg_least_free(&J->A);
     rg_fours_free(&J->some, &mem);
-    void *block[] = {J->vertex, J->kawasaki, J->column, J->part, J->way, J->direction, J->at, J->at_own, J->at_far, J->sign, J->b, J->y};
-    for (int i = 0; i < 12; i++) rg_mem_free(&mem, block[i]);
+    RG_MEM_FREE(&mem, J->vertex, J->kawasaki, J->column, J->part, J->way, J->direction, J->at, J->at_own, J->at_far,
+                J->sign, J->b, J->y);
     memset(J, 0, sizeof *J);
 }
 
@@ -163,8 +163,7 @@ static rg_status make_pattern(rg_coupled *J, int32_t rows, int32_t columns)
         lay_out(J, &f);
         s = rg_least_init(&J->A, &J->mem, rows, columns, f.start, f.row);
     }
-    void *block[] = {f.start, f.fill, f.row, f.seen, f.where};
-    for (int i = 0; i < 5; i++) rg_mem_free(&J->mem, block[i]);
+    RG_MEM_FREE(&J->mem, f.start, f.fill, f.row, f.seen, f.where);
     return s;
 }
 
@@ -176,20 +175,11 @@ rg_status rg_coupled_init(rg_coupled *J, const rg_memory *mem, rg_constraint *K,
     J->mem = *mem;
     J->K = K;
     J->G = G;
-    J->vertex = rg_mem_array(mem, M, sizeof *J->vertex);
-    J->kawasaki = rg_mem_array(mem, M, sizeof *J->kawasaki);
-    J->column = rg_mem_array(mem, N, sizeof *J->column);
-    J->part = rg_mem_array(mem, N, sizeof *J->part);
-    J->way = rg_mem_array(mem, nv, sizeof *J->way);
-    J->direction = rg_mem_array(mem, nv, sizeof *J->direction);
-    J->at = rg_mem_array(mem, spokes, sizeof *J->at);
-    J->at_own = rg_mem_array(mem, M, sizeof *J->at_own);
-    J->at_far = rg_mem_array(mem, spokes, sizeof *J->at_far);
-    J->sign = rg_mem_array(mem, spokes, sizeof *J->sign);
-    J->b = rg_mem_array(mem, 4 * M, sizeof *J->b);
-    J->y = rg_mem_array(mem, N + (size_t)K->freedom->U, sizeof *J->y);
-    rg_status s = J->vertex && J->kawasaki && J->column && J->part && J->way && J->direction && J->at && J->at_own && J->at_far &&
-                          J->sign && J->b && J->y ? RG_OK : RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(J->vertex, M), RG_ARRAY(J->kawasaki, M), RG_ARRAY(J->column, N),
+                                RG_ARRAY(J->part, N), RG_ARRAY(J->way, nv), RG_ARRAY(J->direction, nv),
+                                RG_ARRAY(J->at, spokes), RG_ARRAY(J->at_own, M), RG_ARRAY(J->at_far, spokes),
+                                RG_ARRAY(J->sign, spokes), RG_ARRAY(J->b, 4 * M),
+                                RG_ARRAY(J->y, N + (size_t)K->freedom->U));
     if (s == RG_OK) {
         for (int32_t k = 0; k < m->M; k++)
             if (!G || G->vertex_orbit[m->inner_vertex[k]] == m->inner_vertex[k]) J->vertex[J->count++] = k;

@@ -64,38 +64,38 @@ rg_status rg_freedom_init(rg_freedom *f, const rg_memory *mem, const rg_mesh *m,
     f->mem = *mem;
     f->mesh = m;
     const size_t nv = (size_t)m->nv;
-    f->way = rg_mem_array(mem, nv, sizeof *f->way);
-    f->vertex = rg_mem_array(mem, 2 * nv, sizeof *f->vertex);
-    f->direction = rg_mem_array(mem, 2 * nv, sizeof *f->direction);
-    f->reach = rg_mem_array(mem, 2 * nv, sizeof *f->reach);
-    int32_t(*next)[2] = rg_mem_array(mem, nv, sizeof *next);
-    const int ok = f->way && f->vertex && f->direction && f->reach && next;
-    if (ok) {
-        for (int32_t v = 0; v < m->nv; v++) f->way[v][0] = f->way[v][1] = -1;
-        border_neighbours(m, next);
-        if (movable) find_ways(f, next);
-        measure_reach(f);
-    }
+    int32_t(*next)[2];
+    const rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(f->way, nv), RG_ARRAY(f->vertex, 2 * nv),
+                                      RG_ARRAY(f->direction, 2 * nv), RG_ARRAY(f->reach, 2 * nv), RG_ARRAY(next, nv));
+    if (s != RG_OK) return s;
+    for (int32_t v = 0; v < m->nv; v++) f->way[v][0] = f->way[v][1] = -1;
+    border_neighbours(m, next);
+    if (movable) find_ways(f, next);
+    measure_reach(f);
     rg_mem_free(mem, next);
-    if (!ok) rg_freedom_free(f);
-    return ok ? RG_OK : RG_ENOMEM;
+    return RG_OK;
 }
 
 void rg_freedom_free(rg_freedom *f)
 {
     if (!f->mem.resize) return;
-    void *block[] = {f->way, f->vertex, f->direction, f->reach};
-    for (int i = 0; i < 4; i++) rg_mem_free(&f->mem, block[i]);
+    RG_MEM_FREE(&f->mem, f->way, f->vertex, f->direction, f->reach);
     memset(f, 0, sizeof *f);
+}
+
+/* X[nv] grows by the ways u[U]. */
+static void add_ways(const rg_freedom *f, const double *u, rg_vec2 *X)
+{
+    for (int32_t i = 0; i < f->U; i++) {
+        rg_vec2 *x = &X[f->vertex[i]];
+        *x = (rg_vec2){x->x + u[i] * f->direction[i].x, x->y + u[i] * f->direction[i].y};
+    }
 }
 
 void rg_freedom_move(const rg_freedom *f, const double *u, rg_vec2 *X)
 {
     memcpy(X, f->mesh->X, (size_t)f->mesh->nv * sizeof *X);
-    for (int32_t i = 0; i < f->U; i++) {
-        rg_vec2 *x = &X[f->vertex[i]];
-        *x = (rg_vec2){x->x + u[i] * f->direction[i].x, x->y + u[i] * f->direction[i].y};
-    }
+    add_ways(f, u, X);
 }
 
 double rg_freedom_farthest(const rg_freedom *f, const double *u)
@@ -111,10 +111,7 @@ double rg_freedom_farthest(const rg_freedom *f, const double *u)
 void rg_freedom_mean(const rg_freedom *f, const rg_symmetry *G, double *u, rg_vec2 *d)
 {
     memset(d, 0, (size_t)f->mesh->nv * sizeof *d);
-    for (int32_t i = 0; i < f->U; i++) {
-        rg_vec2 *x = &d[f->vertex[i]];
-        *x = (rg_vec2){x->x + u[i] * f->direction[i].x, x->y + u[i] * f->direction[i].y};
-    }
+    add_ways(f, u, d);
     rg_symmetry_mean_vectors(G, d);
     for (int32_t i = 0; i < f->U; i++) u[i] = rg_vec2_dot(d[f->vertex[i]], f->direction[i]);
 }

@@ -26,12 +26,9 @@ rg_status rg_project_init(rg_project *P, const rg_memory *mem, const rg_constrai
     if (s == RG_OK) s = rg_scale_init(&P->scale, mem, &K->C);
     if (s == RG_OK && solver == RG_SOLVER_CHOLESKY) s = rg_cholesky_init(&P->cholesky, mem, &K->C, RG_SHAPE_AUTO);
     if (s == RG_OK && solver == RG_SOLVER_SVD) s = rg_pinv_init(&P->pinv, mem, M, N);
-    P->b = rg_mem_array(mem, 3 * (size_t)M, sizeof *P->b);
-    P->y = rg_mem_array(mem, 3 * (size_t)M, sizeof *P->y);
-    P->x = rg_mem_array(mem, (size_t)N, sizeof *P->x);
-    P->u = rg_mem_array(mem, 3 * (size_t)M, sizeof *P->u);
-    P->q = rg_mem_array(mem, (size_t)N, sizeof *P->q);
-    if (s == RG_OK && (!P->b || !P->y || !P->x || !P->u || !P->q)) s = RG_ENOMEM;
+    if (s == RG_OK) s = RG_MEM_ARRAYS(mem, RG_ARRAY(P->b, 3 * (size_t)M), RG_ARRAY(P->y, 3 * (size_t)M),
+                                      RG_ARRAY(P->x, (size_t)N), RG_ARRAY(P->u, 3 * (size_t)M),
+                                      RG_ARRAY(P->q, (size_t)N));
     if (s != RG_OK) rg_project_free(P);
     return s;
 }
@@ -45,11 +42,7 @@ void rg_project_free(rg_project *P)
     rg_pinv_free(&P->pinv);
     rg_cg_work_free(&P->cg);
     rg_scale_free(&P->scale);
-    rg_mem_free(&mem, P->b);
-    rg_mem_free(&mem, P->y);
-    rg_mem_free(&mem, P->x);
-    rg_mem_free(&mem, P->u);
-    rg_mem_free(&mem, P->q);
+    RG_MEM_FREE(&mem, P->b, P->y, P->x, P->u, P->q);
     memset(P, 0, sizeof *P);
 }
 

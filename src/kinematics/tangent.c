@@ -31,8 +31,8 @@ void rg_tangent_destroy(rg_tangent *t)
     const rg_memory mem = t->mem;
     rg_constraint_free(&t->K);
     rg_project_free(&t->P);
-    void *block[] = {t->row_start, t->column, t->vertex, t->value, t->residual, t->angle, t->v, t->rest, t->spare, t->basis};
-    for (int i = 0; i < 10; i++) rg_mem_free(&mem, block[i]);
+    RG_MEM_FREE(&mem, t->row_start, t->column, t->vertex, t->value, t->residual, t->angle, t->v, t->rest, t->spare,
+                t->basis);
     rg_mem_free(&mem, t);
 }
 
@@ -74,16 +74,11 @@ static rg_status fill(rg_tangent *t, const rg_mesh *m, const rg_vec2 *X, const d
     rg_status s = rg_constraint_init(&t->K, &t->mem, m);
     if (s == RG_OK && X) s = set_pattern(t, m, X);
     if (s == RG_OK) s = rg_project_init(&t->P, &t->mem, &t->K, RG_SOLVER_AUTO);
-    t->row_start = rg_mem_array(&t->mem, rows + 1, sizeof *t->row_start);
-    t->column = rg_mem_array(&t->mem, entries, sizeof *t->column);
-    t->value = rg_mem_array(&t->mem, entries, sizeof *t->value);
-    t->residual = rg_mem_array(&t->mem, rows, sizeof *t->residual);
-    t->vertex = rg_mem_array(&t->mem, (size_t)m->M, sizeof *t->vertex);
-    t->angle = rg_mem_array(&t->mem, (size_t)m->M, sizeof *t->angle);
-    t->v = rg_mem_array(&t->mem, (size_t)m->N, sizeof *t->v);
-    t->rest = rg_mem_array(&t->mem, (size_t)m->N, sizeof *t->rest);
-    t->spare = rg_mem_array(&t->mem, (size_t)m->N, sizeof *t->spare);
-    if (s == RG_OK && !(t->row_start && t->column && t->value && t->residual && t->vertex && t->angle && t->v && t->rest && t->spare)) s = RG_ENOMEM;
+    if (s == RG_OK) s = RG_MEM_ARRAYS(&t->mem, RG_ARRAY(t->row_start, rows + 1), RG_ARRAY(t->column, entries),
+                                      RG_ARRAY(t->value, entries), RG_ARRAY(t->residual, rows),
+                                      RG_ARRAY(t->vertex, (size_t)m->M), RG_ARRAY(t->angle, (size_t)m->M),
+                                      RG_ARRAY(t->v, (size_t)m->N), RG_ARRAY(t->rest, (size_t)m->N),
+                                      RG_ARRAY(t->spare, (size_t)m->N));
     if (s != RG_OK) return s;
     rg_constraint_assemble(&t->K, rho);
     compress(t);
@@ -186,7 +181,7 @@ rg_status rg_tangent_basis(rg_tangent *t, int32_t *freedoms, const double **basi
     rg_status s = RG_OK;
     for (int32_t n = 0, none = 0; t->freedoms < 0;) {
         double length;
-        s = rg_mem_grow(&t->mem, (void **)&t->basis, &t->basis_room, ((size_t)n + 1) * N, sizeof *t->basis);
+        s = RG_MEM_GROW(&t->mem, t->basis, t->basis_room, ((size_t)n + 1) * N);
         if (s == RG_OK) s = find_motion(t, n, &seed, t->basis + (size_t)n * N, &length);
         if (s != RG_OK) return s;
         none = length > NOTHING ? 0 : none + 1;

@@ -24,21 +24,15 @@ rg_status rg_cg_work_init(rg_cg_work *w, const rg_memory *mem, int32_t M, int32_
     w->mem = *mem;
     w->M = M;
     w->N = N;
-    double **row[] = {&w->r, &w->z, &w->u, &w->q, &w->w};
-    double **column[] = {&w->s, &w->p};
-    int ok = 1;
-    for (int i = 0; i < 5; i++) ok &= (*row[i] = rg_mem_array(mem, 3 * (size_t)M, sizeof(double))) != NULL;
-    for (int i = 0; i < 2; i++) ok &= (*column[i] = rg_mem_array(mem, (size_t)N, sizeof(double))) != NULL;
-    if (ok) return RG_OK;
-    rg_cg_work_free(w);
-    return RG_ENOMEM;
+    const size_t m = 3 * (size_t)M, n = (size_t)N;
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(w->r, m), RG_ARRAY(w->z, m), RG_ARRAY(w->u, m), RG_ARRAY(w->q, m),
+                         RG_ARRAY(w->w, m), RG_ARRAY(w->s, n), RG_ARRAY(w->p, n));
 }
 
 void rg_cg_work_free(rg_cg_work *w)
 {
     if (!w->mem.resize) return;
-    double *all[] = {w->r, w->z, w->u, w->q, w->w, w->s, w->p};
-    for (int i = 0; i < 7; i++) rg_mem_free(&w->mem, all[i]);
+    RG_MEM_FREE(&w->mem, w->r, w->z, w->u, w->q, w->w, w->s, w->p);
     memset(w, 0, sizeof *w);
 }
 
@@ -128,8 +122,8 @@ void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double 
 
 /* So many steps in a row none of which is shorter than half the shortest before: that is rounding. */
 static const int32_t STALLED = 6;
-/* Where each step is shorter than the one before by as much again, the next would be shorter than what is asked for by this factor
- * at the least: it is not looked at. */
+/* Steps that grow shorter as regularly as the last two: the next would be shorter than what is asked for by this factor
+ * at the least, and is not looked at. */
 static const double UNSEEN = 10;
 /* A step this much shorter than the first, against a residual that is out of reach, may have lost its direction. */
 static const double ROUNDED = 1e-5;

@@ -2,17 +2,17 @@
 
 #include <string.h>
 
-/* The rows of B have length 1. Rounding is amplified by 1 / beta, so beta is far above it; modes that are slower than beta
- * cost the iteration a step each, so it is below all but a few: the slowest mode of a sheet of n x n vertices is about
- * n^-4. */
+/* The rows of B have length 1. Rounding is amplified by 1 / beta, so beta is far above it; modes that are slower than
+ * beta cost the iteration a step each, so it is below all but a few: the slowest mode of a sheet of n x n vertices is
+ * about n^-4. */
 static const double BETA = 1e-10;
 /* Where a pivot fails all the same. */
 static const double BETA_GROWTH = 100, BETA_LARGEST = 1e-2;
 /* A vertex of that many creases makes so large a clique of columns that both shapes are tried. */
 static const int32_t HIGH_DEGREE = 10;
 
-/* Calls visit(ctx, i, j) for each product of two numbers of B that is added to the matrix at (i, j), in the order in which
- * add_columns and add_rows add them. */
+/* Calls visit(ctx, i, j) for each product of two numbers of B that is added to the matrix at (i, j), in the order in
+ * which add_columns and add_rows add them. */
 typedef void visitor(void *ctx, int32_t i, int32_t j);
 
 static void visit_columns(const rg_sparse *B, visitor *visit, void *ctx)
@@ -136,8 +136,7 @@ static rg_status init_shape(rg_cholesky *P, const rg_memory *mem, const rg_spars
         p.start[n] = at;
         s = rg_supernodal_init(&P->L, mem, n, p.start, p.row);
     }
-    rg_mem_free(mem, p.start);
-    rg_mem_free(mem, p.row);
+    RG_MEM_FREE(mem, p.start, p.row);
     return s;
 }
 
@@ -151,13 +150,11 @@ static rg_status finish_init(rg_cholesky *P, const rg_sparse *B)
 {
     int32_t count = 0;
     visit_all(P->shape, B, count_only, &count);
-    P->to = rg_mem_array(&P->mem, (size_t)count, sizeof *P->to);
-    P->x = rg_mem_array(&P->mem, (size_t)B->N, sizeof *P->x);
     P->B = *B;
-    P->B.x = rg_mem_array(&P->mem, (size_t)B->start[B->M], sizeof *B->x);
-    if (!P->to || !P->x || !P->B.x) return RG_ENOMEM;
-    visit_all(P->shape, B, find_one, &(products){.L = &P->L, .to = P->to});
-    return RG_OK;
+    const rg_status s = RG_MEM_ARRAYS(&P->mem, RG_ARRAY(P->to, (size_t)count), RG_ARRAY(P->x, (size_t)B->N),
+                                      RG_ARRAY(P->B.x, (size_t)B->start[B->M]));
+    if (s == RG_OK) visit_all(P->shape, B, find_one, &(products){.L = &P->L, .to = P->to});
+    return s;
 }
 
 static int32_t largest_degree(const rg_sparse *B)
@@ -188,9 +185,7 @@ void rg_cholesky_free(rg_cholesky *P)
 {
     if (!P->mem.resize) return;
     rg_supernodal_free(&P->L);
-    rg_mem_free(&P->mem, P->to);
-    rg_mem_free(&P->mem, P->x);
-    rg_mem_free(&P->mem, P->B.x);
+    RG_MEM_FREE(&P->mem, P->to, P->x, P->B.x);
     memset(P, 0, sizeof *P);
 }
 

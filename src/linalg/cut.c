@@ -19,18 +19,15 @@ typedef struct flow {
 
 static void free_flow(const rg_memory *mem, flow *F)
 {
-    int32_t *array[] = {F->node, F->local, F->from_a, F->to_b, F->start, F->to,
-                        F->back, F->f, F->through, F->level, F->next, F->queue};
-    for (int i = 0; i < 12; i++) rg_mem_free(mem, array[i]);
+    RG_MEM_FREE(mem, F->node, F->local, F->from_a, F->to_b, F->start, F->to, F->back, F->f, F->through, F->level,
+                F->next, F->queue);
 }
 
 /* The separator and LAYERS layers of neighbours on both sides, as far as parts stay large enough. */
 static int make_band(const rg_memory *mem, const rg_parting *p, flow *F)
 {
     const rg_weighted *g = p->g;
-    F->node = rg_mem_array(mem, (size_t)g->n, sizeof *F->node);
-    F->local = rg_mem_array(mem, (size_t)g->n, sizeof *F->local);
-    if (!F->node || !F->local) return 0;
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(F->node, (size_t)g->n), RG_ARRAY(F->local, (size_t)g->n)) != RG_OK) return 0;
     for (int32_t v = 0; v < g->n; v++)
         if (p->part[v] == RG_SEPARATOR) F->node[F->n] = v, F->local[v] = ++F->n;
     int32_t left[2];
@@ -49,11 +46,9 @@ static int make_band(const rg_memory *mem, const rg_parting *p, flow *F)
     int32_t edges = 0;
     for (int32_t i = 0; i < F->n; i++) edges += g->start[F->node[i] + 1] - g->start[F->node[i]];
     const size_t n = (size_t)F->n, e = (size_t)edges;
-    const struct { int32_t **array; size_t n; } all[] = {
-        {&F->from_a, n}, {&F->to_b, n}, {&F->start, n + 1}, {&F->to, e}, {&F->back, e}, {&F->f, e}, {&F->through, n},
-        {&F->level, 2 * n}, {&F->next, 2 * n}, {&F->queue, 2 * n}};
-    for (int i = 0; i < 10; i++)
-        if (!(*all[i].array = rg_mem_array(mem, all[i].n, sizeof(int32_t)))) return 0;
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(F->from_a, n), RG_ARRAY(F->to_b, n), RG_ARRAY(F->start, n + 1),
+                      RG_ARRAY(F->to, e), RG_ARRAY(F->back, e), RG_ARRAY(F->f, e), RG_ARRAY(F->through, n),
+                      RG_ARRAY(F->level, 2 * n), RG_ARRAY(F->next, 2 * n), RG_ARRAY(F->queue, 2 * n)) != RG_OK) return 0;
     int32_t *at = F->next;
     for (int32_t i = 0; i < F->n; i++) {
         const int32_t v = F->node[i];

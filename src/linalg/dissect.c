@@ -40,11 +40,11 @@ static int dissect(const rg_memory *mem, rg_weighted *g, int32_t *id, int32_t *s
     int32_t *part = NULL, *fresh = NULL, *of[2] = {NULL, NULL}, weight[3] = {0};
     rg_weighted half[2] = {{0}, {0}};
     if (g->total > LEAF) {
-        part = rg_mem_array(mem, (size_t)g->n, sizeof *part);
-        fresh = rg_mem_array(mem, (size_t)g->n, sizeof *fresh);
-        if (!part || !fresh || !rg_separate(g, mem, part)) goto out;
-        for (int32_t v = 0; v < g->n; v++) weight[part[v]] += g->weight[v];
-        parted = weight[0] > 0 && weight[1] > 0 && weight[0] <= LARGEST_PART * g->total && weight[1] <= LARGEST_PART * g->total;
+        if (RG_MEM_ARRAYS(mem, RG_ARRAY(part, (size_t)n), RG_ARRAY(fresh, (size_t)n)) != RG_OK) goto out;
+        if (!rg_separate(g, mem, part)) goto out;
+        for (int32_t v = 0; v < n; v++) weight[part[v]] += g->weight[v];
+        parted = 1;
+        for (int32_t k = 0; k < 2; k++) parted &= weight[k] > 0 && weight[k] <= LARGEST_PART * g->total;
     }
     if (parted) {
         for (int32_t k = 0; k < 2; k++)
@@ -63,13 +63,11 @@ static int dissect(const rg_memory *mem, rg_weighted *g, int32_t *id, int32_t *s
 out:
     rg_weighted_free(g, mem);
     for (int32_t k = 0; k < 2; k++) rg_weighted_free(&half[k], mem), rg_mem_free(mem, of[k]);
-    rg_mem_free(mem, part);
-    rg_mem_free(mem, fresh);
-    rg_mem_free(mem, id);
+    RG_MEM_FREE(mem, part, fresh, id);
     return done;
 }
 
-/* of[n]: out, one number for nodes with the same neighbours that are neighbours themselves, as the equations of one vertex are.
+/* of[n]: out, one number for nodes that are neighbours and have the same other ones, as the equations of one vertex do.
  * met[n]: scratch, zero. Returns how many numbers. */
 static int32_t alike(int32_t n, const int32_t *start, const int32_t *to, int32_t *of, uint32_t *sum, int32_t *met)
 {
@@ -101,20 +99,19 @@ static int32_t alike(int32_t n, const int32_t *start, const int32_t *to, int32_t
 int32_t rg_dissect(const rg_memory *mem, int32_t n, const int32_t *start, const int32_t *to, int32_t *set)
 {
     const int32_t edges = start[n];
-    int32_t *of = rg_mem_array(mem, (size_t)n, sizeof *of), *met = rg_mem_array(mem, (size_t)n, sizeof *met), *id = NULL;
-    int32_t *few = NULL, sets = -1;
-    uint32_t *sum = rg_mem_array(mem, (size_t)n, sizeof *sum);
+    int32_t *of, *met, *id = NULL, *few = NULL, sets = -1;
+    uint32_t *sum;
     rg_weighted all = {0}, g = {0};
-    if (!of || !met || !sum || !rg_weighted_init(&all, mem, n, edges)) goto out;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(of, (size_t)n), RG_ARRAY(met, (size_t)n), RG_ARRAY(sum, (size_t)n));
+    if (s != RG_OK || !rg_weighted_init(&all, mem, n, edges)) goto out;
     memcpy(all.start, start, ((size_t)n + 1) * sizeof *start);
     memcpy(all.to, to, (size_t)edges * sizeof *to);
     for (int32_t v = 0; v < n; v++) all.weight[v] = 1;
     for (int32_t j = 0; j < edges; j++) all.edge[j] = 1;
     all.total = n;
     const int32_t fewer = alike(n, start, to, of, sum, met);
-    id = rg_mem_array(mem, (size_t)fewer, sizeof *id);
-    few = rg_mem_array(mem, (size_t)fewer, sizeof *few);
-    if (!id || !few || !rg_weighted_contract(&all, mem, of, fewer, &g)) goto out;
+    s = RG_MEM_ARRAYS(mem, RG_ARRAY(id, (size_t)fewer), RG_ARRAY(few, (size_t)fewer));
+    if (s != RG_OK || !rg_weighted_contract(&all, mem, of, fewer, &g)) goto out;
     rg_weighted_free(&all, mem);
     for (int32_t v = 0; v < fewer; v++) id[v] = v;
     sets = 0;
@@ -125,10 +122,6 @@ int32_t rg_dissect(const rg_memory *mem, int32_t n, const int32_t *start, const 
 out:
     rg_weighted_free(&all, mem);
     rg_weighted_free(&g, mem);
-    rg_mem_free(mem, of);
-    rg_mem_free(mem, met);
-    rg_mem_free(mem, id);
-    rg_mem_free(mem, few);
-    rg_mem_free(mem, sum);
+    RG_MEM_FREE(mem, of, met, id, few, sum);
     return sets;
 }

@@ -10,8 +10,8 @@ static const double BETA = 1e-11;
 static const double BETA_GROWTH = 100, BETA_LARGEST = 1;
 /* A factor is right but for its beta: it needs two or three iterations. */
 static const int32_t MOST_ITERATIONS = 6;
-/* Curvature over what the preconditioner makes of the residual is lambda / (lambda + beta) along a mode of A A^T: what is
- * below is rounding in modes that no column can turn, and a step along it would be nothing but noise. */
+/* Curvature over what the preconditioner makes of the residual is lambda / (lambda + beta) along a mode of A A^T: below
+ * this it is rounding in modes that no column can turn, and a step along it would be nothing but noise. */
 static const double OUT_OF_REACH = 0.1;
 /* Each leaves some 1e-5 of what is out of reach, rounding over beta. */
 static const int PASSES = 2;
@@ -22,10 +22,9 @@ static const double TOLERANCE = 1e-12;
 static rg_status square(const rg_least *A, int32_t *start, int32_t **rows)
 {
     const size_t m = (size_t)A->rows, entries = (size_t)A->start[A->columns];
-    int32_t *first = rg_mem_array(&A->mem, m + 2, sizeof *first), *column = rg_mem_array(&A->mem, entries, sizeof *column);
-    int32_t *seen = rg_mem_array(&A->mem, m, sizeof *seen), *row = NULL;
+    int32_t *first, *column, *seen, *row = NULL;
     size_t room = 0, at = 0;
-    rg_status s = first && column && seen ? RG_OK : RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(&A->mem, RG_ARRAY(first, m + 2), RG_ARRAY(column, entries), RG_ARRAY(seen, m));
     if (s == RG_OK) {
         for (size_t j = 0; j < entries; j++) first[A->row[j] + 2]++;
         for (size_t i = 2; i <= m; i++) first[i] += first[i - 1];
@@ -38,18 +37,16 @@ static rg_status square(const rg_least *A, int32_t *start, int32_t **rows)
             for (int32_t j = A->start[column[k]]; s == RG_OK && j < A->start[column[k] + 1]; j++) {
                 if (seen[A->row[j]] == i + 1) continue;
                 seen[A->row[j]] = i + 1;
-                s = at < INT32_MAX ? rg_mem_grow(&A->mem, (void **)&row, &room, at + 2, sizeof *row) : RG_ENOMEM;
+                s = at < INT32_MAX ? RG_MEM_GROW(&A->mem, row, room, at + 2) : RG_ENOMEM;
                 if (s == RG_OK) row[at++] = A->row[j];
             }
         if (s == RG_OK && seen[i] != i + 1) { /* a row without entries still has its place on the diagonal */
-            s = rg_mem_grow(&A->mem, (void **)&row, &room, at + 2, sizeof *row);
+            s = RG_MEM_GROW(&A->mem, row, room, at + 2);
             if (s == RG_OK) row[at++] = i;
         }
     }
     start[A->rows] = (int32_t)at;
-    rg_mem_free(&A->mem, first);
-    rg_mem_free(&A->mem, column);
-    rg_mem_free(&A->mem, seen);
+    RG_MEM_FREE(&A->mem, first, column, seen);
     *rows = row;
     return s;
 }
@@ -68,8 +65,7 @@ static rg_status plan(rg_least *A)
     for (int32_t c = 0; s == RG_OK && c < A->columns; c++)
         for (int32_t i = A->start[c]; i < A->start[c + 1]; i++)
             for (int32_t j = A->start[c]; j <= i; j++) A->to[at++] = rg_supernodal_slot(&A->L, A->row[i], A->row[j]);
-    rg_mem_free(&A->mem, start);
-    rg_mem_free(&A->mem, row);
+    RG_MEM_FREE(&A->mem, start, row);
     return s;
 }
 
@@ -82,14 +78,9 @@ rg_status rg_least_init(rg_least *A, const rg_memory *mem, int32_t rows, int32_t
     A->rows = rows;
     A->columns = columns;
     const size_t m = (size_t)rows, n = (size_t)columns, entries = (size_t)start[columns];
-    A->start = rg_mem_array(mem, n + 1, sizeof *A->start);
-    A->row = rg_mem_array(mem, entries, sizeof *A->row);
-    A->x = rg_mem_array(mem, entries, sizeof *A->x);
-    A->t = rg_mem_array(mem, n, sizeof *A->t);
-    double **of_rows[] = {&A->y, &A->r, &A->z, &A->p, &A->q};
-    rg_status s = A->start && A->row && A->x && A->t ? RG_OK : RG_ENOMEM;
-    for (int i = 0; i < 5; i++)
-        if (!(*of_rows[i] = rg_mem_array(mem, m, sizeof(double)))) s = RG_ENOMEM;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(A->start, n + 1), RG_ARRAY(A->row, entries), RG_ARRAY(A->x, entries),
+                                RG_ARRAY(A->t, n), RG_ARRAY(A->y, m), RG_ARRAY(A->r, m), RG_ARRAY(A->z, m),
+                                RG_ARRAY(A->p, m), RG_ARRAY(A->q, m));
     if (s == RG_OK) {
         memcpy(A->start, start, (n + 1) * sizeof *start);
         memcpy(A->row, row, entries * sizeof *row);
@@ -104,8 +95,7 @@ void rg_least_free(rg_least *A)
     if (!A->mem.resize) return;
     const rg_memory mem = A->mem;
     rg_supernodal_free(&A->L);
-    void *block[] = {A->to, A->start, A->row, A->x, A->y, A->r, A->z, A->p, A->q, A->t};
-    for (int i = 0; i < 10; i++) rg_mem_free(&mem, block[i]);
+    RG_MEM_FREE(&mem, A->to, A->start, A->row, A->x, A->y, A->r, A->z, A->p, A->q, A->t);
     memset(A, 0, sizeof *A);
 }
 

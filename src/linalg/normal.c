@@ -7,19 +7,16 @@ rg_status rg_normal_init(rg_normal *N, const rg_memory *mem, int32_t n)
     memset(N, 0, sizeof *N);
     N->mem = *mem;
     N->n = n;
-    N->diagonal = rg_mem_array(mem, (size_t)n, sizeof *N->diagonal);
-    N->scratch = rg_mem_array(mem, 2 * (size_t)n, sizeof *N->scratch);
-    if (N->diagonal && N->scratch) return RG_OK;
-    rg_normal_free(N);
-    return RG_ENOMEM;
+    const rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(N->diagonal, (size_t)n), RG_ARRAY(N->scratch, 2 * (size_t)n));
+    if (s != RG_OK) rg_normal_free(N);
+    return s;
 }
 
 void rg_normal_free(rg_normal *N)
 {
     if (!N->mem.resize) return;
     rg_supernodal_free(&N->L);
-    rg_mem_free(&N->mem, N->diagonal);
-    rg_mem_free(&N->mem, N->scratch);
+    RG_MEM_FREE(&N->mem, N->diagonal, N->scratch);
     memset(N, 0, sizeof *N);
 }
 
@@ -30,16 +27,17 @@ static rg_status transpose(const rg_normal *N, const rg_rows *const *lists, int3
 {
     size_t entries = 0;
     for (int32_t k = 0; k < count; k++) entries += (size_t)lists[k]->start[lists[k]->count];
-    t->first = rg_mem_array(&N->mem, (size_t)N->n + 2, sizeof *t->first);
-    t->of = rg_mem_array(&N->mem, entries, sizeof *t->of);
-    if (!t->first || !t->of || entries > INT32_MAX) return RG_ENOMEM;
+    if (entries > INT32_MAX) return RG_ENOMEM;
+    const rg_status s = RG_MEM_ARRAYS(&N->mem, RG_ARRAY(t->first, (size_t)N->n + 2), RG_ARRAY(t->of, entries));
+    if (s != RG_OK) return s;
     for (int32_t k = 0; k < count; k++)
         for (int32_t j = 0; j < lists[k]->start[lists[k]->count]; j++) t->first[lists[k]->col[j] + 2]++;
     for (int32_t j = 2; j <= N->n; j++) t->first[j] += t->first[j - 1];
     int32_t base = 0;
     for (int32_t k = 0; k < count; base += lists[k++]->count)
         for (int32_t i = 0; i < lists[k]->count; i++)
-            for (int32_t j = lists[k]->start[i]; j < lists[k]->start[i + 1]; j++) t->of[t->first[lists[k]->col[j] + 1]++] = base + i;
+            for (int32_t j = lists[k]->start[i]; j < lists[k]->start[i + 1]; j++)
+                t->of[t->first[lists[k]->col[j] + 1]++] = base + i;
     return RG_OK;
 }
 
@@ -83,10 +81,7 @@ rg_status rg_normal_analyse(rg_normal *N, const rg_rows *const *lists, int32_t c
     if (s == RG_OK) s = rg_supernodal_init(&N->L, &N->mem, N->n, start, row);
     for (int32_t j = 0; s == RG_OK && j < N->n; j++) N->diagonal[j] = rg_supernodal_slot(&N->L, j, j);
     N->analyses++;
-    rg_mem_free(&N->mem, t.first);
-    rg_mem_free(&N->mem, t.of);
-    rg_mem_free(&N->mem, start);
-    rg_mem_free(&N->mem, row);
+    RG_MEM_FREE(&N->mem, t.first, t.of, start, row);
     return s;
 }
 
@@ -96,7 +91,7 @@ rg_status rg_normal_find(const rg_normal *N, const rg_rows *rows, rg_slots *s, i
     for (; s->rows < rows->count; s->rows++) {
         const int32_t first = rows->start[s->rows], n = rows->start[s->rows + 1] - first;
         const size_t products = (size_t)n * ((size_t)n + 1) / 2;
-        const rg_status status = rg_mem_grow(&N->mem, (void **)&s->to, &s->room, s->used + products, sizeof *s->to);
+        const rg_status status = RG_MEM_GROW(&N->mem, s->to, s->room, s->used + products);
         if (status != RG_OK) return status;
         *fits = rg_supernodal_find(&N->L, n, rows->col + first, N->scratch, N->scratch + N->n, s->to + s->used);
         if (!*fits) return RG_OK;

@@ -38,10 +38,8 @@ static rg_status list_rows(const rg_sparse *B, int upright, const rg_memory *mem
     const size_t rows = upright ? 3 * (size_t)B->M : (size_t)B->N, entries = 3 * (size_t)B->start[B->M];
     int32_t n = 0;
     A->mem = *mem;
-    A->start = rg_mem_array(mem, rows + 1, sizeof *A->start);
-    A->col = rg_mem_array(mem, entries, sizeof *A->col);
-    A->x = rg_mem_array(mem, entries, sizeof *A->x);
-    if (!A->start || !A->col || !A->x) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(A->start, rows + 1), RG_ARRAY(A->col, entries),
+                      RG_ARRAY(A->x, entries)) != RG_OK) return RG_ENOMEM;
     for (int32_t row = 0; upright && row < 3 * B->M; row++) {
         for (int32_t b = B->start[row / 3]; b < B->start[row / 3 + 1]; b++) {
             const double v[3] = {B->x[b].x, B->x[b].y, B->x[b].z};
@@ -89,13 +87,9 @@ static rg_status make(factor *f, const rg_sparse *B)
     if (s == RG_OK) s = rg_normal_analyse(&f->R, &list, 1);
     if (s != RG_OK) return s;
     const size_t fronts = (size_t)f->R.L.S.count;
-    f->first = rg_mem_array(f->mem, (size_t)f->A.count, sizeof *f->first);
-    f->order = rg_mem_array(f->mem, (size_t)f->A.count, sizeof *f->order);
-    f->begin = rg_mem_array(f->mem, (size_t)columns + 1, sizeof *f->begin);
-    f->place = rg_mem_array(f->mem, (size_t)columns, sizeof *f->place);
-    f->child = rg_mem_array(f->mem, fronts, sizeof *f->child);
-    f->part = rg_mem_array(f->mem, fronts, sizeof *f->part);
-    if (!f->first || !f->order || !f->begin || !f->place || !f->child || !f->part) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(f->mem, RG_ARRAY(f->first, (size_t)f->A.count), RG_ARRAY(f->order, (size_t)f->A.count),
+                      RG_ARRAY(f->begin, (size_t)columns + 1), RG_ARRAY(f->place, (size_t)columns),
+                      RG_ARRAY(f->child, fronts), RG_ARRAY(f->part, fronts)) != RG_OK) return RG_ENOMEM;
     for (size_t k = 0; k < fronts; k++) f->child[k] = -1;
     sort_rows(f);
     return RG_OK;
@@ -103,16 +97,14 @@ static rg_status make(factor *f, const rg_sparse *B)
 
 static void free_part(const factor *f, int32_t front)
 {
-    rg_mem_free(f->mem, f->part[front].x);
-    rg_mem_free(f->mem, f->part[front].lead);
+    RG_MEM_FREE(f->mem, f->part[front].x, f->part[front].lead);
     f->part[front].x = NULL, f->part[front].lead = NULL, f->part[front].rows = 0;
 }
 
 static void free_factor(factor *f)
 {
     for (int32_t k = 0; f->part && k < f->R.L.S.count; k++) free_part(f, k);
-    void *block[] = {f->first, f->order, f->begin, f->place, f->child, f->part};
-    for (int i = 0; i < 6; i++) rg_mem_free(f->mem, block[i]);
+    RG_MEM_FREE(f->mem, f->first, f->order, f->begin, f->place, f->child, f->part);
     rg_rows_free(&f->A);
     rg_normal_free(&f->R);
 }
@@ -137,10 +129,9 @@ static rg_status gather(factor *f, int32_t s, front *F)
     F->rows = to - from;
     for (int32_t k = 0; k < F->columns; k++) f->place[col[k]] = k;
     for (int32_t c = f->child[s]; c >= 0; c = f->part[c].next) F->rows += f->part[c].rows;
-    F->x = rg_mem_array(f->mem, (size_t)F->rows * (size_t)F->columns, sizeof *F->x);
-    F->below = rg_mem_array(f->mem, (size_t)F->columns + 1, sizeof *F->below);
-    F->lead = rg_mem_array(f->mem, (size_t)F->rows, sizeof *F->lead);
-    if (!F->x || !F->below || !F->lead) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(f->mem, RG_ARRAY(F->x, (size_t)F->rows * (size_t)F->columns),
+                      RG_ARRAY(F->below, (size_t)F->columns + 1),
+                      RG_ARRAY(F->lead, (size_t)F->rows)) != RG_OK) return RG_ENOMEM;
     for (int32_t i = from; i < to; i++) F->below[f->place[f->first[f->order[i]]] + 1]++;
     for (int32_t c = f->child[s]; c >= 0; c = f->part[c].next) {
         const int32_t *up = S->row + S->start[c] + S->column[c + 1] - S->column[c];
@@ -204,9 +195,7 @@ static rg_status hand_up(factor *f, int32_t s, const front *F, int32_t own, int3
     const size_t rows = (size_t)(taken - own), wide = (size_t)(F->columns - F->pivots);
     part *p = &f->part[s];
     if (rows == 0 || wide == 0) return RG_OK;
-    p->x = rg_mem_array(f->mem, rows * wide, sizeof *p->x);
-    p->lead = rg_mem_array(f->mem, rows, sizeof *p->lead);
-    if (!p->x || !p->lead) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(f->mem, RG_ARRAY(p->x, rows * wide), RG_ARRAY(p->lead, rows)) != RG_OK) return RG_ENOMEM;
     p->rows = (int32_t)rows;
     for (size_t i = 0; i < rows; i++) p->lead[i] = F->lead[(size_t)own + i] - F->pivots;
     for (size_t k = 0; k < wide; k++)
@@ -228,9 +217,7 @@ rg_status rg_qr_rank(const rg_sparse *B, double cut, int32_t *rank)
         s = gather(&f, k, &F);
         if (s == RG_OK) own = eliminate(&F, cut, &pivots, &taken);
         if (s == RG_OK) s = hand_up(&f, k, &F, own, taken);
-        rg_mem_free(f.mem, F.x);
-        rg_mem_free(f.mem, F.below);
-        rg_mem_free(f.mem, F.lead);
+        RG_MEM_FREE(f.mem, F.x, F.below, F.lead);
     }
     free_factor(&f);
     if (s == RG_OK) *rank = pivots;

@@ -29,14 +29,11 @@ rg_status rg_pinv_init(rg_pinv *P, const rg_memory *mem, int32_t M, int32_t N)
     if (!d) return RG_ENOMEM;
     d->tall = (size_t)(3 * M > N ? 3 * M : N);
     d->small = (size_t)(3 * M > N ? N : 3 * M);
-    d->u = rg_mem_array(mem, d->tall * d->small, sizeof *d->u);
-    d->v = rg_mem_array(mem, d->small * d->small, sizeof *d->v);
-    d->x = rg_mem_array(mem, d->small * d->small, sizeof *d->x);
-    d->s = rg_mem_array(mem, d->small, sizeof *d->s);
-    d->work = rg_mem_array(mem, d->small, sizeof *d->work);
-    if (d->u && d->v && d->x && d->s && d->work) return RG_OK;
-    rg_pinv_free(P);
-    return RG_ENOMEM;
+    const rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(d->u, d->tall * d->small), RG_ARRAY(d->v, d->small * d->small),
+                                      RG_ARRAY(d->x, d->small * d->small), RG_ARRAY(d->s, d->small),
+                                      RG_ARRAY(d->work, d->small));
+    if (s != RG_OK) rg_pinv_free(P);
+    return s;
 }
 
 void rg_pinv_free(rg_pinv *P)
@@ -44,8 +41,7 @@ void rg_pinv_free(rg_pinv *P)
     if (!P->mem.resize) return;
     dense *d = P->dense;
     if (d) {
-        double *all[] = {d->u, d->v, d->x, d->s, d->work};
-        for (int i = 0; i < 5; i++) rg_mem_free(&P->mem, all[i]);
+        RG_MEM_FREE(&P->mem, d->u, d->v, d->x, d->s, d->work);
         rg_mem_free(&P->mem, d);
     }
     memset(P, 0, sizeof *P);

@@ -13,18 +13,16 @@ rg_status rg_scale_init(rg_scale *S, const rg_memory *mem, const rg_sparse *C)
     memset(S, 0, sizeof *S);
     S->mem = *mem;
     S->B = *C;
-    S->B.x = rg_mem_array(mem, (size_t)C->start[C->M], sizeof *S->B.x);
-    S->inverse = rg_mem_array(mem, (size_t)C->M, sizeof *S->inverse);
-    if (S->B.x && S->inverse) return RG_OK;
-    rg_scale_free(S);
-    return RG_ENOMEM;
+    const rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(S->B.x, (size_t)C->start[C->M]),
+                                      RG_ARRAY(S->inverse, (size_t)C->M));
+    if (s != RG_OK) rg_scale_free(S);
+    return s;
 }
 
 void rg_scale_free(rg_scale *S)
 {
     if (!S->mem.resize) return;
-    rg_mem_free(&S->mem, S->B.x);
-    rg_mem_free(&S->mem, S->inverse);
+    RG_MEM_FREE(&S->mem, S->B.x, S->inverse);
     memset(S, 0, sizeof *S);
 }
 

@@ -32,8 +32,8 @@ static int32_t coprime(int32_t n, int32_t from)
     }
 }
 
-/* Each node with the neighbour that most edges lead to, if that is free; in another order for each trial. Returns how many
- * nodes are left. */
+/* Each node with the neighbour that most edges lead to, if that is free; in another order for each trial. Returns how
+ * many nodes are left. */
 static int32_t match(const rg_weighted *g, int32_t trial, int32_t *of)
 {
     const int32_t heaviest = 1 + (int32_t)(HEAVIEST * g->total / COARSEST);
@@ -67,7 +67,10 @@ static void put(heap *h, int32_t at, int32_t v)
     h->place[v] = at + 1;
 }
 
-static int before(const heap *h, int32_t u, int32_t v) { return h->key[u] > h->key[v] || (h->key[u] == h->key[v] && u < v); }
+static int before(const heap *h, int32_t u, int32_t v)
+{
+    return h->key[u] > h->key[v] || (h->key[u] == h->key[v] && u < v);
+}
 
 static void sift(heap *h, int32_t at)
 {
@@ -154,7 +157,8 @@ static void move(refinement *r, int32_t v, int32_t part)
     }
 }
 
-/* Fiduccia and Mattheyses's passes: the best move again and again, also where it is none, and back to the best that was met. */
+/* Fiduccia and Mattheyses's passes: the best move again and again, even if it gains nothing; then back to the best cut
+ * that was met. */
 static void refine(refinement *r)
 {
     const rg_weighted *g = r->p.g;
@@ -163,7 +167,8 @@ static void refine(refinement *r)
         r->pass++;
         r->changes = 0;
         for (int32_t v = 0; v < g->n; v++)
-            if (r->p.part[v] == RG_SEPARATOR) heap_add(&r->to[0], v, loss(r, v, 0)), heap_add(&r->to[1], v, loss(r, v, 1));
+            for (int part = 0; part < 2 && r->p.part[v] == RG_SEPARATOR; part++)
+                heap_add(&r->to[part], v, loss(r, v, part));
         const double from = rg_parting_cost(&r->p);
         double least = from;
         int32_t kept = 0;
@@ -192,30 +197,25 @@ static void refine(refinement *r)
     }
 }
 
-
-static int init_refinement(const rg_memory *mem, refinement *r, const rg_weighted *g)
+static rg_status init_refinement(const rg_memory *mem, refinement *r, const rg_weighted *g)
 {
     const size_t n = (size_t)g->n;
     *r = (refinement){.p = {.g = g}};
-    int32_t **array[] = {&r->p.part, &r->moved, &r->to[0].node, &r->to[0].place, &r->to[0].key, &r->to[1].node, &r->to[1].place,
-                         &r->to[1].key};
-    int made = 1;
-    for (int i = 0; i < 8; i++) made &= (*array[i] = rg_mem_array(mem, n, sizeof **array[i])) != NULL;
+    heap *a = &r->to[0], *b = &r->to[1];
     /* A node leaves the separator once a pass, and comes into it twice at the most. */
-    made &= (r->log = rg_mem_array(mem, 3 * n, sizeof *r->log)) != NULL;
-    made &= (r->was = rg_mem_array(mem, 3 * n, sizeof *r->was)) != NULL;
-    return made;
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(r->p.part, n), RG_ARRAY(r->moved, n), RG_ARRAY(a->node, n),
+                         RG_ARRAY(a->place, n), RG_ARRAY(a->key, n), RG_ARRAY(b->node, n), RG_ARRAY(b->place, n),
+                         RG_ARRAY(b->key, n), RG_ARRAY(r->log, 3 * n), RG_ARRAY(r->was, 3 * n));
 }
 
 static void free_refinement(const rg_memory *mem, refinement *r)
 {
-    int32_t *array[] = {r->p.part, r->moved, r->to[0].node, r->to[0].place, r->to[0].key, r->to[1].node, r->to[1].place,
-                        r->to[1].key, r->log, r->was};
-    for (int i = 0; i < 10; i++) rg_mem_free(mem, array[i]);
+    RG_MEM_FREE(mem, r->p.part, r->moved, r->to[0].node, r->to[0].place, r->to[0].key, r->to[1].node, r->to[1].place,
+                r->to[1].key, r->log, r->was);
 }
 
-/* Nodes as they are met from v on, breadth first; of another component, where there is one, after all of v's. Returns the last
- * one of v's. */
+/* Nodes as they are met from v on, breadth first; those of another component come after all of v's. Returns the last one
+ * of v's. */
 static int32_t breadth_first(const rg_weighted *g, int32_t v, int32_t *met, int32_t *order)
 {
     int32_t count = 0, done = 0, farthest = -1;
@@ -267,8 +267,8 @@ static int separate(const rg_memory *mem, const rg_weighted *g, int32_t trial, i
     int32_t *of = NULL, *coarse_part = NULL;
     int done = 0, coarser = 1;
     *least = INFINITY;
-    if (!init_refinement(mem, &r, g) || !(of = rg_mem_array(mem, (size_t)g->n, sizeof *of))) goto out;
-    if (!(coarse_part = rg_mem_array(mem, (size_t)g->n, sizeof *coarse_part))) goto out;
+    if (init_refinement(mem, &r, g) != RG_OK) goto out;
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(of, (size_t)g->n), RG_ARRAY(coarse_part, (size_t)g->n)) != RG_OK) goto out;
     for (int32_t t = 0; t < trials && coarser; t++) {
         rg_weighted coarse = {0};
         double c = 0;
@@ -290,8 +290,7 @@ static int separate(const rg_memory *mem, const rg_weighted *g, int32_t trial, i
     done = 1;
 out:
     free_refinement(mem, &r);
-    rg_mem_free(mem, of);
-    rg_mem_free(mem, coarse_part);
+    RG_MEM_FREE(mem, of, coarse_part);
     return done;
 }
 

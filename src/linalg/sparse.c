@@ -10,12 +10,8 @@ rg_status rg_sparse_init(rg_sparse *C, const rg_memory *mem, int32_t M, int32_t 
     C->mem = *mem;
     C->M = M;
     C->N = N;
-    C->start = rg_mem_array(mem, (size_t)M + 1, sizeof *C->start);
-    C->col = rg_mem_array(mem, blocks, sizeof *C->col);
-    C->row = rg_mem_array(mem, blocks, sizeof *C->row);
-    C->slot = rg_mem_array(mem, (size_t)N, sizeof *C->slot);
-    C->x = rg_mem_array(mem, blocks, sizeof *C->x);
-    if (!C->start || !C->col || !C->row || !C->slot || !C->x) {
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(C->start, (size_t)M + 1), RG_ARRAY(C->col, blocks), RG_ARRAY(C->row, blocks),
+                      RG_ARRAY(C->slot, (size_t)N), RG_ARRAY(C->x, blocks)) != RG_OK) {
         rg_sparse_free(C);
         return RG_ENOMEM;
     }
@@ -40,11 +36,7 @@ void rg_sparse_free(rg_sparse *C)
 {
     if (!C->mem.resize) return;
     rg_memory mem = C->mem;
-    rg_mem_free(&mem, C->start);
-    rg_mem_free(&mem, C->col);
-    rg_mem_free(&mem, C->row);
-    rg_mem_free(&mem, C->slot);
-    rg_mem_free(&mem, C->x);
+    RG_MEM_FREE(&mem, C->start, C->col, C->row, C->slot, C->x);
     memset(C, 0, sizeof *C);
 }
 

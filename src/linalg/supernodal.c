@@ -337,24 +337,18 @@ rg_status rg_supernodal_init(rg_supernodal *L, const rg_memory *mem, int32_t n, 
     rg_status s = rg_symbolic_init(&L->S, mem, n, start, row);
     if (s != RG_OK) return s;
     const size_t count = (size_t)L->S.count;
-    L->x = rg_mem_array(mem, (size_t)L->S.panel[count] + RG_SYMBOLIC_PAD, sizeof *L->x);
-    L->head = rg_mem_array(mem, count, sizeof *L->head);
-    L->next = rg_mem_array(mem, count, sizeof *L->next);
-    L->done = rg_mem_array(mem, count, sizeof *L->done);
-    L->map = rg_mem_array(mem, (size_t)n, sizeof *L->map);
-    L->place = rg_mem_array(mem, (size_t)n, sizeof *L->place);
-    L->b = rg_mem_array(mem, (size_t)n, sizeof *L->b);
-    L->update = rg_mem_array(mem, room_for_updates(&L->S) + RG_SYMBOLIC_PAD, sizeof *L->update);
-    if (L->x && L->head && L->next && L->done && L->map && L->place && L->b && L->update) return RG_OK;
-    rg_supernodal_free(L);
-    return RG_ENOMEM;
+    s = RG_MEM_ARRAYS(mem, RG_ARRAY(L->x, (size_t)L->S.panel[count] + RG_SYMBOLIC_PAD),
+                      RG_ARRAY(L->head, count), RG_ARRAY(L->next, count), RG_ARRAY(L->done, count),
+                      RG_ARRAY(L->map, (size_t)n), RG_ARRAY(L->place, (size_t)n), RG_ARRAY(L->b, (size_t)n),
+                      RG_ARRAY(L->update, room_for_updates(&L->S) + RG_SYMBOLIC_PAD));
+    if (s != RG_OK) rg_supernodal_free(L);
+    return s;
 }
 
 void rg_supernodal_free(rg_supernodal *L)
 {
     if (!L->S.mem.resize) return;
-    void *all[] = {L->x, L->head, L->next, L->done, L->map, L->place, L->update, L->b};
-    for (int i = 0; i < 8; i++) rg_mem_free(&L->S.mem, all[i]);
+    RG_MEM_FREE(&L->S.mem, L->x, L->head, L->next, L->done, L->map, L->place, L->update, L->b);
     rg_symbolic_free(&L->S);
     memset(L, 0, sizeof *L);
 }

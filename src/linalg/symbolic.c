@@ -8,7 +8,7 @@
 /* Operations a row. Dissection takes some 8 microseconds a row and saves half of a factorisation, of which a fold makes a
  * hundred or so, at 15 operations a nanosecond. */
 static const double DISSECT_FROM = 4000;
-/* A supernode and its parent become one if that has so few columns, or of its numbers at the most such a part is zero. */
+/* A supernode and its parent become one if that has so few columns, and of its numbers at most this part is zero. */
 static const struct { int32_t columns; double zeros; } MERGE[] = {{4, 1}, {16, 0.8}, {48, 0.1}, {INT32_MAX, 0.05}};
 
 _Static_assert(sizeof(int) == sizeof(int32_t), "CAMD's integers are ours");
@@ -17,7 +17,7 @@ _Static_assert(sizeof(int) == sizeof(int32_t), "CAMD's integers are ours");
 typedef struct elimination {
     int32_t *order;  /* [n] row of A that is eliminated as the k-th */
     int32_t *place;  /* [n] and its inverse */
-    int32_t *parent; /* [n] the elimination tree, -1: a root; children come before their parents, and a subtree in one piece */
+    int32_t *parent; /* [n] the elimination tree, -1: a root; children come before parents, a subtree in one piece */
     int32_t *size;   /* [n] of the subtree */
     int32_t *count;  /* [n] numbers in the column of L, the diagonal among them */
     double flops, entries;
@@ -32,27 +32,22 @@ typedef struct work {
 
 static void free_elimination(const rg_memory *mem, elimination *e)
 {
-    int32_t *array[] = {e->order, e->place, e->parent, e->size, e->count};
-    for (int i = 0; i < 5; i++) rg_mem_free(mem, array[i]);
+    RG_MEM_FREE(mem, e->order, e->place, e->parent, e->size, e->count);
     memset(e, 0, sizeof *e);
 }
 
-static int make_elimination(const rg_memory *mem, int32_t n, elimination *e)
+static rg_status make_elimination(const rg_memory *mem, size_t n, elimination *e)
 {
-    int32_t **array[] = {&e->order, &e->place, &e->parent, &e->size, &e->count};
-    int made = 1;
     *e = (elimination){0};
-    for (int i = 0; i < 5; i++) made &= (*array[i] = rg_mem_array(mem, (size_t)n, sizeof **array[i])) != NULL;
-    return made;
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(e->order, n), RG_ARRAY(e->place, n), RG_ARRAY(e->parent, n),
+                         RG_ARRAY(e->size, n), RG_ARRAY(e->count, n));
 }
 
 static rg_status make_work(work *w, const rg_memory *mem, int32_t n, const int32_t *start, const int32_t *row)
 {
-    *w = (work){.mem = mem, .n = n, .start = rg_mem_array(mem, (size_t)n + 1, sizeof *w->start)};
-    int32_t **scratch[] = {&w->a, &w->b, &w->c};
-    int made = w->start != NULL;
-    for (int i = 0; i < 3; i++) made &= (*scratch[i] = rg_mem_array(mem, (size_t)n, sizeof **scratch[i])) != NULL;
-    if (!made) return RG_ENOMEM;
+    *w = (work){.mem = mem, .n = n};
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(w->start, (size_t)n + 1), RG_ARRAY(w->a, (size_t)n), RG_ARRAY(w->b, (size_t)n),
+                      RG_ARRAY(w->c, (size_t)n)) != RG_OK) return RG_ENOMEM;
     int64_t edges = 0;
     for (int32_t j = 0; j < n; j++)
         for (int32_t at = start[j]; at < start[j + 1]; at++)
@@ -69,30 +64,30 @@ static rg_status make_work(work *w, const rg_memory *mem, int32_t n, const int32
 
 static void free_work(work *w)
 {
-    int32_t *array[] = {w->start, w->to, w->a, w->b, w->c};
-    for (int i = 0; i < 5; i++) rg_mem_free(w->mem, array[i]);
+    RG_MEM_FREE(w->mem, w->start, w->to, w->a, w->b, w->c);
 }
 
 /* order[n + 1]: out.   set[n]: sets are eliminated one after the other, NULL: all are one. */
 static rg_status minimum_degree(const work *w, const int32_t *set, int32_t *order)
 {
     enum { ARRAYS = 10 };
-    const size_t n = (size_t)w->n, edges = (size_t)w->start[w->n], room = edges + edges / 5 + n + 1; /* as its authors advise */
-    int32_t *array[ARRAYS] = {NULL}, *list = room < INT32_MAX ? rg_mem_array(w->mem, room, sizeof *list) : NULL;
-    int made = list != NULL;
-    for (int i = 0; i < ARRAYS; i++) made &= (array[i] = rg_mem_array(w->mem, n + 1, sizeof *array[i])) != NULL;
-    if (made) {
-        int32_t *from = array[0], *length = array[1];
-        for (int32_t i = 0; i < w->n; i++) from[i] = w->start[i], length[i] = w->start[i + 1] - w->start[i];
-        memcpy(list, w->to, edges * sizeof *list);
-        double info[CAMD_INFO];
-        camd_2(w->n, from, list, length, (int)room, (int)edges, array[2], array[3], array[4], array[5], array[6], array[7],
-               array[8], NULL, info, set, array[9]);
-        memcpy(order, array[4], n * sizeof *order);
-    }
-    for (int i = 0; i < ARRAYS; i++) rg_mem_free(w->mem, array[i]);
-    rg_mem_free(w->mem, list);
-    return made ? RG_OK : RG_ENOMEM;
+    const size_t n = (size_t)w->n, edges = (size_t)w->start[w->n];
+    const size_t room = edges + edges / 5 + n + 1; /* as its authors advise */
+    if (room >= INT32_MAX) return RG_ENOMEM;
+    int32_t *list, *all;
+    const rg_status s = RG_MEM_ARRAYS(w->mem, RG_ARRAY(list, room), RG_ARRAY(all, ARRAYS * (n + 1)));
+    if (s != RG_OK) return s;
+    int32_t *array[ARRAYS];
+    for (size_t i = 0; i < ARRAYS; i++) array[i] = all + i * (n + 1);
+    int32_t *from = array[0], *length = array[1];
+    for (int32_t i = 0; i < w->n; i++) from[i] = w->start[i], length[i] = w->start[i + 1] - w->start[i];
+    memcpy(list, w->to, edges * sizeof *list);
+    double info[CAMD_INFO];
+    camd_2(w->n, from, list, length, (int)room, (int)edges, array[2], array[3], array[4], array[5], array[6],
+           array[7], array[8], NULL, info, set, array[9]);
+    memcpy(order, array[4], n * sizeof *order);
+    RG_MEM_FREE(w->mem, list, all);
+    return RG_OK;
 }
 
 /* Liu's algorithm: each row's neighbours that come before it are climbed from, past what is known to lie below. */
@@ -148,8 +143,8 @@ static void postorder(const work *w, elimination *e, const int32_t *key)
     make_sizes(n, e);
 }
 
-/* Numbers of each column of L. Row i of L is a subtree of the elimination tree, pruned: its leaves add one each, and where two
- * of its branches meet one is taken off again. */
+/* Numbers of each column of L. Row i of L is a subtree of the elimination tree, pruned: its leaves add one each, and
+ * where two of its branches meet one is taken off again. */
 static void count_columns(const work *w, elimination *e)
 {
     const int32_t n = w->n;
@@ -182,8 +177,8 @@ static void count_columns(const work *w, elimination *e)
 /* set as in minimum_degree. */
 static rg_status eliminate(const work *w, const int32_t *set, elimination *e)
 {
-    if (!make_elimination(w->mem, w->n, e)) return RG_ENOMEM;
-    rg_status s = minimum_degree(w, set, e->order);
+    rg_status s = make_elimination(w->mem, (size_t)w->n, e);
+    if (s == RG_OK) s = minimum_degree(w, set, e->order);
     if (s != RG_OK) return s;
     for (int32_t k = 0; k < w->n; k++) e->place[e->order[k]] = k;
     make_tree(w, e);
@@ -242,7 +237,8 @@ static int32_t find_supernodes(int32_t n, const elimination *e, int32_t *of, int
         count++;
         if (after >= 0 && e->parent[last] >= 0 && e->parent[last] < after + wide[after]) {
             const int32_t columns = wide[s] + wide[after], rows = wide[s] + tall[after];
-            filled = zeros + trapezoid(columns, rows) - trapezoid(wide[s], tall[s]) - trapezoid(wide[after], tall[after]);
+            filled = zeros + trapezoid(columns, rows) - trapezoid(wide[s], tall[s]) -
+                     trapezoid(wide[after], tall[after]);
             merged = worth_merging(columns, filled / trapezoid(columns, rows));
             if (merged) wide[s] = columns, tall[s] = rows, count--;
         }
@@ -284,12 +280,8 @@ static rg_status make_panels(const work *w, const elimination *e, rg_symbolic *S
     int32_t *of = w->a, *tall = w->b, *wide = w->c;
     S->count = find_supernodes(w->n, e, of, tall, wide);
     const size_t count = (size_t)S->count;
-    S->place = rg_mem_array(mem, n, sizeof *S->place);
-    S->of = rg_mem_array(mem, n, sizeof *S->of);
-    S->column = rg_mem_array(mem, count + 1, sizeof *S->column);
-    S->start = rg_mem_array(mem, count + 1, sizeof *S->start);
-    S->panel = rg_mem_array(mem, count + 1, sizeof *S->panel);
-    if (!S->place || !S->of || !S->column || !S->start || !S->panel) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(S->place, n), RG_ARRAY(S->of, n), RG_ARRAY(S->column, count + 1),
+                      RG_ARRAY(S->start, count + 1), RG_ARRAY(S->panel, count + 1)) != RG_OK) return RG_ENOMEM;
     int64_t rows = 0, numbers = 0;
     int32_t s = 0;
     for (int32_t k = 0; k < w->n; k += wide[k], s++) {
@@ -332,7 +324,6 @@ rg_status rg_symbolic_init(rg_symbolic *S, const rg_memory *mem, int32_t n, cons
 void rg_symbolic_free(rg_symbolic *S)
 {
     if (!S->mem.resize) return;
-    int32_t *array[] = {S->place, S->column, S->start, S->row, S->panel, S->of};
-    for (int i = 0; i < 6; i++) rg_mem_free(&S->mem, array[i]);
+    RG_MEM_FREE(&S->mem, S->place, S->column, S->start, S->row, S->panel, S->of);
     memset(S, 0, sizeof *S);
 }

@@ -8,30 +8,23 @@ static const double UNBALANCE = 0.1;
 
 void rg_weighted_free(rg_weighted *g, const rg_memory *mem)
 {
-    rg_mem_free(mem, g->start);
-    rg_mem_free(mem, g->to);
-    rg_mem_free(mem, g->weight);
-    rg_mem_free(mem, g->edge);
+    RG_MEM_FREE(mem, g->start, g->to, g->weight, g->edge);
     memset(g, 0, sizeof *g);
 }
 
 int rg_weighted_init(rg_weighted *g, const rg_memory *mem, int32_t n, int32_t edges)
 {
     *g = (rg_weighted){.n = n};
-    g->start = rg_mem_array(mem, (size_t)n + 1, sizeof *g->start);
-    g->to = rg_mem_array(mem, (size_t)edges, sizeof *g->to);
-    g->weight = rg_mem_array(mem, (size_t)n, sizeof *g->weight);
-    g->edge = rg_mem_array(mem, (size_t)edges, sizeof *g->edge);
-    if (g->start && g->to && g->weight && g->edge) return 1;
-    rg_weighted_free(g, mem);
-    return 0;
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(g->start, (size_t)n + 1), RG_ARRAY(g->to, (size_t)edges),
+                         RG_ARRAY(g->weight, (size_t)n), RG_ARRAY(g->edge, (size_t)edges)) == RG_OK;
 }
 
 int rg_weighted_contract(const rg_weighted *g, const rg_memory *mem, const int32_t *of, int32_t fewer, rg_weighted *c)
 {
-    int32_t *first = rg_mem_array(mem, (size_t)fewer, sizeof *first), *next = rg_mem_array(mem, (size_t)g->n, sizeof *next);
-    int32_t *at = rg_mem_array(mem, (size_t)fewer, sizeof *at); /* 1 + where the present node's edge to another one is */
-    const int made = first && next && at && rg_weighted_init(c, mem, fewer, g->start[g->n]);
+    int32_t *first, *next, *at; /* at: 1 + where the present node's edge to another one is */
+    const rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(first, (size_t)fewer), RG_ARRAY(next, (size_t)g->n),
+                                      RG_ARRAY(at, (size_t)fewer));
+    const int made = s == RG_OK && rg_weighted_init(c, mem, fewer, g->start[g->n]);
     if (made) {
         for (int32_t v = g->n - 1; v >= 0; v--) next[v] = first[of[v]] - 1, first[of[v]] = v + 1;
         int32_t edges = 0;
@@ -54,9 +47,7 @@ int rg_weighted_contract(const rg_weighted *g, const rg_memory *mem, const int32
         c->start[fewer] = edges;
         c->total = g->total;
     }
-    rg_mem_free(mem, first);
-    rg_mem_free(mem, next);
-    rg_mem_free(mem, at);
+    RG_MEM_FREE(mem, first, next, at);
     return made;
 }
 

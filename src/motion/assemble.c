@@ -109,10 +109,9 @@ static void put(rg_motion *m, const rg_states *q, const rg_stretch *s, const rg_
 static rg_status block(rg_motion *m, const rg_attempt *t, const rg_overlay *o)
 {
     rg_report *r = &m->report;
-    m->blocking_vertex = rg_mem_array(&m->mem, (size_t)t->vertices, sizeof *m->blocking_vertex);
-    m->blocking_crease = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *m->blocking_crease);
-    m->blocking_at = rg_mem_array(&m->mem, (size_t)t->vertices, sizeof *m->blocking_at);
-    if (!m->blocking_vertex || !m->blocking_crease || !m->blocking_at) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->blocking_vertex, (size_t)t->vertices),
+                      RG_ARRAY(m->blocking_crease, (size_t)m->mesh.N),
+                      RG_ARRAY(m->blocking_at, (size_t)t->vertices)) != RG_OK) return RG_ENOMEM;
     for (int32_t n = 0; n < t->vertices; n++)
         for (int32_t v = 0; v < m->mesh.nv; v++) {
             if (o->spot[v].n != 1 || o->spot[v].at[0] != t->vertex[n] || r->blocking_vertex_count == t->vertices) continue;
@@ -157,8 +156,7 @@ static rg_status put_stretch(rg_motion *m, const rg_states *q, const rg_stretch 
         status = put_between(m, s, o, k, f, rho, X);
         put(m, q, s, o, k, f);
     }
-    rg_mem_free(&m->mem, rho);
-    rg_mem_free(&m->mem, X);
+    RG_MEM_FREE(&m->mem, rho, X);
     return status;
 }
 

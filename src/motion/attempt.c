@@ -22,8 +22,8 @@ void rg_attempt_free(rg_attempt *t)
     if (t->symmetry) rg_symmetry_free(t->symmetry);
     if (t->trace) rg_trace_free(t->trace);
     rg_mesh_free(&t->mesh);
-    void *block[] = {t->relax, t->trace, t->symmetry, t->target, t->from, t->rho, t->flat, t->due, t->vertex, t->crease};
-    for (int i = 0; i < 10; i++) rg_mem_free(&t->mem, block[i]);
+    RG_MEM_FREE(&t->mem, t->relax, t->trace, t->symmetry, t->target, t->from, t->rho, t->flat, t->due, t->vertex,
+                t->crease);
     rg_gaps_free(&t->gaps, &t->mem);
     memset(t, 0, sizeof *t);
 }
@@ -31,11 +31,8 @@ void rg_attempt_free(rg_attempt *t)
 static rg_status make_room(rg_attempt *t, const rg_mesh *m)
 {
     const size_t N = (size_t)m->N;
-    t->target = rg_mem_array(&t->mem, N, sizeof *t->target);
-    t->from = rg_mem_array(&t->mem, N, sizeof *t->from);
-    t->vertex = rg_mem_array(&t->mem, (size_t)m->M, sizeof *t->vertex);
-    t->crease = rg_mem_array(&t->mem, N, sizeof *t->crease);
-    return t->target && t->from && t->vertex && t->crease ? RG_OK : RG_ENOMEM;
+    return RG_MEM_ARRAYS(&t->mem, RG_ARRAY(t->target, N), RG_ARRAY(t->from, N), RG_ARRAY(t->vertex, (size_t)m->M),
+                         RG_ARRAY(t->crease, N));
 }
 
 /* ------------------------------------------------------------------------------------- what it came to ---- */
@@ -162,8 +159,7 @@ static rg_status find_rest(const rg_mesh *drawn, const rg_settings *settings, rg
         if (rg_watch_tell(watch, info.progress)) break;
     }
     rg_straight_destroy(f);
-    rg_mem_free(&mem, rho);
-    rg_mem_free(&mem, t);
+    RG_MEM_FREE(&mem, rho, t);
     return s;
 }
 
@@ -425,8 +421,7 @@ static rg_status read_steadily_off(rg_attempt *t, double *due)
     double *was = rg_mem_array(&t->mem, (size_t)t->count, sizeof *was), *sum = rg_mem_array(&t->mem, (size_t)t->count, sizeof *sum);
     rg_status s = was && sum ? read_off(t, due) : RG_ENOMEM;
     for (int n = 0; s == RG_OK && n < TIMES_SET_RIGHT && set_right(t, due, was, sum); n++) s = read_off(t, due);
-    rg_mem_free(&t->mem, was);
-    rg_mem_free(&t->mem, sum);
+    RG_MEM_FREE(&t->mem, was, sum);
     return s;
 }
 
@@ -473,8 +468,7 @@ static rg_status read_steadily(rg_attempt *t, const rg_settings *settings)
     if (s == RG_OK) s = run_forth(t, f, parts, NULL, &nobody);
     t->outcome = outcome;
     rg_straight_destroy(f);
-    rg_mem_free(&t->mem, sum);
-    rg_mem_free(&t->mem, due);
+    RG_MEM_FREE(&t->mem, sum, due);
     return s;
 }
 
@@ -502,8 +496,7 @@ rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *set
         if (more == 0 || !set_right(t, due, was, sum)) break;
     }
     if (s == RG_OK) s = fill_gaps(t, due, read, ctx);
-    void *block[] = {due, was, sum};
-    for (int i = 0; i < 3; i++) rg_mem_free(&t->mem, block[i]);
+    RG_MEM_FREE(&t->mem, due, was, sum);
     if (s != RG_OK) {
         rg_attempt_free(t);
         return rg_fail(s, why, 0, "%s", rg_status_text(s));
@@ -522,9 +515,7 @@ rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *set
 void rg_attempt_forget_frames(rg_attempt *t)
 {
     if (!t->relax) return;
-    rg_mem_free(&t->mem, t->rho);
-    rg_mem_free(&t->mem, t->flat);
-    rg_mem_free(&t->mem, t->due);
+    RG_MEM_FREE(&t->mem, t->rho, t->flat, t->due);
     t->rho = t->due = NULL, t->flat = NULL, t->count = 0;
     rg_gaps_free(&t->gaps, &t->mem);
 }

@@ -35,8 +35,7 @@ void rg_between_free(rg_between *B)
     rg_coupled_free(&B->J);
     rg_constraint_free(&B->K);
     rg_steer_free(&B->steer);
-    void *block[] = {B->scale, B->dz, B->z, B->flat, B->theta};
-    for (int i = 0; i < 5; i++) rg_mem_free(&B->mem, block[i]);
+    RG_MEM_FREE(&B->mem, B->scale, B->dz, B->z, B->flat, B->theta);
     memset(B, 0, sizeof *B);
 }
 

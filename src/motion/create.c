@@ -119,9 +119,8 @@ static rg_status adopt(rg_motion *m, rg_search *c, rg_attempt *path)
     memcpy(m->tried, c->tried, (size_t)c->tried_count * sizeof *m->tried);
     r->tried = m->tried;
     r->tried_count = c->tried_count;
-    m->frame = rg_mem_array(&m->mem, (size_t)r->frame_count, sizeof *m->frame);
-    m->blocking_at = rg_mem_array(&m->mem, (size_t)r->blocking_vertex_count, sizeof *m->blocking_at);
-    if (!m->frame || !m->blocking_at) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->frame, (size_t)r->frame_count),
+                      RG_ARRAY(m->blocking_at, (size_t)r->blocking_vertex_count)) != RG_OK) return RG_ENOMEM;
     for (int32_t k = 0; k < r->blocking_vertex_count; k++) {
         const rg_vec2 at = m->mesh.X[m->blocking_vertex[k]];
         /* What rounding leaves of 0 is 0 for people. */
@@ -238,11 +237,8 @@ static rg_status lay_out(rg_motion *m, const rg_pattern *p, rg_diag *why)
     rg_mesh_free(&none);
     if (s != RG_OK) return s;
     const size_t N = (size_t)m->mesh.N;
-    m->target = rg_mem_array(&m->mem, N, sizeof *m->target);
-    m->from = rg_mem_array(&m->mem, N, sizeof *m->from);
-    m->rho = rg_mem_array(&m->mem, N, sizeof *m->rho);
-    m->frame = rg_mem_array(&m->mem, 1, sizeof *m->frame);
-    if (!m->target || !m->from || !m->rho || !m->frame) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->target, N), RG_ARRAY(m->from, N), RG_ARRAY(m->rho, N),
+                      RG_ARRAY(m->frame, 1)) != RG_OK) return RG_ENOMEM;
     for (int32_t i = 0; i < m->mesh.N; i++) m->target[i] = i < m->mesh.N - m->mesh.added ? m->settings.to * m->mesh.target[m->mesh.crease_edge[i]] : NAN;
     r->frame_count = 1;
     r->frames = m->frame;

@@ -23,9 +23,7 @@ rg_status rg_cuts_init(rg_cuts *c, const rg_memory *mem, const rg_mesh *none, co
 void rg_cuts_free(rg_cuts *c)
 {
     if (!c->mem.resize) return;
-    rg_mem_free(&c->mem, c->which);
-    rg_mem_free(&c->mem, c->bend);
-    rg_mem_free(&c->mem, c->piece_of);
+    RG_MEM_FREE(&c->mem, c->which, c->bend, c->piece_of);
     memset(c, 0, sizeof *c);
 }
 

@@ -13,19 +13,17 @@ enum { DEEPEST = 13 };
 
 void rg_gaps_free(rg_gaps *g, const rg_memory *mem)
 {
-    rg_mem_free(mem, g->after);
-    rg_mem_free(mem, g->rho);
-    rg_mem_free(mem, g->flat);
+    RG_MEM_FREE(mem, g->after, g->rho, g->flat);
     memset(g, 0, sizeof *g);
 }
 
 rg_status rg_gaps_add(rg_gaps *g, const rg_memory *mem, int32_t N, int32_t nv, int32_t after, const double *rho, const rg_vec2 *X)
 {
     const size_t k = (size_t)g->count;
-    rg_status s = rg_mem_grow(mem, (void **)&g->after, &g->room[0], k + 1, sizeof *g->after);
+    rg_status s = RG_MEM_GROW(mem, g->after, g->room[0], k + 1);
     /* One more than there is, so that there is a place where a sheet has no crease. */
-    if (s == RG_OK) s = rg_mem_grow(mem, (void **)&g->rho, &g->room[1], (k + 1) * (size_t)N + 1, sizeof *g->rho);
-    if (s == RG_OK && X) s = rg_mem_grow(mem, (void **)&g->flat, &g->room[2], (k + 1) * (size_t)nv, sizeof *g->flat);
+    if (s == RG_OK) s = RG_MEM_GROW(mem, g->rho, g->room[1], (k + 1) * (size_t)N + 1);
+    if (s == RG_OK && X) s = RG_MEM_GROW(mem, g->flat, g->room[2], (k + 1) * (size_t)nv);
     if (s != RG_OK) return s;
     g->after[k] = after;
     if (N > 0) memcpy(g->rho + k * (size_t)N, rho, (size_t)N * sizeof *rho);
@@ -64,16 +62,14 @@ int32_t rg_gaps_parts(int32_t ways, double whole, double angle)
 rg_status rg_gap_filler_init(rg_gap_filler *q, const rg_memory *mem, int32_t N, int32_t nv, int moves, rg_path_reader *read, void *ctx)
 {
     *q = (rg_gap_filler){.mem = *mem, .N = N, .nv = nv, .read = read, .ctx = ctx, .moves = moves};
-    q->rho = rg_mem_array(mem, (size_t)DEEPEST * (size_t)N, sizeof *q->rho);
-    q->flat = rg_mem_array(mem, (size_t)DEEPEST * (size_t)nv, sizeof *q->flat);
-    return q->rho && q->flat ? RG_OK : RG_ENOMEM;
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(q->rho, (size_t)DEEPEST * (size_t)N),
+                         RG_ARRAY(q->flat, (size_t)DEEPEST * (size_t)nv));
 }
 
 void rg_gap_filler_free(rg_gap_filler *q)
 {
     if (!q->mem.resize) return;
-    rg_mem_free(&q->mem, q->rho);
-    rg_mem_free(&q->mem, q->flat);
+    RG_MEM_FREE(&q->mem, q->rho, q->flat);
     memset(q, 0, sizeof *q);
 }
 

@@ -34,8 +34,8 @@ void rg_snapshot_destroy(rg_snapshot *s)
 {
     if (!s) return;
     const rg_memory mem = s->mem;
-    void *block[] = {s->rho, s->flat, s->vertex, s->crease, s->track_rho, s->track_progress, s->track_closure, s->track_flat};
-    for (int i = 0; i < 8; i++) rg_mem_free(&mem, block[i]);
+    RG_MEM_FREE(&mem, s->rho, s->flat, s->vertex, s->crease, s->track_rho, s->track_progress, s->track_closure,
+                s->track_flat);
     if (s->steers) rg_steer_kept_free(&s->leg, &mem);
     rg_shared_let_go(&mem, s->of);
     rg_mem_free(&mem, s);

@@ -278,8 +278,7 @@ rg_status rg_measure_frames(rg_motion *m, rg_watch *watch)
     if (ok && s == RG_OK) measure_contact(m, looks ? &course : NULL);
     if (ok && looks && s == RG_OK) s = keep_sides(m, &course);
     rg_course_free(&course);
-    void *block[] = {g.rho, g.theta, g.sector, g.place, g.x, g.part};
-    for (int i = 0; i < 6; i++) rg_mem_free(&m->mem, block[i]);
+    RG_MEM_FREE(&m->mem, g.rho, g.theta, g.sector, g.place, g.x, g.part);
     if (!ok || s != RG_OK) return RG_ENOMEM;
     m->report.symmetry = 1;
     return watch && watch->cancelled ? RG_OK : measure_symmetry(m);

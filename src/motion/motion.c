@@ -12,8 +12,7 @@ static const double ON_CREASE = 0.01;
 void rg_motion_free_stages(rg_stages *q)
 {
     if (!q->mem.resize) return;
-    void *block[] = {q->stage, q->fold, q->crease, q->vertex, q->edge};
-    for (int i = 0; i < 5; i++) rg_mem_free(&q->mem, block[i]);
+    RG_MEM_FREE(&q->mem, q->stage, q->fold, q->crease, q->vertex, q->edge);
     memset(q, 0, sizeof *q);
 }
 
@@ -24,16 +23,13 @@ void rg_motion_destroy(rg_motion *m)
     rg_mesh_free(&m->mesh);
     rg_tree_free(&m->tree);
     rg_triangles_free(&m->triangles);
-    void *block[] = {m->target, m->from, m->rho, m->flat, m->frame, m->blocking_vertex, m->blocking_crease, m->blocking_at,
-                     m->state_frame, m->by_flat, m->space, m->tried, m->side};
-    for (int i = 0; i < 13; i++) rg_mem_free(&m->mem, block[i]);
+    RG_MEM_FREE(&m->mem, m->target, m->from, m->rho, m->flat, m->frame, m->blocking_vertex, m->blocking_crease,
+                m->blocking_at, m->state_frame, m->by_flat, m->space, m->tried, m->side);
     rg_gaps_free(&m->gaps, &m->mem);
     rg_layers_destroy(m->layers);
     rg_motion_free_stages(&m->stages);
     rg_source_free(&m->source);
-    rg_mem_free(&mem, m->title);
-    rg_mem_free(&mem, m->author);
-    rg_mem_free(&mem, m);
+    RG_MEM_FREE(&mem, m->title, m->author, m);
 }
 
 const rg_report *rg_motion_report(const rg_motion *m) { return &m->report; }

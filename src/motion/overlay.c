@@ -126,8 +126,7 @@ rg_status rg_overlay_init(rg_overlay *o, const rg_mesh *fine, const rg_mesh *coa
         const int32_t *v = fine->edge[fine->crease_edge[i]], c = shared(&triangles, start, edge, &o->spot[v[0]], &o->spot[v[1]]);
         o->crease[i] = c < coarse->N ? c : -1;
     }
-    rg_mem_free(mem, start);
-    rg_mem_free(mem, edge);
+    RG_MEM_FREE(mem, start, edge);
     rg_mesh_free(&triangles);
     return s;
 }
@@ -135,8 +134,7 @@ rg_status rg_overlay_init(rg_overlay *o, const rg_mesh *fine, const rg_mesh *coa
 void rg_overlay_free(rg_overlay *o)
 {
     if (!o->mem.resize) return;
-    rg_mem_free(&o->mem, o->spot);
-    rg_mem_free(&o->mem, o->crease);
+    RG_MEM_FREE(&o->mem, o->spot, o->crease);
     memset(o, 0, sizeof *o);
 }
 

@@ -43,7 +43,7 @@ static int is_folded(const rectify *t, int32_t k, int32_t i, int32_t stage)
 
 static rg_status add(rectify *t, int32_t k, int32_t first, int32_t count, int32_t stage)
 {
-    const rg_status s = rg_mem_grow(&t->m->mem, (void **)&t->row, &t->room, (size_t)t->rows + 1, sizeof *t->row);
+    const rg_status s = RG_MEM_GROW(&t->m->mem, t->row, t->room, (size_t)t->rows + 1);
     if (s == RG_OK) t->row[t->rows++] = (sum){k, first, count, stage};
     return s;
 }
@@ -196,8 +196,7 @@ static rg_status plan(rectify *t)
         s = rg_least_init(&t->A, mem, t->rows, U, e.start, e.row);
         t->at = e.at, e.at = NULL;
     }
-    void *block[] = {to, e.start, e.row, e.at};
-    for (int i = 0; i < 4; i++) rg_mem_free(mem, block[i]);
+    RG_MEM_FREE(mem, to, e.start, e.row, e.at);
     return s;
 }
 
@@ -235,8 +234,7 @@ static rg_status solve(rectify *t, rg_vec2 *X, double *off)
         if (!better) break; /* rounding, or no such pattern */
     }
     rg_least_free(&t->A);
-    void *block[] = {t->at, u, du, norm};
-    for (int i = 0; i < 4; i++) rg_mem_free(mem, block[i]);
+    RG_MEM_FREE(mem, t->at, u, du, norm);
     return s;
 }
 
@@ -252,7 +250,6 @@ rg_status rg_rectify(const rg_mesh *m, const rg_simple *stages, rg_vec2 *X, doub
     if (s == RG_OK && !(*off <= RG_RECTIFIED) && t.freedom.U > 0) s = solve(&t, X, off);
     for (int32_t v = 0; v < m->nv; v++) *moved = fmax(*moved, rg_vec2_length(rg_vec2_sub(X[v], m->X[v])));
     rg_freedom_free(&t.freedom);
-    rg_mem_free(&m->mem, t.row);
-    rg_mem_free(&m->mem, t.r);
+    RG_MEM_FREE(&m->mem, t.row, t.r);
     return s;
 }

@@ -164,8 +164,7 @@ static rg_status try_rung(const ladder *l, const rung *r, const rg_symmetry *G, 
                                            work, watch, why);
     else s = RG_ENOMEM;
     rg_mesh_free(&m);
-    rg_mem_free(&mem, from);
-    rg_mem_free(&mem, to);
+    RG_MEM_FREE(&mem, from, to);
     return s;
 }
 
@@ -561,8 +560,7 @@ rg_status rg_search_run(rg_search *q, const rg_problem *p, const rg_settings *s,
     if (status == RG_OK && watch->cancelled && q->best.outcome == RG_STOPPED)
         snprintf(q->best.reason, sizeof q->best.reason, "interrupted");
     for (int32_t g = 0; g < l->groups; g++) rg_symmetry_free(&l->group[g]);
-    rg_mem_free(&mem, l);
-    rg_mem_free(&mem, vertex);
+    RG_MEM_FREE(&mem, l, vertex);
     if (status != RG_OK) rg_attempt_free(&q->best);
     return status;
 }

@@ -62,8 +62,7 @@ static void work_free(work *w)
     rg_attempt_free(&w->search.best);
     rg_overlay_free(&w->of_base);
     rg_overlay_free(&w->of_drawn);
-    void *block[] = {w->angle, w->which, w->X, w->stage, w->end, w->first_frame, w->begins};
-    for (int i = 0; i < 7; i++) rg_mem_free(&w->mem, block[i]);
+    RG_MEM_FREE(&w->mem, w->angle, w->which, w->X, w->stage, w->end, w->first_frame, w->begins);
 }
 
 /* -------------------------------------------------------------------------------------------- taking apart ---- */
@@ -295,8 +294,7 @@ static rg_status comes_to(work *w, const rg_attempt *t, int *does)
     }
     rg_layers_destroy(l);
     if (tree.mem.resize) rg_tree_free(&tree);
-    rg_mem_free(&w->mem, want);
-    rg_mem_free(&w->mem, is);
+    RG_MEM_FREE(&w->mem, want, is);
     return s;
 }
 
@@ -429,10 +427,8 @@ static rg_status overlay(work *w)
     const double tol = TWO_DRAWINGS * w->drawn.size;
     rg_status s = rg_overlay_init(&w->of_drawn, m, &w->drawn, tol);
     if (s == RG_OK && w->simple.base > 0) s = rg_overlay_init(&w->of_base, m, &w->search.best.mesh, tol);
-    w->stage = rg_mem_array(&w->mem, (size_t)m->N, sizeof *w->stage);
-    w->end = rg_mem_array(&w->mem, (size_t)m->N, sizeof *w->end);
-    w->X = rg_mem_array(&w->mem, (size_t)m->nv, sizeof *w->X);
-    if (s == RG_OK && (!w->stage || !w->end || !w->X)) s = RG_ENOMEM;
+    if (s == RG_OK) s = RG_MEM_ARRAYS(&w->mem, RG_ARRAY(w->stage, (size_t)m->N), RG_ARRAY(w->end, (size_t)m->N),
+                                      RG_ARRAY(w->X, (size_t)m->nv));
     if (s != RG_OK) return s;
     memcpy(w->X, m->X, (size_t)m->nv * sizeof *m->X);
     if (w->moved > 0) rg_overlay_points(&w->of_drawn, w->none->X, m->X);
@@ -456,9 +452,8 @@ static rg_status trace(const work *w, rg_stages *q)
     const rg_mesh *m = &w->fine, *d = &w->drawn;
     const double tol = TWO_DRAWINGS * d->size;
     if (m->N == d->N && m->nv == d->nv) return RG_OK;
-    q->vertex = rg_mem_array(&q->mem, (size_t)m->nv, sizeof *q->vertex);
-    q->edge = rg_mem_array(&q->mem, (size_t)m->ne, sizeof *q->edge);
-    if (!q->vertex || !q->edge) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&q->mem, RG_ARRAY(q->vertex, (size_t)m->nv),
+                      RG_ARRAY(q->edge, (size_t)m->ne)) != RG_OK) return RG_ENOMEM;
     for (int32_t v = 0; v < m->nv; v++) q->vertex[v] = w->of_drawn.spot[v].n == 1 ? w->of_drawn.spot[v].at[0] : -1;
     for (int32_t e = 0; e < m->ne; e++) {
         const int32_t i = m->edge_crease[e];
@@ -496,9 +491,8 @@ static rg_status share_frames(work *w)
     const int32_t stages = w->simple.stages, legs = w->settings->frames - 1;
     const double first = w->simple.base > 0 ? turned_at_first(&w->search.best) : 0, all = first + A_SIMPLE_FOLD * stages;
     w->frames = w->settings->frames;
-    w->first_frame = rg_mem_array(&w->mem, (size_t)stages + 2, sizeof *w->first_frame);
-    w->begins = rg_mem_array(&w->mem, (size_t)stages + 2, sizeof *w->begins);
-    if (!w->first_frame || !w->begins) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&w->mem, RG_ARRAY(w->first_frame, (size_t)stages + 2),
+                      RG_ARRAY(w->begins, (size_t)stages + 2)) != RG_OK) return RG_ENOMEM;
     int enough = 1;
     for (int32_t j = 0; j <= stages; j++) {
         w->begins[j + 1] = legs * (first + A_SIMPLE_FOLD * j) / all;
@@ -556,10 +550,8 @@ static rg_status tell(const work *w, rg_stages *q)
     const int32_t at_once = p->base > 0;
     int32_t n = 0;
     q->mem = w->mem;
-    q->stage = rg_mem_array(&q->mem, (size_t)p->stages + 1, sizeof *q->stage);
-    q->fold = rg_mem_array(&q->mem, (size_t)p->folds, sizeof *q->fold);
-    q->crease = rg_mem_array(&q->mem, (size_t)w->fine.N, sizeof *q->crease);
-    if (!q->stage || !q->fold || !q->crease) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&q->mem, RG_ARRAY(q->stage, (size_t)p->stages + 1), RG_ARRAY(q->fold, (size_t)p->folds),
+                      RG_ARRAY(q->crease, (size_t)w->fine.N)) != RG_OK) return RG_ENOMEM;
     q->count = p->stages + at_once;
     if (at_once) {
         q->stage[0] = (rg_folding_stage){.crease = q->crease, .creases = list_creases(w, NULL, q->crease)};

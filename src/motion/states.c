@@ -26,9 +26,7 @@ void rg_states_free(rg_states *q)
     if (!q->mem.resize) return;
     for (int32_t k = 0; q->state && k < q->count; k++) rg_mesh_free(&q->state[k]);
     for (int32_t j = 0; j < q->stretches; j++) rg_attempt_free(&q->stretch[j].attempt);
-    rg_mem_free(&q->mem, q->state);
-    rg_mem_free(&q->mem, q->stretch);
-    rg_mem_free(&q->mem, q->by_flat);
+    RG_MEM_FREE(&q->mem, q->state, q->stretch, q->by_flat);
     memset(q, 0, sizeof *q);
 }
 
@@ -165,8 +163,7 @@ typedef struct leg {
 static void leg_free(const rg_states *q, leg *w)
 {
     rg_mesh_free(&w->mesh);
-    rg_mem_free(&q->mem, w->from);
-    rg_mem_free(&q->mem, w->to);
+    RG_MEM_FREE(&q->mem, w->from, w->to);
 }
 
 /* `coarse`'s angles, of[coarse->N], or its targets where of is NULL, as those of w->mesh. */
@@ -209,9 +206,8 @@ static rg_status leg_init(const rg_states *q, leg *w, int32_t k, int32_t frames,
     if (s != RG_OK) rg_lines_free(&l);
     else s = rg_overlay_mesh(&l, q->asked, &w->mesh, why);
     if (s != RG_OK) return s;
-    w->from = rg_mem_array(&q->mem, (size_t)w->mesh.N, sizeof *w->from);
-    w->to = rg_mem_array(&q->mem, (size_t)w->mesh.N, sizeof *w->to);
-    if (!w->from || !w->to) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&q->mem, RG_ARRAY(w->from, (size_t)w->mesh.N),
+                      RG_ARRAY(w->to, (size_t)w->mesh.N)) != RG_OK) return RG_ENOMEM;
     s = angles_of(q, w, now, rho, w->from);
     if (s == RG_OK) s = angles_of(q, w, next, NULL, w->to);
     if (s != RG_OK) return s;
@@ -272,8 +268,7 @@ static rg_status fill_up(rg_attempt *t, int32_t frames)
     double *rho = rg_mem_array(&t->mem, room * N, sizeof *rho);
     rg_vec2 *flat = t->flat ? rg_mem_array(&t->mem, room * nv, sizeof *flat) : NULL;
     if (!rho || (t->flat && !flat)) {
-        rg_mem_free(&t->mem, rho);
-        rg_mem_free(&t->mem, flat);
+        RG_MEM_FREE(&t->mem, rho, flat);
         return RG_ENOMEM;
     }
     for (int32_t k = 0; k < frames; k++) {
@@ -281,8 +276,7 @@ static rg_status fill_up(rg_attempt *t, int32_t frames)
         memcpy(rho + (size_t)k * N, t->rho + from * N, N * sizeof *rho);
         if (flat) memcpy(flat + (size_t)k * nv, t->flat + from * nv, nv * sizeof *flat);
     }
-    rg_mem_free(&t->mem, t->rho);
-    rg_mem_free(&t->mem, t->flat);
+    RG_MEM_FREE(&t->mem, t->rho, t->flat);
     t->rho = rho, t->flat = flat, t->count = frames;
     return RG_OK;
 }
@@ -318,10 +312,8 @@ static rg_status go(rg_states *q, int32_t k, int32_t frames, rg_diag *why)
 static rg_status prepare(rg_states *q, const rg_pattern *const *pattern, rg_diag *why)
 {
     q->asked = pattern[0]->merge;
-    q->state = rg_mem_array(&q->mem, (size_t)q->count, sizeof *q->state);
-    q->stretch = rg_mem_array(&q->mem, 2 * (size_t)q->count, sizeof *q->stretch);
-    q->by_flat = rg_mem_array(&q->mem, (size_t)q->count, sizeof *q->by_flat);
-    if (!q->state || !q->stretch || !q->by_flat) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(&q->mem, RG_ARRAY(q->state, (size_t)q->count), RG_ARRAY(q->stretch, 2 * (size_t)q->count),
+                      RG_ARRAY(q->by_flat, (size_t)q->count)) != RG_OK) return RG_ENOMEM;
     for (int32_t k = 0; k < q->count; k++) {
         rg_diag where = {0, ""};
         rg_status status = rg_pattern_same_sheet(pattern[0], pattern[k], &where);

@@ -25,8 +25,7 @@ static rg_status grow(rg_fold *f, int32_t states)
         memcpy(more.closure, t->closure, (size_t)t->count * sizeof *more.closure);
     }
     rg_track *const gone = ok ? t : &more;
-    void *block[] = {gone->rho, gone->flat, gone->progress, gone->closure};
-    for (int i = 0; i < 4; i++) rg_mem_free(&f->mem, block[i]);
+    RG_MEM_FREE(&f->mem, gone->rho, gone->flat, gone->progress, gone->closure);
     if (ok) *t = more;
     return ok ? RG_OK : RG_ENOMEM;
 }

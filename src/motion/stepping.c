@@ -34,9 +34,9 @@ void rg_fold_destroy(rg_fold *f)
     if (f->steer) rg_steer_free(f->steer);
     for (int i = 0; i < 2; i++)
         if (f->way[i]) rg_between_free(f->way[i]);
-    void *block[] = {f->rho, f->flat, f->place, f->x, f->theta, f->track.rho, f->track.flat, f->track.progress, f->track.closure,
-                     f->ending.vertex, f->ending.crease, f->read, f->guess, f->steer, f->way[0], f->way[1]};
-    for (int i = 0; i < 16; i++) rg_mem_free(&mem, block[i]);
+    RG_MEM_FREE(&mem, f->rho, f->flat, f->place, f->x, f->theta, f->track.rho, f->track.flat, f->track.progress,
+                f->track.closure, f->ending.vertex, f->ending.crease, f->read, f->guess, f->steer, f->way[0],
+                f->way[1]);
     rg_shared_let_go(&mem, f->shared);
     rg_mem_free(&mem, f);
 }

@@ -52,8 +52,7 @@ static rg_status first_crossing(const rg_attempt *t, rg_watch *watch, int32_t *f
     if (s == RG_OK) *frame = course.found.first;
     rg_course_free(&course);
     rg_tree_free(&tree);
-    rg_mem_free(&t->mem, place);
-    rg_mem_free(&t->mem, x);
+    RG_MEM_FREE(&t->mem, place, x);
     return s;
 }
 
@@ -152,8 +151,7 @@ rg_status rg_unfolding_judge(const rg_attempt *t, const rg_settings *s, rg_watch
     *unproved = m.report.contact_unproved;
     if (m.tree.mem.resize) rg_tree_free(&m.tree);
     rg_layers_destroy(m.layers);
-    rg_mem_free(&m.mem, m.side);
-    rg_mem_free(&m.mem, m.frame);
+    RG_MEM_FREE(&m.mem, m.side, m.frame);
     return status;
 }
 
