@@ -363,11 +363,12 @@ static inline int go_back(rg_straight *f, int steps, double *mid, cell *c)
         rg_mesh m;
         rg_watch watch = {0};
         rg_diag why = {0, ""};
-        const rg_relaxation stiff = {0};
         double *flat = calloc((size_t)f->mesh.N, sizeof *flat);
+        const rg_relaxed_try stiff = {.from = f->rho, .target = flat, .budget = 60};
         rg_settings s = f->settings;
         s.frames = steps + 1;
-        int there = flat && rg_mesh_copy(&f->mesh, &m) == RG_OK && rg_attempt_relaxed(&t, &m, &s, &stiff, f->rho, flat, NULL, 0, 60, &watch, &why) == RG_OK;
+        int there = flat && rg_mesh_copy(&f->mesh, &m) == RG_OK &&
+                    rg_attempt_relaxed(&t, &m, &s, &stiff, &watch, &why) == RG_OK;
         there = there && rg_attempt_read(&t, &s) == RG_OK;
         free(flat);
         if (!there) return 0;

@@ -50,7 +50,8 @@ static rg_attempt attempt(const char *kind, const rg_settings *s, const rg_relax
     assert_non_null(folded);
     for (int32_t i = 0; i < m.N; i++)
         folded[i] = i < m.N - m.added ? (s->to < 0 ? -1 : 1) * m.target[m.crease_edge[i]] : NAN;
-    assert_int_equal(rg_attempt_relaxed(&t, &m, s, how, NULL, folded, NULL, backwards, 0, &watch, NULL), RG_OK);
+    const rg_relaxed_try one = {.how = *how, .target = folded, .backwards = backwards};
+    assert_int_equal(rg_attempt_relaxed(&t, &m, s, &one, &watch, NULL), RG_OK);
     assert_int_equal(t.outcome, RG_FOLDED);
     assert_int_equal(rg_attempt_read(&t, s), RG_OK);
     free(folded);

@@ -196,7 +196,7 @@ static rg_status build(rg_motion *m, const rg_value *root, const rg_pattern *p, 
 {
     rg_report *r = &m->report;
     given g = {.m = m, .root = root, .why = why};
-    rg_status s = rg_motion_name(m, p);
+    rg_status s = rg_motion_name(m, rg_pattern_get_info(p));
     if (s == RG_OK) s = rg_source_copy(&p->source, &m->mem, &m->source);
     if (s == RG_OK) s = rg_mesh_from_pattern(p, &m->mem, &m->mesh, why);
     if (s == RG_OK && !m->source.frame) s = rg_fail(RG_EFORMAT, why, 0, "no FOLD file: only those hold motions");

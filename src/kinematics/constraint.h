@@ -1,4 +1,4 @@
-/* constraint.h -- all vertices: C (3M x N) and r at given fold angles; where the pattern may give way, what that does to r.
+/* constraint.h -- all vertices: C (3M x N) and r at given fold angles, and how r changes where the pattern may give way.
  * Paper    eqs. (6)-(8), (11), (12); (16)-(18)        Uses  loop.h turn.h sparse.h freedom.h kawasaki.h
  * Used by  mobility.c project.c tangent.c coupled.c
  *

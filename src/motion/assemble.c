@@ -23,7 +23,8 @@ static rg_status make_mesh(rg_motion *m, const rg_states *q, rg_diag *why)
     rg_lines_init(&l, &m->mem);
     l.merge = q->merge;
     for (int32_t k = 0; s == RG_OK && k < q->count; k++) s = rg_overlay_draw(&l, &q->state[k], 0, NULL);
-    for (int32_t j = 0; s == RG_OK && j < q->stretches; j++) s = rg_overlay_draw(&l, &q->stretch[j].attempt.mesh, 1, NULL);
+    for (int32_t j = 0; s == RG_OK && j < q->stretches; j++)
+        s = rg_overlay_draw(&l, &q->stretch[j].attempt.mesh, 1, NULL);
     if (s == RG_OK) return rg_overlay_mesh(&l, q->asked, &m->mesh, why);
     rg_lines_free(&l);
     return s;
@@ -45,10 +46,9 @@ static void assign(rg_motion *m, const rg_mesh *last, const rg_overlay *o, const
 static rg_status aim(rg_motion *m, const rg_states *q)
 {
     const int32_t N = m->mesh.N;
-    unsigned char *made = rg_mem_array(&m->mem, (size_t)N, 1);
-    m->target = rg_mem_array(&m->mem, (size_t)N, sizeof *m->target);
-    m->from = rg_mem_array(&m->mem, (size_t)N, sizeof *m->from);
-    rg_status s = made && m->target && m->from ? RG_OK : RG_ENOMEM;
+    unsigned char *made;
+    rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(made, (size_t)N), RG_ARRAY(m->target, (size_t)N),
+                                RG_ARRAY(m->from, (size_t)N));
     for (int32_t k = 0; s == RG_OK && k < q->count; k++) {
         rg_overlay o;
         s = rg_overlay_init(&o, &m->mesh, &q->state[k], q->tol);
@@ -75,7 +75,7 @@ static int in_place(const rg_motion *m, const rg_overlay *o, const rg_attempt *t
 /* Mean and least part of its creases' ways that an attempt has done at a frame. */
 static double part_done(const rg_attempt *t, int32_t frame, double *least)
 {
-    const double *rho = t->rho + (size_t)frame * (size_t)t->mesh.N;
+    const double *rho = rg_attempt_angles(t, frame);
     double sum = 0;
     int32_t n = 0;
     *least = INFINITY;
@@ -96,9 +96,8 @@ static void put(rg_motion *m, const rg_states *q, const rg_stretch *s, const rg_
     const rg_attempt *t = &s->attempt;
     const int32_t frame = rg_stretch_frame(s, k), ways = q->count - 1;
     double least, done = part_done(t, frame, &least);
-    rg_overlay_angles(o, t->rho + (size_t)frame * (size_t)t->mesh.N, m->rho + (size_t)f * (size_t)m->mesh.N);
-    if (m->flat)
-        rg_overlay_points(o, t->flat ? t->flat + (size_t)frame * (size_t)t->mesh.nv : t->mesh.X, m->flat + (size_t)f * (size_t)m->mesh.nv);
+    rg_overlay_angles(o, rg_attempt_angles(t, frame), m->rho + (size_t)f * (size_t)m->mesh.N);
+    if (m->flat) rg_overlay_points(o, rg_attempt_pattern(t, frame), m->flat + (size_t)f * (size_t)m->mesh.nv);
     if (s->backwards) done = 1 - done, least = done;
     m->frame[f].percent = 100 * (s->begin + done * (s->end - s->begin)) / ways;
     m->report.folded_percent = m->frame[f].percent;
@@ -109,12 +108,13 @@ static void put(rg_motion *m, const rg_states *q, const rg_stretch *s, const rg_
 static rg_status block(rg_motion *m, const rg_attempt *t, const rg_overlay *o)
 {
     rg_report *r = &m->report;
-    if (RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->blocking_vertex, (size_t)t->vertices),
-                      RG_ARRAY(m->blocking_crease, (size_t)m->mesh.N),
-                      RG_ARRAY(m->blocking_at, (size_t)t->vertices)) != RG_OK) return RG_ENOMEM;
+    const rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->blocking_vertex, (size_t)t->vertices),
+                                      RG_ARRAY(m->blocking_crease, (size_t)m->mesh.N),
+                                      RG_ARRAY(m->blocking_at, (size_t)t->vertices));
+    if (s != RG_OK) return s;
     for (int32_t n = 0; n < t->vertices; n++)
-        for (int32_t v = 0; v < m->mesh.nv; v++) {
-            if (o->spot[v].n != 1 || o->spot[v].at[0] != t->vertex[n] || r->blocking_vertex_count == t->vertices) continue;
+        for (int32_t v = 0; v < m->mesh.nv && r->blocking_vertex_count < t->vertices; v++) {
+            if (o->spot[v].n != 1 || o->spot[v].at[0] != t->vertex[n]) continue;
             m->blocking_at[r->blocking_vertex_count][0] = m->mesh.X[v].x;
             m->blocking_at[r->blocking_vertex_count][1] = m->mesh.X[v].y;
             m->blocking_vertex[r->blocking_vertex_count++] = v;
@@ -128,8 +128,9 @@ static rg_status block(rg_motion *m, const rg_attempt *t, const rg_overlay *o)
     return RG_OK;
 }
 
-/* The states on the way to frame k of a stretch, as those on the way to frame f of the motion. rho[N], X[nv]: scratch. */
-static rg_status put_between(rg_motion *m, const rg_stretch *s, const rg_overlay *o, int32_t k, int32_t f, double *rho, rg_vec2 *X)
+/* The states before frame k of a stretch, as those before frame f of the motion. rho[N], X[nv]: scratch. */
+static rg_status put_between(rg_motion *m, const rg_stretch *s, const rg_overlay *o, int32_t k, int32_t f, double *rho,
+                             rg_vec2 *X)
 {
     const rg_attempt *t = &s->attempt;
     const rg_gaps *g = &t->gaps;
@@ -137,20 +138,20 @@ static rg_status put_between(rg_motion *m, const rg_stretch *s, const rg_overlay
     rg_status status = RG_OK;
     if (s->end_only || f == 0) return RG_OK;
     for (int32_t i = 0; status == RG_OK && i < g->count; i++) {
-        const size_t j = (size_t)(s->backwards ? g->count - 1 - i : i);
+        const int32_t j = s->backwards ? g->count - 1 - i : i;
         if (g->after[j] != after) continue;
-        rg_overlay_angles(o, g->rho + j * (size_t)t->mesh.N, rho);
-        rg_overlay_points(o, g->flat ? g->flat + j * (size_t)t->mesh.nv : t->mesh.X, X);
-        status = rg_gaps_add(&m->gaps, &m->mem, m->mesh.N, m->mesh.nv, f - 1, rho, m->flat ? X : NULL);
+        rg_overlay_angles(o, rg_gaps_angles(g, &t->mesh, j), rho);
+        rg_overlay_points(o, rg_gaps_pattern(g, &t->mesh, j), X);
+        status = rg_gaps_add(&m->gaps, &m->mem, &m->mesh, f - 1, rho, m->flat ? X : NULL);
     }
     return status;
 }
 
 static rg_status put_stretch(rg_motion *m, const rg_states *q, const rg_stretch *s, const rg_overlay *o)
 {
-    double *rho = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *rho);
-    rg_vec2 *X = rg_mem_array(&m->mem, (size_t)m->mesh.nv, sizeof *X);
-    rg_status status = rho && X ? RG_OK : RG_ENOMEM;
+    double *rho;
+    rg_vec2 *X;
+    rg_status status = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(rho, (size_t)m->mesh.N), RG_ARRAY(X, (size_t)m->mesh.nv));
     for (int32_t k = 0; status == RG_OK && k < rg_stretch_frames(s); k++) {
         const int32_t f = m->report.frame_count++;
         status = put_between(m, s, o, k, f, rho, X);
@@ -173,18 +174,14 @@ static rg_status fill(rg_motion *m, const rg_states *q, const rg_overlay *o)
         moves |= !in_place(m, &o[j], &q->stretch[j].attempt, X);
     }
     rg_mem_free(&m->mem, X);
-    m->rho = rg_mem_array(&m->mem, frames * N, sizeof *m->rho);
-    m->frame = rg_mem_array(&m->mem, frames, sizeof *m->frame);
-    m->state_frame = rg_mem_array(&m->mem, (size_t)q->count, sizeof *m->state_frame);
-    m->by_flat = rg_mem_array(&m->mem, (size_t)q->count, sizeof *m->by_flat);
-    if (moves) m->flat = rg_mem_array(&m->mem, frames * nv, sizeof *m->flat);
-    if (!m->rho || !m->frame || !m->state_frame || !m->by_flat || (moves && !m->flat)) return RG_ENOMEM;
-    for (int32_t j = 0; j < q->stretches; j++) {
-        const rg_stretch *s = &q->stretch[j];
-        const rg_status status = put_stretch(m, q, s, &o[j]);
-        if (status != RG_OK) return status;
-        if (s->reaches >= 0) m->state_frame[r->states_reached++] = r->frame_count - 1;
+    rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->rho, frames * N), RG_ARRAY(m->frame, frames),
+                                RG_ARRAY(m->state_frame, (size_t)q->count), RG_ARRAY(m->by_flat, (size_t)q->count));
+    if (s == RG_OK && moves) s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->flat, frames * nv));
+    for (int32_t j = 0; s == RG_OK && j < q->stretches; j++) {
+        s = put_stretch(m, q, &q->stretch[j], &o[j]);
+        if (s == RG_OK && q->stretch[j].reaches >= 0) m->state_frame[r->states_reached++] = r->frame_count - 1;
     }
+    if (s != RG_OK) return s;
     memcpy(m->from, m->rho, N * sizeof *m->from);
     memcpy(m->by_flat, q->by_flat, (size_t)q->by_flat_count * sizeof *m->by_flat);
     return block(m, &q->stretch[q->stretches - 1].attempt, &o[q->stretches - 1]);
@@ -209,7 +206,10 @@ static void tell(rg_motion *m, const rg_states *q)
     r->triangulation = m->mesh.added ? "all" : "none";
     r->why_triangulated = m->mesh.added ? "stops short without added creases" : "goes without added creases";
     rg_search_tell(m, q->tries, &q->cost);
-    snprintf(r->strategy, sizeof r->strategy, "%s%s", q->by_flat_count == 0 ? "directly from state to state" : q->by_flat_count == q->count - 1 ? "through flat" : "directly and through flat",
+    const char *how = q->by_flat_count == 0              ? "directly from state to state"
+                      : q->by_flat_count == q->count - 1 ? "through flat"
+                                                         : "directly and through flat";
+    snprintf(r->strategy, sizeof r->strategy, "%s%s", how,
              r->adjust_gain > 0 || r->compliance > 0 ? ", the pattern gives way" : "");
 }
 
@@ -220,7 +220,8 @@ rg_status rg_assemble_frames(rg_motion *m, const rg_states *q, rg_diag *why)
     if (s != RG_OK) return s;
     rg_overlay *o = rg_mem_array(&m->mem, (size_t)q->stretches, sizeof *o);
     if (!o) return RG_ENOMEM;
-    for (int32_t j = 0; s == RG_OK && j < q->stretches; j++) s = rg_overlay_init(&o[j], &m->mesh, &q->stretch[j].attempt.mesh, q->tol);
+    for (int32_t j = 0; s == RG_OK && j < q->stretches; j++)
+        s = rg_overlay_init(&o[j], &m->mesh, &q->stretch[j].attempt.mesh, q->tol);
     if (s == RG_OK) s = fill(m, q, o);
     if (s == RG_OK) tell(m, q);
     for (int32_t j = 0; j < q->stretches; j++) rg_overlay_free(&o[j]);
@@ -248,13 +249,11 @@ static rg_status measure(rg_motion *m, rg_watch *watch)
 
 static rg_status make(rg_motion *m, const rg_states *q, const rg_pattern *last, rg_watch *watch, rg_diag *why)
 {
-    rg_status s = rg_motion_name(m, last);
+    rg_status s = rg_motion_name(m, rg_pattern_get_info(last));
     if (s == RG_OK) s = rg_assemble_frames(m, q, why);
     if (s != RG_OK) return s;
     s = rg_motion_lend(m);
-    if (s == RG_OK) s = rg_tree_init(&m->mesh, m->settings.fixed_facet, &m->tree);
-    if (s == RG_EARG)
-        rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)m->settings.fixed_facet, (int)m->mesh.nf - 1);
+    if (s == RG_OK) s = rg_motion_hang(m, why);
     if (s == RG_OK) s = measure(m, watch);
     return s == RG_OK ? rg_ending_find(m, watch, why) : s;
 }

@@ -1,8 +1,8 @@
 /* attempt.h -- one try at a motion: the path as far as it came, and frames read off it.
- * Uses  trace.h relax.h        Used by  cuts.c ending.c measure.c search.c
+ * Uses  trace.h relax.h gaps.h        Used by  the other files of this room; chart
  *
- * A path knows nothing of frames. It is found once, as states of rising progress; frames are read off it, as many and where
- * they are asked for. */
+ * A path knows nothing of frames. It is found once, as states of rising progress; frames are read off it, as many and
+ * where they are asked for (frames.c). */
 #ifndef RG_ATTEMPT_H
 #define RG_ATTEMPT_H
 
@@ -36,8 +36,8 @@ typedef struct rg_attempt {
     double wrong;             /* the most that a driven crease was on its wrong side, radians */
     double moved;             /* the farthest that a vertex of the pattern went, lengths */
     double moved_at_end;
-    int32_t strays;           /* driven creases that are flat or on their wrong side at the end of a part of the way that
-                               * is not known to go on to the end */
+    int32_t strays;           /* driven creases flat or on their wrong side at the end of a part of the way which is not
+                               * known to go on to the end */
     const char *method, *solver;
     rg_cost cost;
     double work;              /* of a relaxation, as rg_relax counts it */
@@ -45,24 +45,48 @@ typedef struct rg_attempt {
     int32_t *crease, creases;  /* short of their targets, and not let any nearer */
 } rg_attempt;
 
+/* A relaxation to try. */
+typedef struct rg_relaxed_try {
+    rg_relaxation how;
+    const double *from;      /* [mesh.N] radians; NULL: flat */
+    const double *target;    /* [mesh.N] radians; NAN: none */
+    const rg_symmetry *keeps; /* on a mesh with the same vertices; NULL: none */
+    int backwards;           /* the same motion, looked for from its end */
+    double budget;           /* of its work */
+} rg_relaxed_try;
+
 void rg_attempt_free(rg_attempt *t);
-/* Straight on along the motion that closes exactly, on the pattern given. most_steps 0: as many as it takes. keeps: its path can be read again.
- * *m is taken over, also on failure. */
-rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *s, int32_t most_steps, int keeps, rg_watch *watch, rg_diag *why);
-/* Relaxed, from `from` (NULL: flat) to `target`; backwards: the same motion, looked for from its end. G: on a mesh with the same
- * vertices, kept; NULL: none. *m is taken over, also on failure. budget: of its work. */
-rg_status rg_attempt_relaxed(rg_attempt *t, rg_mesh *m, const rg_settings *s, const rg_relaxation *how, const double *from,
-                             const double *target, const rg_symmetry *G, int backwards, double budget, rg_watch *watch, rg_diag *why);
+/* Straight on along the motion that closes exactly, on the pattern given. most_steps 0: as many as it takes. keeps: its
+ * path can be read again. *m is taken over, also on failure. */
+rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *s, int32_t most_steps, int keeps,
+                              rg_watch *watch, rg_diag *why);
+/* Relaxed. *m is taken over, also on failure. */
+rg_status rg_attempt_relaxed(rg_attempt *t, rg_mesh *m, const rg_settings *s, const rg_relaxed_try *how,
+                             rg_watch *watch, rg_diag *why);
 /* One whose relaxation waits runs on, for so much more work. */
 rg_status rg_attempt_go_on(rg_attempt *t, double work, rg_watch *watch, rg_diag *why);
-/* A path that was found some other way, from flat to `target`: read(ctx, progress, rho[N], X[nv]) gives its state at a progress
- * 0 ... 1, always. Its frames are read off at once. *m is taken over, also on failure. RG_ENOMEM. */
-rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *s, const double *target, rg_path_reader *read,
-                               void *ctx, rg_diag *why);
-/* Frames of it, by settings->frames, to and pace; where it stopped short, those that it reached and the last state. RG_ENOMEM. */
+/* A path that was found some other way, from flat to `target`: read(ctx, progress, rho[N], X[nv]) gives its state at a
+ * progress 0 ... 1, always. Its frames are read off at once. *m is taken over, also on failure. RG_ENOMEM. */
+rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *s, const double *target,
+                               rg_path_reader *read, void *ctx, rg_diag *why);
+/* Runs f, made with `parts` times as many frames, to its end: frames, and what lies between them. trace: out; may be
+ * NULL. */
+rg_status rg_attempt_run(rg_attempt *t, rg_straight *f, int32_t parts, rg_trace *trace, rg_watch *watch);
+
+/* frames.c. Frames by settings->frames, to and pace; where the path stopped short, those that it reached and the last
+ * state. RG_ENOMEM. */
 rg_status rg_attempt_read(rg_attempt *t, const rg_settings *s);
+/* The same off any path, as rg_attempt_from_path has it. RG_ENOMEM. */
+rg_status rg_attempt_read_path(rg_attempt *t, const rg_settings *s, rg_path_reader *read, void *ctx);
 /* Frames that can be read off again are let go. */
 void rg_attempt_forget_frames(rg_attempt *t);
+/* Fold angles and pattern of frame k. */
+const double *rg_attempt_angles(const rg_attempt *t, int32_t k);
+const rg_vec2 *rg_attempt_pattern(const rg_attempt *t, int32_t k);
+
+/* The states that the path is made of: nodes of a relaxation, frames of what went straight on. */
+int32_t rg_attempt_states(const rg_attempt *t);
+const double *rg_attempt_state(const rg_attempt *t, int32_t k);
 /* The most that crease i turned on the whole path, radians. */
 double rg_attempt_largest_angle(const rg_attempt *t, int32_t i);
 

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* What moving a vertex of the pattern by the shortest line at it counts, in radians of a crease: as much as in the search. */
+/* What moving a vertex of the pattern by the shortest line at it counts, in radians of a crease, as in the search. */
 static const double COMPLIANCE = 1;
 static const int32_t CLOSINGS = 30;
 /* A closing that leaves more than this part of the residual is rounding. */
@@ -20,12 +20,10 @@ rg_status rg_between_init(rg_between *B, const rg_memory *mem, const rg_mesh *m,
     if (s == RG_OK && moves) s = rg_constraint_init_moving(&B->K, mem, &B->mesh, &B->freedom, 0);
     if (s == RG_OK && moves) s = rg_coupled_init(&B->J, mem, &B->K, NULL);
     if (s == RG_OK && !moves) s = rg_steer_init(&B->steer, mem, &B->mesh, settings);
-    B->scale = rg_mem_array(mem, n, sizeof *B->scale);
-    B->dz = rg_mem_array(mem, n, sizeof *B->dz);
-    B->z = rg_mem_array(mem, n, sizeof *B->z);
-    B->flat = rg_mem_array(mem, (size_t)m->nv, sizeof *B->flat);
-    B->theta = rg_mem_array(mem, (size_t)m->loop_start[m->M], sizeof *B->theta);
-    return s == RG_OK && !(B->scale && B->dz && B->z && B->flat && B->theta) ? RG_ENOMEM : s;
+    if (s == RG_OK) s = RG_MEM_ARRAYS(mem, RG_ARRAY(B->scale, n), RG_ARRAY(B->dz, n), RG_ARRAY(B->z, n),
+                                      RG_ARRAY(B->flat, (size_t)m->nv),
+                                      RG_ARRAY(B->theta, (size_t)m->loop_start[m->M]));
+    return s;
 }
 
 void rg_between_free(rg_between *B)
@@ -58,16 +56,16 @@ static double close_together(rg_between *B, int32_t c)
     return best;
 }
 
-double rg_between_at(rg_between *B, const double *from, const rg_vec2 *X_from, const double *to, const rg_vec2 *X_to, double part, int32_t c,
+double rg_between_at(rg_between *B, const rg_motion_state *from, const rg_motion_state *to, double part, int32_t c,
                      double angle)
 {
     const int32_t N = B->mesh.N;
     double closure;
-    for (int32_t i = 0; i < N; i++) B->z[i] = from[i] + part * (to[i] - from[i]);
+    for (int32_t i = 0; i < N; i++) B->z[i] = from->rho[i] + part * (to->rho[i] - from->rho[i]);
     B->z[c] = angle;
     for (int32_t w = 0; w < B->freedom.U; w++) {
         const int32_t v = B->freedom.vertex[w];
-        const rg_vec2 a = rg_vec2_sub(X_from[v], B->mesh.X[v]), d = rg_vec2_sub(X_to[v], X_from[v]);
+        const rg_vec2 a = rg_vec2_sub(from->X[v], B->mesh.X[v]), d = rg_vec2_sub(to->X[v], from->X[v]);
         B->z[N + w] = rg_vec2_dot(a, B->freedom.direction[w]) + part * rg_vec2_dot(d, B->freedom.direction[w]);
     }
     if (B->moves) {
@@ -75,7 +73,7 @@ double rg_between_at(rg_between *B, const double *from, const rg_vec2 *X_from, c
         rg_freedom_move(&B->freedom, B->z + N, B->flat);
         return closure;
     }
-    memcpy(B->flat, X_from, (size_t)B->mesh.nv * sizeof *B->flat);
-    rg_mesh_sectors(&B->mesh, X_from, B->theta);
+    memcpy(B->flat, from->X, (size_t)B->mesh.nv * sizeof *B->flat);
+    rg_mesh_sectors(&B->mesh, from->X, B->theta);
     return rg_steer_close(&B->steer, B->theta, c, B->z);
 }

@@ -1,5 +1,5 @@
 /* between.h -- a state between two of a track: on their chord, closed, with one crease where it is asked for.
- * Paper    eqs. (14), (19) as one system        Uses  steer.h coupled.h        Used by  fold.c
+ * Paper    eqs. (14), (19) as one system        Uses  steer.h coupled.h motion.h        Used by  fold.h stepping.c, write
  *
  * Where both have the pattern given, fold angles close it; else the pattern moves as well, as in fold/relax.h. */
 #ifndef RG_BETWEEN_H
@@ -27,9 +27,9 @@ typedef struct rg_between {
 /* Owner: the caller, rg_between_free, also after a failure. RG_ENOMEM, RG_EABSENT. */
 rg_status rg_between_init(rg_between *B, const rg_memory *mem, const rg_mesh *m, int moves, const rg_settings *s);
 void rg_between_free(rg_between *B);
-/* Part of the way from (rho, X) to (rho, X), crease c at `angle`: in B->z, B->flat. Returns its closure; NAN: it does not close. Allocates
- * nothing. */
-double rg_between_at(rg_between *B, const double *from, const rg_vec2 *X_from, const double *to, const rg_vec2 *X_to, double part, int32_t c,
+/* Part of the way from a state to another, crease c at `angle`: in B->z, B->flat. Returns its closure; NAN: it does not
+ * close. Allocates nothing. */
+double rg_between_at(rg_between *B, const rg_motion_state *from, const rg_motion_state *to, double part, int32_t c,
                      double angle);
 
 #endif

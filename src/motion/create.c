@@ -18,8 +18,8 @@
 /* A crease below the first has not left flat; within the second of half a turn it is at its limit. */
 static const double LOCKED = 1e-6, AT_LIMIT = 0.5 * RG_DEG;
 
-/* Of the work that a motion without contact, all at once, may cost: where there is one in stages. Of what is found at all beside stages, nothing
- * cost more than an eighth of it. */
+/* What a motion without contact may cost where there is one in stages, as a part of what it may else: of those that are
+ * found at all then, none costs more than an eighth. */
 static const double PART_WITH_STAGES = 0.15;
 
 /* A place is the same though it was computed in another way: a part of the sheet's size. */
@@ -30,12 +30,13 @@ static void count_held(const rg_motion *m, int32_t *locked, int32_t *at_limit)
 {
     const double *rho = rg_motion_angles(m, m->report.frame_count - 1);
     *locked = *at_limit = 0;
-    for (int32_t i = 0; i < m->report.blocking_crease_count; i++) *locked += fabs(rho[m->report.blocking_creases[i]]) <= LOCKED;
+    for (int32_t i = 0; i < m->report.blocking_crease_count; i++)
+        *locked += fabs(rho[m->report.blocking_creases[i]]) <= LOCKED;
     for (int32_t i = 0; i < m->mesh.N - m->mesh.added; i++) *at_limit += fabs(rho[i]) >= RG_PI - AT_LIMIT;
 }
 
-/* A vertex that cannot be as it should: one that holds the fold, else any that misses its own targets, else any. Theorems of folding flat do
- * not count where only a part of the way is asked for. */
+/* A vertex that cannot be as it should: one that holds the fold, else any that misses its own targets, else any.
+ * Theorems of folding flat do not count where only a part of the way is asked for. */
 static void find_theorem(rg_motion *m, const rg_pattern *p)
 {
     rg_report *r = &m->report;
@@ -75,16 +76,18 @@ static rg_status explain(rg_motion *m, const rg_pattern *p)
     const char *help = m->settings.triangulate == RG_TRIANGULATE_NONE ? "added creases may help"
                        : m->settings.adjust == 0                      ? "adjusting creases may help"
                                                                       : "nothing known helps";
-    size_t used = strlen(r->reason);
-    used += (size_t)rg_text(r->reason + used, sizeof r->reason - used, "; ways the sheet could go to first order: %d", (int)ways);
+    const size_t used = strlen(r->reason);
     rg_text(r->reason + used, sizeof r->reason - used,
-             "; held most at (%.6g, %.6g), a %svertex of %d creases (%d free); creases of the sheet locked flat: %d, at half a turn: %d; %s", x, y,
-             closed ? "closed " : "", (int)creases, (int)(creases > 3 ? creases - 3 : 0), (int)locked, (int)at_limit, help);
+            "; ways the sheet could go to first order: %d; held most at (%.6g, %.6g), a %svertex of %d creases "
+            "(%d free); creases of the sheet locked flat: %d, at half a turn: %d; %s",
+            (int)ways, x, y, closed ? "closed " : "", (int)creases, (int)(creases > 3 ? creases - 3 : 0), (int)locked,
+            (int)at_limit, help);
     return RG_OK;
 }
 
-/* What the kept try has, becomes the motion's; its path, where it can be read off again, that of who asks for it (NULL: nobody). */
-static rg_status adopt(rg_motion *m, rg_search *c, rg_attempt *path)
+/* What the kept try has becomes the motion's; path: out, the rest of it, where it can be read off again; may be
+ * NULL. */
+static void take_over(rg_motion *m, rg_search *c, rg_attempt *path)
 {
     rg_report *r = &m->report;
     rg_attempt *t = &c->best;
@@ -108,19 +111,23 @@ static rg_status adopt(rg_motion *m, rg_search *c, rg_attempt *path)
         memset(t, 0, sizeof *t);
     }
     rg_attempt_free(t);
+}
 
+static rg_status adopt(rg_motion *m, rg_search *c, rg_attempt *path)
+{
+    rg_report *r = &m->report;
+    take_over(m, c, path);
     r->triangulation = c->triangulation;
     r->why_triangulated = c->why_triangulated;
     rg_text(r->strategy, sizeof r->strategy, "%s", c->strategy);
     rg_search_tell(m, c->tries, &c->cost);
-
-    m->tried = rg_mem_array(&m->mem, (size_t)c->tried_count, sizeof *m->tried);
-    if (!m->tried) return RG_ENOMEM;
+    const rg_status s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->tried, (size_t)c->tried_count),
+                                      RG_ARRAY(m->frame, (size_t)r->frame_count),
+                                      RG_ARRAY(m->blocking_at, (size_t)r->blocking_vertex_count));
+    if (s != RG_OK) return s;
     memcpy(m->tried, c->tried, (size_t)c->tried_count * sizeof *m->tried);
     r->tried = m->tried;
     r->tried_count = c->tried_count;
-    if (RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->frame, (size_t)r->frame_count),
-                      RG_ARRAY(m->blocking_at, (size_t)r->blocking_vertex_count)) != RG_OK) return RG_ENOMEM;
     for (int32_t k = 0; k < r->blocking_vertex_count; k++) {
         const rg_vec2 at = m->mesh.X[m->blocking_vertex[k]];
         /* What rounding leaves of 0 is 0 for people. */
@@ -135,12 +142,15 @@ static rg_status adopt(rg_motion *m, rg_search *c, rg_attempt *path)
     return RG_OK;
 }
 
-/* In stages costs little, and is had first; all at once is better, and is looked for all the same, but not for as long. */
-static rg_status without_contact(rg_search *c, rg_stages *stages, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why)
+/* In stages costs little, and is had first; all at once is better, and is looked for all the same, but not for as
+ * long. */
+static rg_status without_contact(rg_search *c, rg_stages *stages, const rg_mesh *none, const rg_settings *s,
+                                 rg_watch *watch, rg_diag *why)
 {
     rg_status status = rg_stages_try(stages, c, none, s, watch, why);
     const int had = stages->count > 0;
-    if (status == RG_OK && !watch->cancelled) status = rg_unfolding_run(c, none, s, had ? PART_WITH_STAGES : 1, watch, why);
+    if (status == RG_OK && !watch->cancelled)
+        status = rg_unfolding_run(c, none, s, had ? PART_WITH_STAGES : 1, watch, why);
     if (had && c->rung == RG_UNFOLDED) rg_motion_free_stages(stages);
     return status;
 }
@@ -159,11 +169,47 @@ static rg_status adopt_stages(rg_motion *m, rg_stages *q)
                 double *y = &m->stages.fold[r->stage[j].fold - m->stages.fold + k].line[i][1];
                 *y = 0 - *y;
             }
-    return m->stages.vertex ? rg_source_follow(&m->source, m->mesh.nv, m->stages.vertex, m->mesh.ne, m->stages.edge) : RG_OK;
+    if (!m->stages.vertex) return RG_OK;
+    return rg_source_follow(&m->source, m->mesh.nv, m->stages.vertex, m->mesh.ne, m->stages.edge);
 }
 
-rg_status rg_motion_with_path(const rg_pattern *p, const rg_settings *given, rg_progress progress, void *ctx, rg_motion **motion,
-                              rg_attempt *path, rg_diag *why)
+/* Fills the mesh, the frames and what is told of how they were found. */
+static rg_status find(rg_motion *m, const rg_pattern *p, rg_watch *watch, rg_attempt *path, rg_diag *why)
+{
+    const rg_settings *settings = &m->settings;
+    rg_search search = {0};
+    rg_stages stages = {0};
+    rg_mesh none = {0};
+    int wanted = 0;
+    rg_status s = rg_mesh_from_pattern(p, &m->mem, &none, why);
+    const rg_problem problem = {&none, NULL, NULL, 1, path != NULL};
+    if (s == RG_OK) s = rg_search_run(&search, &problem, settings, watch, why);
+    if (s == RG_OK) s = rg_unfolding_wanted(&search, &none, settings, watch, &wanted, why);
+    if (s == RG_OK && wanted) s = without_contact(&search, &stages, &none, settings, watch, why);
+    if (s == RG_OK) s = rg_attempt_read(&search.best, settings);
+    if (s == RG_OK) s = adopt(m, &search, path);
+    if (s == RG_OK) s = adopt_stages(m, &stages);
+    rg_motion_free_stages(&stages);
+    rg_attempt_free(&search.best);
+    rg_mesh_free(&none);
+    return s;
+}
+
+/* There is no crease left of those that are drawn. */
+static void tell_lost(rg_report *r)
+{
+    const int lost = (int)r->pattern->lost_creases;
+    r->outcome = RG_STOPPED;
+    if (lost == 1)
+        rg_text(r->reason, sizeof r->reason,
+                "no crease is left to fold: the only one drawn ends short of the next line, or lies on the border");
+    else
+        rg_text(r->reason, sizeof r->reason,
+                "no crease is left to fold: all %d that are drawn end short of the next line, or lie on the border", lost);
+}
+
+rg_status rg_motion_with_path(const rg_pattern *p, const rg_settings *given, rg_progress progress, void *ctx,
+                              rg_motion **motion, rg_attempt *path, rg_diag *why)
 {
     const double begun = rg_seconds();
     rg_settings mine, *const settings = &mine;
@@ -174,63 +220,42 @@ rg_status rg_motion_with_path(const rg_pattern *p, const rg_settings *given, rg_
     if (!m) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
     m->mem = mem;
     m->settings = *settings;
-    rg_report *r = &m->report;
+    const rg_report *r = &m->report;
     rg_watch watch = {.progress = progress, .ctx = ctx};
-    rg_search search = {0};
-    rg_stages stages = {0};
-    int wanted = 0;
-    rg_mesh none = {0};
-    s = rg_motion_name(m, p);
+    s = rg_motion_name(m, rg_pattern_get_info(p));
     if (s == RG_OK) s = rg_source_copy(&p->source, &mem, &m->source);
-    if (s == RG_OK) s = rg_mesh_from_pattern(p, &mem, &none, why);
-    const rg_problem problem = {&none, NULL, NULL, 1, path != NULL};
-    if (s == RG_OK) s = rg_search_run(&search, &problem, settings, &watch, why);
-    if (s == RG_OK) s = rg_unfolding_wanted(&search, &none, settings, &watch, &wanted, why);
-    if (s == RG_OK && wanted) s = without_contact(&search, &stages, &none, settings, &watch, why);
-    if (s == RG_OK) s = rg_attempt_read(&search.best, settings);
-    if (s == RG_OK) s = adopt(m, &search, path);
-    if (s == RG_OK) s = adopt_stages(m, &stages);
-    rg_motion_free_stages(&stages);
+    if (s == RG_OK) s = find(m, p, &watch, path, why);
     if (s == RG_OK) s = rg_motion_lend(m);
-    rg_attempt_free(&search.best);
-    if (s == RG_OK) s = rg_tree_init(&m->mesh, settings->fixed_facet, &m->tree);
-    if (s == RG_EARG && m->mesh.nf > 0)
-        rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)settings->fixed_facet, (int)m->mesh.nf - 1);
+    if (s == RG_OK) s = rg_motion_hang(m, why);
     if (s == RG_OK) s = rg_measure_frames(m, &watch);
     if (s == RG_OK) s = rg_ending_find(m, &watch, why);
     if (s == RG_OK && !watch.cancelled) find_theorem(m, p);
     if (s == RG_OK && !watch.cancelled) s = explain(m, p);
-    if (s == RG_OK && r->pattern->creases == 0 && r->pattern->lost_creases > 0) {
-        r->outcome = RG_STOPPED;
-        const int one = r->pattern->lost_creases == 1;
-        rg_text(r->reason, sizeof r->reason, one ? "no crease is left to fold: the only one drawn ends short of the next line, or lies on the border"
-                                                 : "no crease is left to fold: all %d that are drawn end short of the next line, or lie on the border",
-                 (int)r->pattern->lost_creases);
-    }
-    rg_mesh_free(&none);
+    if (s == RG_OK && r->pattern->creases == 0 && r->pattern->lost_creases > 0) tell_lost(&m->report);
     if (s != RG_OK) {
         if (path) rg_attempt_free(path);
         rg_motion_destroy(m);
         return s == RG_ENOMEM ? rg_fail(s, why, 0, "out of memory") : s;
     }
-    r->seconds_total = rg_seconds() - begun;
+    m->report.seconds_total = rg_seconds() - begun;
     *motion = m;
     return RG_OK;
 }
 
-rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_progress progress, void *ctx, rg_motion **motion, rg_diag *why)
+rg_status rg_motion_create(const rg_pattern *p, const rg_settings *settings, rg_progress progress, void *ctx,
+                           rg_motion **motion, rg_diag *why)
 {
     return rg_motion_with_path(p, settings, progress, ctx, motion, NULL, why);
 }
 
-/* ------------------------------------------------------------------------------------------ flat, to be steered ---- */
+/* ---------------------------------------------------------------------------------------- flat, to be steered ---- */
 
 static rg_status lay_out(rg_motion *m, const rg_pattern *p, rg_diag *why)
 {
     rg_report *r = &m->report;
     const int cuts = m->settings.triangulate == RG_TRIANGULATE_ALL;
     rg_mesh none = {0};
-    rg_status s = rg_motion_name(m, p);
+    rg_status s = rg_motion_name(m, rg_pattern_get_info(p));
     if (s == RG_OK) s = rg_source_copy(&p->source, &m->mem, &m->source);
     if (s == RG_OK) s = rg_mesh_from_pattern(p, &m->mem, &none, why);
     if (s == RG_OK) s = cuts ? rg_triangulate_all(&none, &m->mesh) : rg_mesh_copy(&none, &m->mesh);
@@ -239,7 +264,8 @@ static rg_status lay_out(rg_motion *m, const rg_pattern *p, rg_diag *why)
     const size_t N = (size_t)m->mesh.N;
     if (RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->target, N), RG_ARRAY(m->from, N), RG_ARRAY(m->rho, N),
                       RG_ARRAY(m->frame, 1)) != RG_OK) return RG_ENOMEM;
-    for (int32_t i = 0; i < m->mesh.N; i++) m->target[i] = i < m->mesh.N - m->mesh.added ? m->settings.to * m->mesh.target[m->mesh.crease_edge[i]] : NAN;
+    for (int32_t i = 0; i < m->mesh.N; i++)
+        m->target[i] = i < m->mesh.N - m->mesh.added ? m->settings.to * m->mesh.target[m->mesh.crease_edge[i]] : NAN;
     r->frame_count = 1;
     r->frames = m->frame;
     r->added_creases = m->mesh.added, r->unknowns = m->mesh.N, r->constraints = 3 * m->mesh.M;
@@ -247,9 +273,7 @@ static rg_status lay_out(rg_motion *m, const rg_pattern *p, rg_diag *why)
     r->why_triangulated = cuts ? "asked for" : "as drawn";
     r->method = r->solver = r->rung = r->direction = r->layers = r->layer_orders = r->layers_reason = "";
     r->outcome = RG_RUNNING;
-    s = rg_tree_init(&m->mesh, m->settings.fixed_facet, &m->tree);
-    if (s == RG_EARG && m->mesh.nf > 0)
-        rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", (int)m->settings.fixed_facet, (int)m->mesh.nf - 1);
+    s = rg_motion_hang(m, why);
     if (s == RG_OK) s = rg_motion_lend(m);
     return s == RG_OK ? rg_measure_frames(m, NULL) : s;
 }

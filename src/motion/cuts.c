@@ -2,19 +2,13 @@
 
 #include <string.h>
 
-rg_status rg_cuts_init(rg_cuts *c, const rg_memory *mem, const rg_mesh *none, const rg_symmetry *G, const rg_attempt *all)
+rg_status rg_cuts_init(rg_cuts *c, const rg_memory *mem, const rg_mesh *none, const rg_symmetry *G,
+                       const rg_attempt *all)
 {
-    memset(c, 0, sizeof *c);
-    c->mem = *mem;
-    c->none = none;
-    c->G = G;
-    c->which = rg_mem_array(mem, (size_t)none->nf, sizeof *c->which);
-    c->bend = rg_mem_array(mem, (size_t)none->nf, sizeof *c->bend);
-    c->piece_of = rg_mem_array(mem, (size_t)none->facet_start[none->nf], sizeof *c->piece_of);
-    if (!c->which || !c->bend || !c->piece_of) {
-        rg_cuts_free(c);
-        return RG_ENOMEM;
-    }
+    *c = (rg_cuts){.mem = *mem, .none = none, .G = G};
+    const rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(c->which, (size_t)none->nf), RG_ARRAY(c->bend, (size_t)none->nf),
+                                      RG_ARRAY(c->piece_of, (size_t)none->facet_start[none->nf]));
+    if (s != RG_OK) return s;
     memset(c->which, 1, (size_t)none->nf);
     rg_cuts_measure(c, all);
     return RG_OK;

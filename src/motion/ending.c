@@ -20,7 +20,7 @@ static int whole_turns(const rg_motion *m, int32_t frame, double *angle)
     return folded;
 }
 
-/* wish[]: out, as rg_seen_order's, and surer than that where contact followed a pair all the way: such a pair wishes for more than all
+/* wish[]: as rg_seen_order's; a pair that contact followed all the way is surer, and wishes for more than all
  * others. */
 static void wish_for_sides(const rg_motion *m, double *wish)
 {
@@ -29,7 +29,8 @@ static void wish_for_sides(const rg_motion *m, double *wish)
     for (int32_t i = 0; i < l->pairs.count; i++) most = fmax(most, fabs(wish[i]));
     for (int32_t i = 0; i < m->sides; i++) {
         const rg_motion_side *s = &m->side[i];
-        const int32_t f = l->flat.facet_of[s->facet[0]], g = l->flat.facet_of[s->facet[1]], pair = f == g ? -1 : rg_pairs_find(&l->pairs, f, g);
+        const int32_t f = l->flat.facet_of[s->facet[0]], g = l->flat.facet_of[s->facet[1]];
+        const int32_t pair = f == g ? -1 : rg_pairs_find(&l->pairs, f, g);
         if (pair < 0 || rg_layers_above_of_mesh(l, s->facet[0], s->facet[1]) == 0) continue;
         wish[pair] = (f < g ? 1 : -1) * s->before * l->flat.up[f] * (1 + most);
     }
@@ -49,8 +50,8 @@ static rg_status choose(rg_motion *m)
     return s;
 }
 
-/* A motion that is free but for facets which come to lie in an order that no flat end has passes through itself on the last of its
- * way. */
+/* A motion that seems free, but whose facets come in an order that no flat end has, passes through itself on the last
+ * of its way. */
 static void tell_wrong_order(rg_motion *m)
 {
     rg_report *r = &m->report;
@@ -70,30 +71,27 @@ rg_status rg_ending_find(rg_motion *m, rg_watch *watch, rg_diag *why)
 {
     const rg_stop stop = {rg_watch_asked, watch};
     double *angle = rg_mem_array(&m->mem, (size_t)m->mesh.N, sizeof *angle);
-    rg_layers_info info;
     rg_status s = RG_OK;
     if (!angle) return rg_fail(RG_ENOMEM, why, 0, "out of memory");
     m->ends_flat = whole_turns(m, m->report.frame_count - 1, angle);
     for (int32_t i = 0; !m->ends_flat && i < m->mesh.N; i++) angle[i] = fabs(m->settings.to) * m->target[i];
-    if (watch && rg_watch_asked(watch)) {
-        rg_mem_free(&m->mem, angle);
-        m->report.layers = rg_layers_state_name(RG_LAYERS_UNSOLVED);
-        m->report.layer_orders = "";
-        m->report.layers_reason = "interrupted";
-        return RG_OK;
-    }
-    s = rg_layers_of_mesh(&m->mesh, angle, m->source.y_down, &m->mem, watch ? &stop : NULL, &m->layers, why);
-    if (s == RG_OK) {
-        info = *rg_layers_get_info(m->layers);
-        m->report.layers = rg_layers_state_name(info.state);
-        m->report.layer_orders = info.count;
-        m->report.layers_reason = m->layers->info.reason;
-        if (info.state == RG_LAYERS_VALID) s = choose(m);
-        if (info.state == RG_LAYERS_VALID && s == RG_OK) tell_wrong_order(m);
-        if (s != RG_OK) rg_fail(s, why, 0, "out of memory");
-    }
+    const int cancelled = watch && rg_watch_asked(watch);
+    m->report.layers = rg_layers_state_name(RG_LAYERS_UNSOLVED);
+    m->report.layer_orders = "";
+    m->report.layers_reason = "interrupted";
+    if (!cancelled)
+        s = rg_layers_of_mesh(&m->mesh, angle, m->source.y_down, &m->mem, watch ? &stop : NULL, &m->layers, why);
     rg_mem_free(&m->mem, angle);
-    return s;
+    if (s != RG_OK || cancelled) return s;
+    const rg_layers_info *info = rg_layers_get_info(m->layers);
+    m->report.layers = rg_layers_state_name(info->state);
+    m->report.layer_orders = info->count;
+    m->report.layers_reason = info->reason;
+    if (info->state != RG_LAYERS_VALID) return RG_OK;
+    s = choose(m);
+    if (s != RG_OK) return rg_fail(s, why, 0, "out of memory");
+    tell_wrong_order(m);
+    return RG_OK;
 }
 
 const rg_layers *rg_ending_layers(const rg_motion *m, int32_t frame)

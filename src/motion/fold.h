@@ -1,8 +1,8 @@
 /* fold.h -- the handle behind rigami.h's rg_fold: a track of states, and the one that it stands on.
- * Uses  attempt.h between.h steer.h        Used by  motion, write
+ * Uses  attempt.h between.h steer.h        Used by  create.c and those of rg_fold: keeping, standing, steering, stepping, tangents; write
  *
- * The track is the motion's frames until somebody steers. Then the states that were passed are kept in a list of its own, whose last leg
- * grows step by step. Motions never change, so clones and snapshots share one. */
+ * The track is the motion's frames until somebody steers. Then the states that were passed are kept in a list of its
+ * own, whose last leg grows step by step. Motions never change, so clones and snapshots share one. */
 #ifndef RG_FOLD_H
 #define RG_FOLD_H
 
@@ -26,6 +26,9 @@ typedef struct rg_track {
     double *progress; /* [room] within its leg, 0 ... 1 */
     double *closure;  /* [room] */
 } rg_track;
+
+/* All states of one, of which there is at least one, to another that has room for them. */
+void rg_track_copy(rg_track *to, const rg_track *from, const rg_mesh *m);
 
 /* How the last leg of a track ended. */
 typedef struct rg_ending {
@@ -73,7 +76,7 @@ const rg_step_info *rg_fold_look(rg_fold *f);
 /* State k of the track becomes the present one; its progress. */
 const rg_step_info *rg_fold_stand(rg_fold *f, int32_t k);
 double rg_fold_progress(const rg_fold *f, int32_t k);
-/* rho[N], X[nv]: out, the state at that part of the way from state k of the track to the next, as it is gone to there. *closes zero: none was
+/* rho[N], X[nv]: out, the state at that part of the way from state k of the track to the next. *closes zero: none was
  * found. RG_ENOMEM. */
 rg_status rg_fold_read_between(rg_fold *f, int32_t k, double part, double *rho, rg_vec2 *X, int *closes);
 /* Is there more to come of the last leg? Then one state more of it, at the end of the track. */
@@ -84,9 +87,10 @@ rg_status rg_fold_own_track(rg_fold *f, int32_t states);
 /* The engine to steer by. RG_ENOMEM. */
 rg_status rg_fold_make_steer(rg_fold *f);
 
-/* As rg_motion_create. path: out, what can be read off again, its mesh that of the motion, to be freed before it; NULL: not asked for. */
-rg_status rg_motion_with_path(const rg_pattern *p, const rg_settings *s, rg_progress progress, void *ctx, rg_motion **motion,
-                              rg_attempt *path, rg_diag *why);
+/* As rg_motion_create. path: out, what can be read off again, its mesh that of the motion, to be freed before it; NULL:
+ * not asked for. */
+rg_status rg_motion_with_path(const rg_pattern *p, const rg_settings *s, rg_progress progress, void *ctx,
+                              rg_motion **motion, rg_attempt *path, rg_diag *why);
 /* Flat paper and nothing else, to be steered: facets as drawn, or all cut. */
 rg_status rg_motion_unfolded(const rg_pattern *p, const rg_settings *s, rg_motion **motion, rg_diag *why);
 

@@ -1,4 +1,5 @@
-/* keeping.c -- states of a fold to come back to, folds like it, and tracks made motions: rigami.h, rg_fold_snapshot and others. */
+/* keeping.c -- states of a fold to come back to, folds like it, and tracks made motions: rigami.h, rg_fold_snapshot and
+ * others. */
 #include "base/clock.h"
 #include "base/settings.h"
 #include "base/status.h"
@@ -17,15 +18,12 @@ struct rg_snapshot {
     rg_memory mem;
     rg_shared *of;       /* held, so that no other one can take its place */
     int steered, aimed, between;
-    int32_t first, at, vertices, creases, states;
-    rg_outcome outcome;
-    const char *reason;
+    int32_t first, at;
     double closure, progress;
     double *rho;         /* [N] the present state */
     rg_vec2 *flat;       /* [nv] */
-    int32_t *vertex, *crease;
-    double *track_rho, *track_progress, *track_closure; /* [states][N], [states] */
-    rg_vec2 *track_flat;
+    rg_ending ending;
+    rg_track track;
     int steers;
     rg_steer_kept leg;
 };
@@ -34,78 +32,62 @@ void rg_snapshot_destroy(rg_snapshot *s)
 {
     if (!s) return;
     const rg_memory mem = s->mem;
-    RG_MEM_FREE(&mem, s->rho, s->flat, s->vertex, s->crease, s->track_rho, s->track_progress, s->track_closure,
-                s->track_flat);
+    RG_MEM_FREE(&mem, s->rho, s->flat, s->ending.vertex, s->ending.crease, s->track.rho, s->track.flat,
+                s->track.progress, s->track.closure);
     if (s->steers) rg_steer_kept_free(&s->leg, &mem);
     rg_shared_let_go(&mem, s->of);
     rg_mem_free(&mem, s);
-}
-
-static void *copied(const rg_memory *mem, const void *from, size_t n, size_t size, int *ok)
-{
-    void *to = rg_mem_array(mem, n, size);
-    if (!to) *ok = 0;
-    else if (n > 0) memcpy(to, from, n * size);
-    return to;
 }
 
 rg_status rg_fold_snapshot(const rg_fold *f, rg_snapshot **snapshot)
 {
     const rg_mesh *m = rg_fold_mesh(f);
     const size_t N = (size_t)m->N, nv = (size_t)m->nv, n = f->steered ? (size_t)f->track.count : 0;
-    int ok = 1;
     rg_snapshot *s = rg_mem_array(&f->mem, 1, sizeof *s);
     if (!s) return RG_ENOMEM;
-    *s = (rg_snapshot){.mem = f->mem, .of = f->shared, .steered = f->steered, .aimed = f->aimed, .between = f->between, .first = f->first,
-                       .at = f->at, .vertices = f->ending.vertices, .creases = f->ending.creases, .states = (int32_t)n,
-                       .outcome = f->ending.outcome, .reason = f->ending.reason, .closure = f->closure, .progress = f->progress};
+    *s = (rg_snapshot){.mem = f->mem, .of = f->shared, .steered = f->steered, .aimed = f->aimed, .between = f->between,
+                       .first = f->first, .at = f->at, .closure = f->closure, .progress = f->progress, .rho = f->rho,
+                       .flat = f->flat, .ending = f->ending, .track = f->track};
     atomic_fetch_add(&f->shared->holders, 1);
-    s->rho = copied(&f->mem, f->rho, N, sizeof *s->rho, &ok);
-    s->flat = copied(&f->mem, f->flat, nv, sizeof *s->flat, &ok);
-    s->vertex = copied(&f->mem, f->ending.vertex, (size_t)f->ending.vertices, sizeof *s->vertex, &ok);
-    s->crease = copied(&f->mem, f->ending.crease, (size_t)f->ending.creases, sizeof *s->crease, &ok);
-    s->track_rho = copied(&f->mem, f->track.rho, n * N, sizeof *s->track_rho, &ok);
-    s->track_flat = copied(&f->mem, f->track.flat, n * nv, sizeof *s->track_flat, &ok);
-    s->track_progress = copied(&f->mem, f->track.progress, n, sizeof *s->track_progress, &ok);
-    s->track_closure = copied(&f->mem, f->track.closure, n, sizeof *s->track_closure, &ok);
-    if (ok && f->steer) {
-        ok = rg_steer_kept_init(&s->leg, &f->mem, m->N) == RG_OK;
-        s->steers = ok;
-        if (ok) rg_steer_keep(f->steer, &s->leg);
+    s->track.count = (int32_t)n;
+    rg_ending *e = &s->ending;
+    rg_track *t = &s->track;
+    rg_status status = RG_MEM_COPIES(&f->mem, RG_ARRAY(s->rho, N), RG_ARRAY(s->flat, nv),
+                                     RG_ARRAY(e->vertex, (size_t)e->vertices),
+                                     RG_ARRAY(e->crease, (size_t)e->creases), RG_ARRAY(t->rho, n * N),
+                                     RG_ARRAY(t->flat, n * nv), RG_ARRAY(t->progress, n), RG_ARRAY(t->closure, n));
+    if (status == RG_OK && f->steer) {
+        status = rg_steer_kept_init(&s->leg, &f->mem, m->N);
+        s->steers = status == RG_OK;
+        if (s->steers) rg_steer_keep(f->steer, &s->leg);
     }
-    if (!ok) {
-        rg_snapshot_destroy(s);
-        return RG_ENOMEM;
-    }
-    *snapshot = s;
-    return RG_OK;
+    if (status == RG_OK) *snapshot = s;
+    else rg_snapshot_destroy(s);
+    return status;
 }
 
 rg_status rg_fold_restore(rg_fold *f, const rg_snapshot *s)
 {
     const rg_mesh *m = rg_fold_mesh(f);
-    const size_t N = (size_t)m->N, nv = (size_t)m->nv, n = (size_t)s->states;
+    const size_t N = (size_t)m->N, nv = (size_t)m->nv, n = (size_t)s->track.count;
+    const rg_ending *e = &s->ending;
     if (s->of != f->shared) return RG_EARG;
     rg_status status = s->steers ? rg_fold_make_steer(f) : RG_OK;
-    if (status == RG_OK && s->steered) status = rg_fold_own_track(f, s->aimed ? s->states : s->first + 1);
+    if (status == RG_OK && s->steered) status = rg_fold_own_track(f, s->aimed ? s->track.count : s->first + 1);
     if (status != RG_OK) return status;
     f->steered = s->steered, f->aimed = s->aimed, f->between = s->between, f->first = s->first, f->at = s->at;
     f->closure = s->closure, f->progress = s->progress;
-    f->ending.outcome = s->outcome, f->ending.reason = s->reason, f->ending.vertices = s->vertices, f->ending.creases = s->creases;
+    f->ending.outcome = e->outcome, f->ending.reason = e->reason;
+    f->ending.vertices = e->vertices, f->ending.creases = e->creases;
     memcpy(f->rho, s->rho, N * sizeof *s->rho);
     memcpy(f->flat, s->flat, nv * sizeof *s->flat);
-    memcpy(f->ending.vertex, s->vertex, (size_t)s->vertices * sizeof *s->vertex);
-    memcpy(f->ending.crease, s->crease, (size_t)s->creases * sizeof *s->crease);
-    f->track.count = s->states;
-    if (n > 0) {
-        memcpy(f->track.rho, s->track_rho, n * N * sizeof *s->track_rho);
-        memcpy(f->track.flat, s->track_flat, n * nv * sizeof *s->track_flat);
-        memcpy(f->track.progress, s->track_progress, n * sizeof *s->track_progress);
-        memcpy(f->track.closure, s->track_closure, n * sizeof *s->track_closure);
-    }
+    memcpy(f->ending.vertex, e->vertex, (size_t)e->vertices * sizeof *e->vertex);
+    memcpy(f->ending.crease, e->crease, (size_t)e->creases * sizeof *e->crease);
+    f->track.count = s->track.count;
+    if (n > 0) rg_track_copy(&f->track, &s->track, m);
     if (s->steers) {
         /* The leg's pattern; of one that is still to begin, that of where it will. */
-        const rg_vec2 *X = s->steered ? rg_fold_pattern(f, s->aimed ? s->states - 1 : s->first) : m->X;
+        const rg_vec2 *X = s->steered ? rg_fold_pattern(f, s->aimed ? s->track.count - 1 : s->first) : m->X;
         rg_mesh_sectors(m, X, f->theta);
         rg_steer_return(f->steer, f->theta, &s->leg);
     }
@@ -153,7 +135,8 @@ static void set_aims(rg_motion *m, const rg_fold *f)
     }
 }
 
-/* Measuring goes by the angles of the last leg; of several, it is the way that counts, and each is as long as any other. */
+/* Measuring goes by the angles of the last leg; of several, it is the way that counts, and each is as long as any
+ * other. */
 static void set_percent(rg_motion *m, const rg_fold *f, int32_t every)
 {
     const int32_t legs = legs_of(f), states = rg_fold_states(f);
@@ -166,25 +149,45 @@ static void set_percent(rg_motion *m, const rg_fold *f, int32_t every)
     if (legs > 1) m->report.least_folded_percent = m->report.folded_percent;
 }
 
+static void tell_found(rg_report *r, const rg_report *old)
+{
+    r->method = old->method, r->solver = old->solver;
+    r->rung = old->rung, r->direction = old->direction;
+    memcpy(r->strategy, old->strategy, sizeof r->strategy);
+    r->outcome = old->outcome;
+    memcpy(r->reason, old->reason, sizeof r->reason);
+    r->tries = old->tries;
+    r->blocking_vertex_count = old->blocking_vertex_count, r->blocking_crease_count = old->blocking_crease_count;
+}
+
+static void tell_steered(rg_report *r, const rg_fold *f)
+{
+    const rg_project *P = &f->steer->P;
+    const rg_ending *e = &f->ending;
+    r->method = r->rung = "steered", r->direction = "forward";
+    r->solver = P->solver == RG_SOLVER_CG ? "cg" : P->solver == RG_SOLVER_SVD ? "svd" : "cholesky";
+    snprintf(r->strategy, sizeof r->strategy, "driven creases, and least motion of the others");
+    r->outcome = e->outcome;
+    snprintf(r->reason, sizeof r->reason, "%s", e->outcome == RG_RUNNING ? "as far as it was taken" : e->reason);
+    r->steps = f->steer->steps, r->solves = P->solves, r->cg_iterations = P->iterations;
+    r->factorizations = P->factorizations;
+    r->tries = 1;
+    r->blocking_vertex_count = e->outcome == RG_STOPPED ? e->vertices : 0;
+    r->blocking_crease_count = e->outcome == RG_STOPPED ? e->creases : 0;
+}
+
 static void set_report(rg_motion *m, const rg_fold *f)
 {
     rg_report *r = &m->report;
     const rg_report *old = &f->shared->motion->report;
-    const int ended = f->steered && f->ending.outcome != RG_RUNNING;
+    const int32_t *vertex = f->steered ? f->ending.vertex : old->blocking_vertices;
+    const int32_t *crease = f->steered ? f->ending.crease : old->blocking_creases;
     r->added_creases = m->mesh.added, r->unknowns = m->mesh.N, r->constraints = 3 * m->mesh.M;
     r->triangulation = old->triangulation, r->why_triangulated = old->why_triangulated;
-    r->method = f->steered ? "steered" : old->method;
-    r->solver = f->steered ? f->steer->P.solver == RG_SOLVER_CG ? "cg" : f->steer->P.solver == RG_SOLVER_SVD ? "svd" : "cholesky" : old->solver;
-    r->rung = f->steered ? "steered" : old->rung, r->direction = f->steered ? "forward" : old->direction;
-    snprintf(r->strategy, sizeof r->strategy, "%s", f->steered ? "driven creases, and least motion of the others" : old->strategy);
-    r->outcome = f->steered ? f->ending.outcome : old->outcome;
-    snprintf(r->reason, sizeof r->reason, "%s", f->steered ? ended ? f->ending.reason : "as far as it was taken" : old->reason);
-    if (f->steered) r->steps = f->steer->steps, r->solves = f->steer->P.solves, r->cg_iterations = f->steer->P.iterations, r->factorizations = f->steer->P.factorizations;
-    r->tries = f->steered ? 1 : old->tries;
-    r->blocking_vertex_count = f->steered ? f->ending.outcome == RG_STOPPED ? f->ending.vertices : 0 : old->blocking_vertex_count;
-    r->blocking_crease_count = f->steered ? f->ending.outcome == RG_STOPPED ? f->ending.creases : 0 : old->blocking_crease_count;
-    memcpy(m->blocking_vertex, f->steered ? f->ending.vertex : old->blocking_vertices, (size_t)r->blocking_vertex_count * sizeof *m->blocking_vertex);
-    memcpy(m->blocking_crease, f->steered ? f->ending.crease : old->blocking_creases, (size_t)r->blocking_crease_count * sizeof *m->blocking_crease);
+    if (f->steered) tell_steered(r, f);
+    else tell_found(r, old);
+    memcpy(m->blocking_vertex, vertex, (size_t)r->blocking_vertex_count * sizeof *vertex);
+    memcpy(m->blocking_crease, crease, (size_t)r->blocking_crease_count * sizeof *crease);
     for (int32_t k = 0; k < r->blocking_vertex_count; k++) {
         const rg_vec2 at = m->mesh.X[m->blocking_vertex[k]];
         m->blocking_at[k][0] = at.x;
@@ -213,41 +216,43 @@ static int is_found(const rg_fold *f, int32_t k)
     return k + 1 < old->report.frame_count && memcmp(rg_fold_state(f, k), rg_motion_angles(old, k), bytes) == 0;
 }
 
-/* Between states k and k + 1 of the track, after that frame. Half a turn of a crease counts as a whole way: legs are as long as they like. */
+/* Between states k and k + 1 of the track, after that frame. Half a turn of a crease counts as a whole way: legs are as
+ * long as they like. */
 static rg_status fill_between(rg_motion *m, rg_gap_filler *q, track_reader *r, int32_t k, int32_t frame)
 {
     const rg_motion *old = r->f->shared->motion;
     const double *a = rg_fold_state(r->f, k), *b = rg_fold_state(r->f, k + 1);
+    const int found = is_found(r->f, k);
     rg_status s = RG_OK;
-    if (is_found(r->f, k)) {
-        for (int32_t j = 0; s == RG_OK && j < old->gaps.count; j++)
-            if (old->gaps.after[j] == k)
-                s = rg_gaps_add(&m->gaps, &m->mem, m->mesh.N, m->mesh.nv, frame, old->gaps.rho + (size_t)j * (size_t)m->mesh.N,
-                                !q->moves ? NULL : old->gaps.flat ? old->gaps.flat + (size_t)j * (size_t)m->mesh.nv : old->mesh.X);
-        return s;
-    }
-    r->k = k, r->way = 0;
-    for (int32_t i = 0; i < m->mesh.N; i++) r->way = fmax(r->way, fabs(b[i] - a[i]) / RG_PI);
-    if (r->way > 0) s = rg_gap_fill(q, &m->gaps, frame, 0, a, r->way, b);
+    for (int32_t j = 0; found && s == RG_OK && j < old->gaps.count; j++)
+        if (old->gaps.after[j] == k)
+            s = rg_gaps_add(&m->gaps, &m->mem, &m->mesh, frame, rg_gaps_angles(&old->gaps, &old->mesh, j),
+                            q->moves ? rg_gaps_pattern(&old->gaps, &old->mesh, j) : NULL);
+    if (s != RG_OK || found) return s;
+    r->k = k;
+    r->way = rg_gaps_turn(m->mesh.N, a, b) / RG_PI;
+    if (r->way > 0) s = rg_gap_fill(q, frame, 0, a, r->way, b);
     return s == RG_OK ? r->s : s;
 }
 
-/* Every so many states of the track is a frame, and so is the last; others lie between. f: a clone, by which it is read. */
+/* Every so many states of the track is a frame, and so is the last; others lie between. f: a clone, by which it is
+ * read. */
 static rg_status fill_track(rg_motion *m, rg_fold *f, int32_t every, int moved)
 {
-    const int32_t N = m->mesh.N, nv = m->mesh.nv, states = rg_fold_states(f);
+    const size_t N = (size_t)m->mesh.N, nv = (size_t)m->mesh.nv;
+    const int32_t states = rg_fold_states(f);
     track_reader r = {.f = f};
     rg_gap_filler q;
-    rg_status s = rg_gap_filler_init(&q, &m->mem, N, nv, moved, read_track, &r);
+    rg_status s = rg_gap_filler_init(&q, &m->mem, &m->mesh, &m->gaps, moved, read_track, &r);
     for (int32_t k = 0, frame = -1; s == RG_OK && k < states; k++) {
         const double *rho = rg_fold_state(f, k);
         const rg_vec2 *X = moved ? rg_fold_pattern(f, k) : NULL;
         if (k % every == 0 || k == states - 1) {
             frame++;
-            memcpy(m->rho + (size_t)frame * (size_t)N, rho, (size_t)N * sizeof *rho);
-            if (moved) memcpy(m->flat + (size_t)frame * (size_t)nv, X, (size_t)nv * sizeof *X);
+            memcpy(m->rho + (size_t)frame * N, rho, N * sizeof *rho);
+            if (moved) memcpy(m->flat + (size_t)frame * nv, X, nv * sizeof *X);
         } else {
-            s = rg_gaps_add(&m->gaps, &m->mem, N, nv, frame, rho, X);
+            s = rg_gaps_add(&m->gaps, &m->mem, &m->mesh, frame, rho, X);
         }
         if (s == RG_OK && k + 1 < states) s = fill_between(m, &q, &r, k, frame);
     }
@@ -258,30 +263,21 @@ static rg_status fill_track(rg_motion *m, rg_fold *f, int32_t every, int moved)
 static rg_status fill(rg_motion *m, const rg_fold *f, int32_t every)
 {
     const rg_motion *old = f->shared->motion;
-    const size_t N = (size_t)m->mesh.N, nv = (size_t)m->mesh.nv;
+    const size_t N = (size_t)m->mesh.N, M = (size_t)m->mesh.M, nv = (size_t)m->mesh.nv;
     const int32_t states = rg_fold_states(f);
     const size_t n = ((size_t)states + (size_t)every - 2) / (size_t)every + 1;
     int moved = old->gaps.flat != NULL;
     for (int32_t k = 0; k < states; k++) moved |= memcmp(rg_fold_pattern(f, k), m->mesh.X, nv * sizeof(rg_vec2)) != 0;
-    m->info = old->info;
-    m->info.title = m->title = rg_mem_string(&m->mem, old->info.title);
-    m->info.author = m->author = rg_mem_string(&m->mem, old->info.author);
-    m->report.pattern = &m->info;
     m->report.frame_count = (int32_t)n;
-    m->target = rg_mem_array(&m->mem, N, sizeof *m->target);
-    m->from = rg_mem_array(&m->mem, N, sizeof *m->from);
-    m->rho = rg_mem_array(&m->mem, n * N, sizeof *m->rho);
-    m->flat = moved ? rg_mem_array(&m->mem, n * nv, sizeof *m->flat) : NULL;
-    m->frame = rg_mem_array(&m->mem, n, sizeof *m->frame);
-    m->blocking_vertex = rg_mem_array(&m->mem, (size_t)m->mesh.M, sizeof *m->blocking_vertex);
-    m->blocking_crease = rg_mem_array(&m->mem, N, sizeof *m->blocking_crease);
-    m->blocking_at = rg_mem_array(&m->mem, (size_t)m->mesh.M, sizeof *m->blocking_at);
-    if (!m->title || !m->author || !m->target || !m->from || !m->rho || (moved && !m->flat) || !m->frame || !m->blocking_vertex ||
-        !m->blocking_crease || !m->blocking_at)
-        return RG_ENOMEM;
+    rg_status s = rg_motion_name(m, &old->info);
+    if (s == RG_OK) s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->target, N), RG_ARRAY(m->from, N), RG_ARRAY(m->rho, n * N),
+                                      RG_ARRAY(m->frame, n), RG_ARRAY(m->blocking_vertex, M),
+                                      RG_ARRAY(m->blocking_crease, N), RG_ARRAY(m->blocking_at, M));
+    if (s == RG_OK && moved) s = RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->flat, n * nv));
+    if (s != RG_OK) return s;
     m->report.frames = m->frame;
     rg_fold *reader = NULL;
-    rg_status s = rg_fold_clone(f, &reader);
+    s = rg_fold_clone(f, &reader);
     if (s == RG_OK) s = fill_track(m, reader, every, moved);
     rg_fold_destroy(reader);
     set_aims(m, f);
@@ -299,7 +295,7 @@ static rg_status record(const rg_fold *f, int32_t every, rg_motion **motion, rg_
     rg_status s = rg_mesh_copy(rg_fold_mesh(f), &m->mesh);
     if (s == RG_OK) s = rg_source_copy(&f->shared->motion->source, &m->mem, &m->source);
     if (s == RG_OK) s = fill(m, f, every);
-    if (s == RG_OK) s = rg_tree_init(&m->mesh, f->settings.fixed_facet, &m->tree);
+    if (s == RG_OK) s = rg_motion_hang(m, why);
     if (s == RG_OK) s = rg_motion_lend(m);
     if (s == RG_OK) s = rg_measure_frames(m, NULL);
     if (s == RG_OK) set_percent(m, f, every);
@@ -325,34 +321,42 @@ static int32_t parts_of(int32_t count, const rg_driven *driven, const rg_setting
     return rg_gaps_parts(s->frames - 1, 1, most);
 }
 
+/* Drives edges of the pattern, to those angles. */
+static rg_status drive_edges(rg_fold *f, const rg_pattern *p, int32_t count, const rg_driven *driven, rg_diag *why)
+{
+    int32_t *crease;
+    double *angle;
+    rg_status s = RG_MEM_ARRAYS(&f->mem, RG_ARRAY(crease, (size_t)count), RG_ARRAY(angle, (size_t)count));
+    if (s != RG_OK) return rg_fail(s, why, 0, "out of memory");
+    for (int32_t n = 0; s == RG_OK && n < count; n++) {
+        const int32_t e = driven[n].edge;
+        crease[n] = e >= 0 && e < p->ne ? rg_fold_mesh(f)->edge_crease[e] : -1;
+        angle[n] = driven[n].radians;
+        if (crease[n] < 0) s = rg_fail(RG_EARG, why, 0, "edge %d is no crease", (int)e);
+        else if (!(fabs(angle[n]) <= RG_PI))
+            s = rg_fail(RG_EARG, why, 0, "an angle of %g is not within -pi and pi", angle[n]);
+    }
+    const rg_status driven_so = s == RG_OK ? rg_fold_drive(f, count, crease, angle) : RG_OK;
+    if (driven_so != RG_OK) s = rg_fail(driven_so, why, 0, "%s", rg_status_text(driven_so));
+    RG_MEM_FREE(&f->mem, crease, angle);
+    return s;
+}
+
 /* One try, on facets as drawn or cut. */
-static rg_status drive(const rg_pattern *p, int32_t count, const rg_driven *driven, const rg_settings *s, rg_progress progress, void *ctx,
-                       rg_motion **motion, rg_diag *why)
+static rg_status drive(const rg_pattern *p, int32_t count, const rg_driven *driven, const rg_settings *s,
+                       rg_progress progress, void *ctx, rg_motion **motion, rg_diag *why)
 {
     rg_fold *f = NULL;
-    int32_t n = 0;
     const int32_t every = parts_of(count, driven, s);
     rg_settings finer = *s;
     finer.frames = (s->frames - 1) * every + 1;
     rg_status status = rg_fold_create_flat(p, &finer, &f, why);
     if (status != RG_OK) return status;
-    int32_t *crease = rg_mem_array(&f->mem, (size_t)count, sizeof *crease);
-    double *angle = rg_mem_array(&f->mem, (size_t)count, sizeof *angle);
-    if (!crease || !angle) status = rg_fail(RG_ENOMEM, why, 0, "out of memory");
-    for (; status == RG_OK && n < count; n++) {
-        const int32_t e = driven[n].edge;
-        crease[n] = e >= 0 && e < p->ne ? rg_fold_mesh(f)->edge_crease[e] : -1;
-        angle[n] = driven[n].radians;
-        if (crease[n] < 0) status = rg_fail(RG_EARG, why, 0, "edge %d is no crease", (int)e);
-        else if (!(fabs(angle[n]) <= RG_PI)) status = rg_fail(RG_EARG, why, 0, "an angle of %g is not within -pi and pi", angle[n]);
-    }
-    if (status == RG_OK && (status = rg_fold_drive(f, n, crease, angle)) != RG_OK) rg_fail(status, why, 0, "%s", rg_status_text(status));
+    status = drive_edges(f, p, count, driven, why);
     while (status == RG_OK && rg_fold_step(f)->outcome == RG_RUNNING)
         if (progress && progress(ctx, f->progress)) break;
     if (status == RG_OK) status = record(f, every, motion, why);
     if (status == RG_OK) (*motion)->settings.frames = s->frames;
-    if (crease) rg_mem_free(&f->mem, crease);
-    if (angle) rg_mem_free(&f->mem, angle);
     rg_fold_destroy(f);
     return status;
 }

@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-/* A frame has a symmetry when no crease differs by more from its image, radians: too little to be seen, and far above what the
- * rounding of drawings does. Of so many groups, the largest ones, the first that all frames have is told. */
+/* A frame has a symmetry when no crease differs by more from its image, radians: too little to be seen, and far above
+ * the rounding of drawings. Of so many groups, the largest ones, the first that all frames have is told. */
 static const double SYMMETRIC = 0.01 * RG_DEG;
 enum { MOST_GROUPS = 64 };
 
@@ -51,26 +51,38 @@ static double closure(gauge *g, const rg_mesh *m, const rg_vec2 *X, const double
     return worst;
 }
 
+double rg_measure_percent(const rg_motion *m, const double *rho, double none)
+{
+    double sum = 0;
+    int32_t driven = 0;
+    for (int32_t i = 0; i < m->mesh.N; i++) {
+        const double way = m->target[i] - m->from[i];
+        if (isnan(way) || way == 0) continue;
+        sum += fmin(100, 100 * (rho[i] - m->from[i]) / way);
+        driven++;
+    }
+    return driven ? sum / driven : none;
+}
+
 /* Of driven creases in frame k: how far they are, and how they came there from the frame before. */
 static void measure_angles(rg_motion *m, int32_t k)
 {
     rg_report *r = &m->report;
     const double *rho = rg_motion_angles(m, k), *before = k ? rg_motion_angles(m, k - 1) : rho;
-    double sum = 0, least = INFINITY, wrong = 0;
+    double least = INFINITY, wrong = 0;
     int32_t driven = 0, creases = 0;
     for (int32_t i = 0; i < m->mesh.N; i++) {
         const double way = m->target[i] - m->from[i];
         r->max_overfold_deg = larger(r->max_overfold_deg, (fabs(rho[i]) - RG_PI) / RG_DEG);
         if (isnan(way) || way == 0) continue;
         const double part = fmin(100, 100 * (rho[i] - m->from[i]) / way);
-        sum += part;
         least = fmin(least, part);
         if (part < 0) wrong = larger(wrong, fabs(rho[i] - m->from[i]) / RG_DEG);
         creases += part < -1e-4;
         r->max_leap_deg = larger(r->max_leap_deg, fabs(rho[i] - before[i]) / RG_DEG);
         driven++;
     }
-    m->frame[k].percent = r->folded_percent = driven ? sum / driven : k ? 100 : 0;
+    m->frame[k].percent = r->folded_percent = rg_measure_percent(m, rho, k ? 100 : 0);
     r->least_folded_percent = driven ? least : r->folded_percent;
     r->max_wrong_side_deg = larger(r->max_wrong_side_deg, wrong);
     r->wrong_side_frames += !(wrong <= WRONG_SIDE);
@@ -93,8 +105,8 @@ static double area(const rg_mesh *m, int32_t f, const rg_vec2 *X)
     return twice;
 }
 
-/* Is the border of X the border given, and is every facet the right way up? Ends of a border edge stay on its line: a corner has two
- * of those. */
+/* Is the border of X the border given, and is every facet the right way up? Ends of a border edge stay on its line, a
+ * corner on both of its lines. */
 static int is_same_sheet(const rg_mesh *m, const rg_vec2 *X)
 {
     int same = 1;
@@ -109,15 +121,11 @@ static int is_same_sheet(const rg_mesh *m, const rg_vec2 *X)
     return same;
 }
 
-static int make_room(gauge *g, const rg_memory *mem, const rg_mesh *m)
+static rg_status make_room(gauge *g, const rg_memory *mem, const rg_mesh *m)
 {
-    g->rho = rg_mem_array(mem, (size_t)m->N, sizeof *g->rho);
-    g->theta = rg_mem_array(mem, (size_t)m->loop_start[m->M], sizeof *g->theta);
-    g->sector = rg_mem_array(mem, (size_t)m->loop_start[m->M], sizeof *g->sector);
-    g->place = rg_mem_array(mem, (size_t)m->nf, sizeof *g->place);
-    g->x = rg_mem_array(mem, (size_t)m->nv, sizeof *g->x);
-    g->part = rg_mem_array(mem, (size_t)m->N, sizeof *g->part);
-    return g->rho && g->theta && g->sector && g->place && g->x && g->part;
+    const size_t N = (size_t)m->N, corners = (size_t)m->loop_start[m->M];
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(g->rho, N), RG_ARRAY(g->theta, corners), RG_ARRAY(g->sector, corners),
+                         RG_ARRAY(g->place, (size_t)m->nf), RG_ARRAY(g->x, (size_t)m->nv), RG_ARRAY(g->part, N));
 }
 
 /* Where a state's facets and vertices are. */
@@ -139,7 +147,8 @@ static void measure_frame(rg_motion *m, const rg_motion_state *s, gauge *g)
     place(m, s, g);
     const double strain = rg_pose_strain(&m->mesh, X, g->x);
     r->max_edge_strain = larger(r->max_edge_strain, strain);
-    r->max_strain_from_original = larger(r->max_strain_from_original, m->flat ? rg_pose_strain(&m->mesh, m->mesh.X, g->x) : strain);
+    const double from_original = m->flat ? rg_pose_strain(&m->mesh, m->mesh.X, g->x) : strain;
+    r->max_strain_from_original = larger(r->max_strain_from_original, from_original);
     const double gap = rg_pose_gap(X, &m->tree, g->place) / m->mesh.size;
     r->max_facet_gap = larger(r->max_facet_gap, gap);
     r->isometric = r->isometric && strain <= ISOMETRIC && gap <= ISOMETRIC && (!m->flat || is_same_sheet(&m->mesh, X));
@@ -182,20 +191,6 @@ void rg_measure_place(rg_motion *m, const int32_t facet[2])
     }
 }
 
-/* Percent of a state: the mean of what was done of each driven crease's way. */
-static double percent_of(const rg_motion *m, const double *rho)
-{
-    double sum = 0;
-    int32_t driven = 0;
-    for (int32_t i = 0; i < m->mesh.N; i++) {
-        const double way = m->target[i] - m->from[i];
-        if (isnan(way) || way == 0) continue;
-        sum += fmin(100, 100 * (rho[i] - m->from[i]) / way);
-        driven++;
-    }
-    return driven ? sum / driven : 100;
-}
-
 /* State k of the motion, by itself. */
 static rg_motion_state find_state(const rg_motion *m, int32_t k)
 {
@@ -215,10 +210,12 @@ static int32_t frame_at(const rg_motion *m, int32_t k)
 static double percent_at(const rg_motion *m, int32_t k)
 {
     const rg_motion_state s = find_state(m, k);
-    if (!s.is_between) return m->frame[s.frame].percent;
-    const double p = percent_of(m, s.rho), a = percent_of(m, rg_motion_angles(m, s.frame)), b = percent_of(m, rg_motion_angles(m, s.frame + 1));
+    const double from = m->frame[s.frame].percent;
+    if (!s.is_between) return from;
+    const double a = rg_measure_percent(m, rg_motion_angles(m, s.frame), 100), p = rg_measure_percent(m, s.rho, 100);
+    const double b = rg_measure_percent(m, rg_motion_angles(m, s.frame + 1), 100);
     const double part = a < b ? fmin(1, fmax(0, (p - a) / (b - a))) : 0;
-    return m->frame[s.frame].percent + part * (m->frame[s.frame + 1].percent - m->frame[s.frame].percent);
+    return from + part * (m->frame[s.frame + 1].percent - from);
 }
 
 /* What is known of contact once all states are in; a NULL course: nothing is. */
@@ -237,8 +234,9 @@ static void measure_contact(rg_motion *m, rg_course *c)
     r->contact_depth = f->deepest.depth;
     if (f->first < 0) return;
     r->first_contact_frame = frame_at(m, f->first);
-    r->first_contact_percent = percent_at(m, f->first);
-    if (f->between) r->first_contact_percent += (1 - f->time) * (percent_at(m, f->first - 1) - r->first_contact_percent);
+    const double percent = percent_at(m, f->first);
+    r->first_contact_percent = percent;
+    if (f->between) r->first_contact_percent += (1 - f->time) * (percent_at(m, f->first - 1) - percent);
     rg_measure_place(m, f->facet);
 }
 
@@ -263,23 +261,23 @@ rg_status rg_measure_frames(rg_motion *m, rg_watch *watch)
     int32_t gaps = 0;
     rg_course course = {0};
     gauge g = {0};
-    rg_status s = RG_OK;
-    const int ok = make_room(&g, &m->mem, &m->mesh) && (!looks || rg_course_init(&m->mesh, &course) == RG_OK);
-    if (ok) m->report.components = rg_components_find(&m->mesh, g.part);
+    rg_status s = make_room(&g, &m->mem, &m->mesh);
+    if (s == RG_OK && looks) s = rg_course_init(&m->mesh, &course);
+    if (s == RG_OK) m->report.components = rg_components_find(&m->mesh, g.part);
     m->report.isometric = 1;
-    for (int32_t k = 0; ok && k < rg_motion_states(m); k++) {
+    for (int32_t k = 0; s == RG_OK && k < rg_motion_states(m); k++) {
         const rg_motion_state state = rg_motion_state_at(m, k, &gaps);
         if (state.is_between && looks) place(m, &state, &g);
         else if (!state.is_between) measure_frame(m, &state, &g);
         looks = looks && !(watch && rg_watch_asked(watch));
-        if (looks && s == RG_OK) s = rg_course_add(&course, &(rg_plates_state){state.X, g.place, g.x}, !state.is_between);
+        if (looks) s = rg_course_add(&course, &(rg_plates_state){state.X, g.place, g.x}, !state.is_between);
     }
-    if (ok && looks && s == RG_OK) s = rg_course_end(&course);
-    if (ok && s == RG_OK) measure_contact(m, looks ? &course : NULL);
-    if (ok && looks && s == RG_OK) s = keep_sides(m, &course);
+    if (looks && s == RG_OK) s = rg_course_end(&course);
+    if (s == RG_OK) measure_contact(m, looks ? &course : NULL);
+    if (looks && s == RG_OK) s = keep_sides(m, &course);
     rg_course_free(&course);
     RG_MEM_FREE(&m->mem, g.rho, g.theta, g.sector, g.place, g.x, g.part);
-    if (!ok || s != RG_OK) return RG_ENOMEM;
+    if (s != RG_OK) return RG_ENOMEM;
     m->report.symmetry = 1;
     return watch && watch->cancelled ? RG_OK : measure_symmetry(m);
 }

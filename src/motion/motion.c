@@ -34,13 +34,21 @@ void rg_motion_destroy(rg_motion *m)
 
 const rg_report *rg_motion_report(const rg_motion *m) { return &m->report; }
 
-rg_status rg_motion_name(rg_motion *m, const rg_pattern *p)
+rg_status rg_motion_name(rg_motion *m, const rg_pattern_info *of)
 {
-    m->info = *rg_pattern_get_info(p);
+    m->info = *of;
     m->info.title = m->title = rg_mem_string(&m->mem, m->info.title);
     m->info.author = m->author = rg_mem_string(&m->mem, m->info.author);
     m->report.pattern = &m->info;
     return m->title && m->author ? RG_OK : RG_ENOMEM;
+}
+
+rg_status rg_motion_hang(rg_motion *m, rg_diag *why)
+{
+    const int fixed = (int)m->settings.fixed_facet, last = (int)m->mesh.nf - 1;
+    const rg_status s = rg_tree_init(&m->mesh, m->settings.fixed_facet, &m->tree);
+    if (s == RG_EARG && last >= 0) rg_fail(s, why, 0, "there is no facet %d: the facets are 0 to %d", fixed, last);
+    return s;
 }
 
 rg_status rg_motion_lend(rg_motion *m)
@@ -48,11 +56,14 @@ rg_status rg_motion_lend(rg_motion *m)
     const rg_mesh *mesh = &m->mesh;
     const rg_status s = rg_triangles_init(&m->mem, mesh, &m->triangles);
     if (s != RG_OK) return s;
-    m->sheet = (rg_sheet){.vertices = mesh->nv, .creases = mesh->N, .facets = mesh->nf, .facet_start = mesh->facet_start,
-                          .facet_vertex = mesh->facet_vertex, .flat = (const double(*)[2])mesh->X, .edges = mesh->ne, .added = mesh->added,
-                          .ends = (const int32_t(*)[2])mesh->edge, .assignment = mesh->assignment, .edge_crease = mesh->edge_crease,
-                          .crease_edge = mesh->crease_edge, .edge_facet = (const int32_t(*)[2])mesh->edge_facet,
-                          .triangles = m->triangles.start[mesh->nf], .triangle = (const int32_t(*)[3])m->triangles.v, .facet_triangle = m->triangles.start};
+    m->sheet = (rg_sheet){.vertices = mesh->nv, .creases = mesh->N, .facets = mesh->nf, .edges = mesh->ne,
+                          .added = mesh->added, .flat = (const double(*)[2])mesh->X,
+                          .ends = (const int32_t(*)[2])mesh->edge, .assignment = mesh->assignment,
+                          .edge_crease = mesh->edge_crease, .crease_edge = mesh->crease_edge,
+                          .facet_start = mesh->facet_start, .facet_vertex = mesh->facet_vertex,
+                          .edge_facet = (const int32_t(*)[2])mesh->edge_facet,
+                          .triangles = m->triangles.start[mesh->nf],
+                          .triangle = (const int32_t(*)[3])m->triangles.v, .facet_triangle = m->triangles.start};
     return RG_OK;
 }
 
@@ -76,8 +87,7 @@ rg_motion_state rg_motion_state_at(const rg_motion *m, int32_t k, int32_t *gaps)
     const int32_t j = *gaps, frame = k - j;
     if (j < g->count && g->after[j] < frame) {
         *gaps = j + 1;
-        return (rg_motion_state){g->rho + (size_t)j * (size_t)m->mesh.N, g->flat ? g->flat + (size_t)j * (size_t)m->mesh.nv : m->mesh.X,
-                                 g->after[j], 1};
+        return (rg_motion_state){rg_gaps_angles(g, &m->mesh, j), rg_gaps_pattern(g, &m->mesh, j), g->after[j], 1};
     }
     return (rg_motion_state){rg_motion_angles(m, frame), rg_motion_pattern(m, frame), frame, 0};
 }
@@ -101,9 +111,8 @@ rg_status rg_motion_place(const rg_motion *m, int32_t frame, rg_vec3 *x)
     if (m->space) return RG_OK;
     rg_place *place = rg_mem_array(&m->mem, (size_t)m->mesh.nf, sizeof *place);
     if (!place) return RG_ENOMEM;
-    const rg_vec2 *X = rg_motion_pattern(m, frame);
-    rg_pose_facets(&m->mesh, X, &m->tree, rg_motion_angles(m, frame), place);
-    rg_pose_vertices(&m->mesh, X, &m->tree, place, x);
+    rg_motion_facets(m, frame, place);
+    rg_pose_vertices(&m->mesh, rg_motion_pattern(m, frame), &m->tree, place, x);
     rg_mem_free(&m->mem, place);
     return RG_OK;
 }
@@ -137,7 +146,8 @@ rg_status rg_motion_crease(const rg_motion *m, int32_t i, rg_crease *out)
 {
     if (i < 0 || i >= m->mesh.N) return RG_EARG;
     const int32_t e = m->mesh.crease_edge[i], *v = m->mesh.edge[e];
-    *out = (rg_crease){{v[0], v[1]}, {{0, 0}, {0, 0}}, m->mesh.assignment[e], m->target ? m->target[i] : m->mesh.target[e], i >= m->mesh.N - m->mesh.added,
+    *out = (rg_crease){{v[0], v[1]}, {{0, 0}, {0, 0}}, m->mesh.assignment[e],
+                       m->target ? m->target[i] : m->mesh.target[e], i >= m->mesh.N - m->mesh.added,
                        e < m->source.ne ? m->source.where[e] : 0, e};
     for (int k = 0; k < 2; k++) {
         const rg_vec2 x = m->mesh.X[v[k]];

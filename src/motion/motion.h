@@ -1,5 +1,5 @@
 /* motion.h -- a fold from flat to its end, kept frame by frame, and measured.
- * Uses  gaps.h pose.h        Used by  write, render */
+ * Uses  gaps.h pose.h        Used by  the other files of this room; files, render, write */
 #ifndef RG_MOTION_H
 #define RG_MOTION_H
 
@@ -15,7 +15,7 @@ typedef struct rg_stages {
     int32_t count;
     rg_simple_turn *fold;
     int32_t *crease;
-    int32_t *vertex;      /* [mesh nv] which of the pattern's vertices each of the motion's mesh is, -1: none; NULL: the same ones */
+    int32_t *vertex;      /* [mesh nv] which of the pattern's vertices each is, -1: none; NULL: the same ones */
     int32_t *edge;        /* [mesh ne] which of its edges it is a part of, -1: none */
 } rg_stages;
 
@@ -28,13 +28,13 @@ struct rg_motion {
     rg_mesh mesh;
     rg_tree tree;
     char *title, *author;  /* of the pattern; NULL: none */
-    rg_source source;      /* of the pattern's vertices and edges, which are the first of the mesh; of a sequence of states: empty */
+    rg_source source;      /* of the pattern's vertices and edges, the first of the mesh; of several states: empty */
     double *target;        /* [mesh.N] what was aimed at, radians; NAN: nothing */
     double *from;          /* [mesh.N] fold angles of the state that the motion starts from */
     double *rho;           /* [report.frame_count][mesh.N] radians */
     rg_vec2 *flat;         /* [report.frame_count][mesh.nv] the pattern of each frame; NULL: mesh.X in all of them */
     rg_gaps gaps;          /* states between frames */
-    rg_vec3 *space;        /* [report.frame_count][mesh.nv] positions that were given and that plates do not reach; NULL: they do */
+    rg_vec3 *space;        /* [report.frame_count][mesh.nv] positions given that plates do not reach; NULL: they do */
     rg_frame *frame;       /* [report.frame_count] */
     rg_try *tried;         /* [report.tried_count] */
     rg_unfoldable theorem; /* what the report's points to */
@@ -53,6 +53,7 @@ struct rg_motion {
 };
 
 void rg_motion_free_stages(rg_stages *q);
+
 /* One of the states that a motion is known by: its frames, and those between them. */
 typedef struct rg_motion_state {
     const double *rho;  /* [mesh.N] */
@@ -61,8 +62,8 @@ typedef struct rg_motion_state {
     int is_between;
 } rg_motion_state;
 
-/* How many there are, and the k-th of them; k rises by one from call to call, from 0. *gaps: how many of them lay between frames. */
 int32_t rg_motion_states(const rg_motion *m);
+/* The k-th of them; k rises by one from call to call, from 0, as does *gaps: how many so far lay between frames. */
 rg_motion_state rg_motion_state_at(const rg_motion *m, int32_t k, int32_t *gaps);
 /* The pattern of a frame, [mesh.nv]. */
 const rg_vec2 *rg_motion_pattern(const rg_motion *m, int32_t f);
@@ -71,14 +72,16 @@ rg_status rg_motion_place(const rg_motion *m, int32_t f, rg_vec3 *x);
 
 /* place[mesh.nf]: out, where each facet of frame f goes. */
 void rg_motion_facets(const rg_motion *m, int32_t f, rg_place *place);
-/* The same about the middle of the flat sheet: what is written with single precision would be lost far from the origin. */
+/* The same about the sheet's middle: in single precision much would be lost far from the origin. */
 rg_status rg_motion_place_centred(const rg_motion *m, int32_t f, rg_vec3 *x);
-/* That middle: of the box around the pattern given. */
+/* The middle of the box around the pattern given. */
 rg_vec3 rg_motion_middle(const rg_motion *m);
 
-/* What m says of the pattern p: its counts, title and author. RG_ENOMEM. */
-rg_status rg_motion_name(rg_motion *m, const rg_pattern *p);
-/* Lends m->mesh, once it is there. RG_ENOMEM. */
+/* What m says of its pattern: counts, title and author. RG_ENOMEM. */
+rg_status rg_motion_name(rg_motion *m, const rg_pattern_info *of);
+/* Once m->mesh is there: m->tree, from settings.fixed_facet on. RG_EARG: there is no such facet. RG_ENOMEM. */
+rg_status rg_motion_hang(rg_motion *m, rg_diag *why);
+/* ... and m->sheet, which lends it. RG_ENOMEM. */
 rg_status rg_motion_lend(rg_motion *m);
 
 #endif

@@ -113,17 +113,16 @@ rg_status rg_overlay_init(rg_overlay *o, const rg_mesh *fine, const rg_mesh *coa
     o->mem = *mem;
     o->nv = fine->nv;
     o->N = fine->N;
-    int32_t *start = rg_mem_array(mem, (size_t)coarse->nv + 2, sizeof *start);
-    int32_t *edge = rg_mem_array(mem, (size_t)triangles.ne, 2 * sizeof *edge);
-    o->spot = rg_mem_array(mem, (size_t)fine->nv, sizeof *o->spot);
-    o->crease = rg_mem_array(mem, (size_t)fine->N, sizeof *o->crease);
-    if (!start || !edge || !o->spot || !o->crease) s = RG_ENOMEM;
+    int32_t *start, *edge;
+    s = RG_MEM_ARRAYS(mem, RG_ARRAY(start, (size_t)coarse->nv + 2), RG_ARRAY(edge, 2 * (size_t)triangles.ne),
+                      RG_ARRAY(o->spot, (size_t)fine->nv), RG_ARRAY(o->crease, (size_t)fine->N));
     for (int32_t v = 0; s == RG_OK && v < fine->nv; v++)
         if (!at_vertex(coarse, fine->X[v], tol, &o->spot[v]) && !on_edge(coarse, fine->X[v], tol, &o->spot[v]))
             in_triangle(&triangles, fine->X[v], &o->spot[v]);
     if (s == RG_OK) stars(&triangles, start, edge);
     for (int32_t i = 0; s == RG_OK && i < fine->N; i++) {
-        const int32_t *v = fine->edge[fine->crease_edge[i]], c = shared(&triangles, start, edge, &o->spot[v[0]], &o->spot[v[1]]);
+        const int32_t *v = fine->edge[fine->crease_edge[i]];
+        const int32_t c = shared(&triangles, start, edge, &o->spot[v[0]], &o->spot[v[1]]);
         o->crease[i] = c < coarse->N ? c : -1;
     }
     RG_MEM_FREE(mem, start, edge);

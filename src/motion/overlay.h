@@ -1,6 +1,7 @@
-/* overlay.h -- two meshes of one sheet, the lines of the coarse one all among those of the fine one: what each vertex and
- * crease of the fine one is to the coarse one.
- * Paper    section 4: transition from one folded state to another        Uses  mesh.h        Used by  stages.c states.c */
+/* overlay.h -- two meshes of one sheet, of which one has all lines of the other: what its vertices and creases are
+ * there.
+ * Paper    section 4: transition from one folded state to another
+ * Uses     mesh.h        Used by  assemble.c stages.c states.c */
 #ifndef RG_OVERLAY_H
 #define RG_OVERLAY_H
 
@@ -16,10 +17,11 @@ typedef struct rg_overlay {
     int32_t *crease; /* [N] the coarse crease that it is a part of, -1: none */
 } rg_overlay;
 
-/* Adds the mesh's border and creases to the lines, creases without assignment; added_only: those that triangulation added
- * and that rho, if given, bends. RG_ENOMEM. */
+/* Adds the mesh's border and creases to the lines, creases without assignment; added_only: those that triangulation
+ * added and that rho, if given, bends. RG_ENOMEM. */
 rg_status rg_overlay_draw(rg_lines *l, const rg_mesh *m, int added_only, const double *rho);
-/* A mesh of the lines, which are taken over; every crease of it has no assignment and the target NAN. merge: as in rg_reading. */
+/* A mesh of the lines, which are taken over; its creases have no assignment and the target NAN. merge: as in
+ * rg_reading. */
 rg_status rg_overlay_mesh(rg_lines *l, double merge, rg_mesh *m, rg_diag *why);
 
 /* tol: distance, file units. RG_ENOMEM. Owner: the caller, rg_overlay_free, also after a failure. */

@@ -7,7 +7,8 @@
 /* Newton's method on sums that are off by 1e-5 comes to rounding in three or four steps. */
 static const int STEPS = 12;
 
-/* One sum: sectors first ... first + count - 1 of interior vertex k, round and round; signs change at creases below `stage`. */
+/* One sum: sectors first ... first + count - 1 of interior vertex k, round and round; signs change at creases folded
+ * before `stage`. */
 typedef struct sum { int32_t k, first, count, stage; } sum;
 
 typedef struct rectify {
@@ -28,7 +29,8 @@ static int32_t crease_at(const rg_mesh *m, int32_t k, int32_t i)
     return m->loop_crease[m->loop_start[k] + i % n];
 }
 
-/* The facet of the sector between crease i of interior vertex k and the next: on the left of the one, seen from the vertex. */
+/* The facet of the sector between crease i of interior vertex k and the next: on the left of the one, seen from the
+ * vertex. */
 static int32_t facet_at(const rg_mesh *m, int32_t k, int32_t i)
 {
     const int32_t e = m->crease_edge[crease_at(m, k, i)];
@@ -55,7 +57,8 @@ static rg_status add_runs(rectify *t, int32_t k, const rg_simple_fold *c)
     rg_status s = RG_OK;
     for (int32_t i = 0; s == RG_OK && i < n; i++) {
         int32_t count = 0;
-        if (c->moves[facet_at(t->m, k, i + n - 1)] || !c->moves[facet_at(t->m, k, i)]) continue; /* not where a run begins */
+        const int begins = !c->moves[facet_at(t->m, k, i + n - 1)] && c->moves[facet_at(t->m, k, i)];
+        if (!begins) continue;
         while (c->moves[facet_at(t->m, k, i + count)]) count++;
         s = add(t, k, i, count, c->stage);
     }
@@ -186,10 +189,8 @@ static rg_status plan(rectify *t)
     derive(t, t->m->X, count, &e);
     for (int32_t c = 2; c < U + 2; c++) e.start[c] += e.start[c - 1];
     const size_t all = (size_t)e.start[U + 1];
-    int32_t *to = rg_mem_array(mem, all, sizeof *to);
-    e.row = rg_mem_array(mem, all, sizeof *e.row);
-    e.at = rg_mem_array(mem, all, sizeof *e.at);
-    rg_status s = to && e.row && e.at ? RG_OK : RG_ENOMEM;
+    int32_t *to;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(to, all), RG_ARRAY(e.row, all), RG_ARRAY(e.at, all));
     if (s == RG_OK) {
         derive(t, t->m->X, place, &e);
         join(&e, U, to);
@@ -220,9 +221,9 @@ static rg_status solve(rectify *t, rg_vec2 *X, double *off)
 {
     const rg_memory *mem = &t->m->mem;
     const size_t U = (size_t)t->freedom.U;
-    double *u = rg_mem_array(mem, U, sizeof *u), *du = rg_mem_array(mem, U, sizeof *du);
-    double *norm = rg_mem_array(mem, (size_t)t->rows, sizeof *norm);
-    rg_status s = u && du && norm ? plan(t) : RG_ENOMEM;
+    double *u, *du, *norm;
+    rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(u, U), RG_ARRAY(du, U), RG_ARRAY(norm, (size_t)t->rows));
+    if (s == RG_OK) s = plan(t);
     for (int n = 0; s == RG_OK && n < STEPS; n++) {
         fill(t, X, norm);
         rg_least_solve(&t->A, t->r, du);

@@ -13,8 +13,8 @@
 
 /* Does the pattern leave open where some crease ends? */
 int rg_rest_is_open(const rg_mesh *m);
-/* The progress at which f rests, if that is between its last two nodes. Zero: it is not. rho[N], t[N]: scratch. Only for one system
- * that steps adaptively. */
+/* The progress at which f rests, if that is between its last two nodes. Zero: it is not. rho[N], t[N]: scratch. Only
+ * for one system that steps adaptively. */
 int rg_rest_find(const rg_straight *f, double *rho, double *t, double *s);
 
 #endif

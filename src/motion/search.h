@@ -1,10 +1,10 @@
 /* search.h -- what is tried, in which order, until the pattern folds; and which attempt is kept.
- * Paper    sections 3.1 to 3.4        Uses  attempt.h cuts.h race.h        Used by  chart, motion
+ * Paper    sections 3.1 to 3.4        Uses  attempt.h        Used by  the other files of this room; chart
  *
- * The ladder: as drawn; triangulated; relaxed, the pattern moving ever more readily, from flat or from the folded end. The
- * lowest rung that folds wins; if none does, what came farthest is kept. Then the retraction: of what folds, the compliance of
- * the pattern and the added creases are reduced while the motion still exists. One table and one loop for a pattern that folds
- * from flat and for the way from one folded state to the next. */
+ * The ladder: as drawn; triangulated; relaxed, the pattern moving ever more readily, from flat or from the folded end.
+ * The lowest rung that folds wins; if none does, what came farthest is kept. Then the retraction: of what folds, the
+ * compliance of the pattern and the added creases are reduced while the motion still exists. One table and one loop for
+ * a pattern that folds from flat and for the way from one folded state to the next. */
 #ifndef RG_SEARCH_H
 #define RG_SEARCH_H
 
@@ -28,7 +28,6 @@ typedef struct rg_search {
     char strategy[160];
     const char *rung, *direction;
     double compliance;
-    int32_t job, group;   /* which rung and which symmetry that was, for the retraction */
     int32_t tries;        /* rungs up to the one that is kept, and retractions */
     double work;          /* of all tries */
     rg_cost cost;         /* of all tries */

@@ -1,27 +1,25 @@
 #include "motion/stages.h"
 #include "base/status.h"
 #include "fold/tuning.h"
-#include "layers/simple.h"
 #include "motion/overlay.h"
 #include "motion/rectify.h"
-#include "unfold/seen.h"
+#include "motion/undone.h"
 #include "motion/unfolding.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Several orders of layers are taken apart, and the one that leaves fewest creases is folded: so many, and facets of all of them. */
-static const int32_t MOST_TRIES = 64, MOST_FACETS = 20000;
-static const uint64_t MOST_OF_A_PART = 24;
-/* What is left is folded from its end, in the order that the simple folds go on from; or in any, where others may go on from that; or
- * as plainly as it goes. The first two may cost these parts of the work of the whole. */
+/* What is left is folded from its end, in the order that the simple folds go on from; or in any, where others may go on
+ * from that; or as plainly as it goes. The first two may cost these parts of the work of the whole. */
 typedef enum way_to_fold { BY_NUMBER, ANY_ORDER, PLAIN } way_to_fold;
 static const double PART_OF_WORK[] = {1, 0.3};
-/* ... and the last is for what has at most this part of the creases: of the whole it was tried, and crosses or stops. */
+/* ... and the last is for what has at most this part of the creases: of the whole it was tried, and crosses or
+ * stops. */
 static const double PART_FOR_PLAIN = 0.5;
-/* States in which the first stage is read off at least, evenly in the largest angle that turns: frames are some of them. */
+/* States in which the first stage is read off at least, evenly in the largest angle that turns: frames are some of
+ * them. */
 static const int32_t LEAST_READ = 121;
-/* A simple fold has half the frames that as much turning has otherwise: what turns about one line is known between them, too. */
+/* A simple fold has half the frames that as much turning has otherwise: its states between frames are known. */
 static const double A_SIMPLE_FOLD = RG_PI / 2;
 /* Facets put a vertex apart by this part of the sheet's size at most, in frames of the first stage. */
 static const double CLOSED = 1e-11;
@@ -32,15 +30,8 @@ static const double SAME_POINT = 1e-9, TWO_DRAWINGS = 4e-5;
 
 typedef struct work {
     rg_memory mem;
-    const rg_mesh *none;     /* borrowed: the facets as drawn */
     const rg_settings *settings;
-    double sign;             /* -1: mountain and valley exchanged */
-    double *angle;           /* [none N] of the end */
-    rg_layers *layers;
-    uint64_t *which;         /* [parts] the order chosen */
-    rg_simple simple;
-    rg_mesh drawn;           /* as none, on the pattern that closes */
-    double moved;            /* by that, file units */
+    rg_undone u;             /* the simple folds, and what is left to be folded before them */
     rg_mesh base;            /* what is folded first, all at once */
     rg_search search;        /* ... and how; its frames are read off */
     rg_mesh fine;            /* of the whole motion */
@@ -54,79 +45,13 @@ typedef struct work {
 
 static void work_free(work *w)
 {
-    rg_layers_destroy(w->layers);
-    rg_simple_free(&w->simple);
-    rg_mesh *mesh[] = {&w->drawn, &w->base, &w->fine};
-    for (int i = 0; i < 3; i++)
-        if (mesh[i]->mem.resize) rg_mesh_free(mesh[i]);
+    rg_undone_free(&w->u);
+    if (w->base.mem.resize) rg_mesh_free(&w->base);
+    if (w->fine.mem.resize) rg_mesh_free(&w->fine);
     rg_attempt_free(&w->search.best);
     rg_overlay_free(&w->of_base);
     rg_overlay_free(&w->of_drawn);
-    RG_MEM_FREE(&w->mem, w->angle, w->which, w->X, w->stage, w->end, w->first_frame, w->begins);
-}
-
-/* -------------------------------------------------------------------------------------------- taking apart ---- */
-
-static rg_status take_apart(work *w, rg_simple *now)
-{
-    const rg_status s = rg_layers_choose(w->layers, w->which);
-    memset(now, 0, sizeof *now);
-    return s == RG_OK ? rg_simple_find(now, &w->mem, w->layers) : s;
-}
-
-/* The order w->which is kept where `now`, which is taken over, is better. */
-static void keep_if(work *w, rg_simple *now, int better)
-{
-    rg_simple *gone = better ? &w->simple : now;
-    rg_simple_free(gone);
-    if (better) w->simple = *now;
-}
-
-static int leaves_less(const rg_simple *now, const rg_simple *old)
-{
-    return !old->mem.resize || now->base < old->base || (now->base == old->base && now->stages < old->stages);
-}
-
-/* Part by part, the order that leaves least. */
-static rg_status find_folds(work *w)
-{
-    const rg_parts *p = &w->layers->parts;
-    int32_t tries = 1;
-    rg_simple now;
-    if (w->settings->layer_order >= 0 && rg_layers_which(w->layers, (uint64_t)w->settings->layer_order, w->which) != RG_OK) return RG_OK;
-    rg_status s = take_apart(w, &w->simple);
-    for (int32_t i = 0; i < p->count && w->settings->layer_order < 0; i++)
-        for (uint64_t k = 1; s == RG_OK && k < p->orders[i] && k < MOST_OF_A_PART; k++) {
-            if (tries++ >= MOST_TRIES || (int64_t)tries * w->layers->flat.nf > MOST_FACETS) return RG_OK;
-            const uint64_t was = w->which[i];
-            w->which[i] = k;
-            s = take_apart(w, &now);
-            const int better = s == RG_OK && leaves_less(&now, &w->simple);
-            keep_if(w, &now, better);
-            if (!better) w->which[i] = was;
-        }
-    return s;
-}
-
-static rg_status find_layers(work *w)
-{
-    rg_diag why;
-    w->angle = rg_mem_array(&w->mem, (size_t)w->none->N, sizeof *w->angle);
-    if (!w->angle) return RG_ENOMEM;
-    for (int32_t i = 0; i < w->none->N; i++) w->angle[i] = w->sign * w->none->target[w->none->crease_edge[i]];
-    rg_status s = rg_layers_of_mesh(w->none, w->angle, 0, &w->mem, NULL, &w->layers, &why);
-    if (s != RG_OK || w->layers->info.state != RG_LAYERS_VALID) return s;
-    w->which = rg_mem_array(&w->mem, (size_t)w->layers->parts.count + 1, sizeof *w->which);
-    s = w->which ? find_folds(w) : RG_ENOMEM;
-    if (s == RG_OK) s = rg_layers_choose(w->layers, w->which);
-    for (int32_t e = 0; s == RG_OK && e < w->none->ne; e++) { /* creases without a target, too, are folded one way */
-        const rg_flat *f = &w->layers->flat;
-        if (f->turn[e] == RG_TURN_EITHER)
-            w->angle[w->none->edge_crease[e]] = -RG_PI * f->up[f->beside[e][1]] * rg_layers_above(w->layers, f->beside[e][0], f->beside[e][1]);
-        else if (w->none->edge_crease[e] >= 0)
-            w->angle[w->none->edge_crease[e]] = RG_PI * f->turn[e];
-    }
-    return s;
+    RG_MEM_FREE(&w->mem, w->X, w->stage, w->end, w->first_frame, w->begins);
 }
 
 /* ------------------------------------------------------------------------------------------- the first stage ---- */
@@ -134,167 +59,18 @@ static rg_status find_layers(work *w)
 /* The creases of the first stage alone. */
 static rg_status draw_base(work *w, rg_diag *why)
 {
-    const rg_mesh *m = &w->drawn;
+    const rg_mesh *m = &w->u.drawn;
     rg_lines l;
     rg_status s = RG_OK;
     rg_lines_init(&l, &w->mem);
     for (int32_t e = 0; s == RG_OK && e < m->ne; e++) {
         const int32_t i = m->edge_crease[e];
-        if (i >= 0 && w->simple.stage[e] != 0) continue;
-        const char letter = i < 0 ? RG_BORDER : w->sign * w->angle[i] > 0 ? RG_VALLEY : RG_MOUNTAIN;
+        if (i >= 0 && w->u.simple.stage[e] != 0) continue;
+        const char letter = i < 0 ? RG_BORDER : w->u.sign * w->u.angle[i] > 0 ? RG_VALLEY : RG_MOUNTAIN;
         s = rg_lines_add(&l, m->X[m->edge[e][0]], m->X[m->edge[e][1]], letter, 0);
     }
     if (s == RG_OK) return rg_overlay_mesh(&l, SAME_POINT, &w->base, why);
     rg_lines_free(&l);
-    return s;
-}
-
-/* The facet of a mesh that a point of the pattern is in; -1: none. */
-static int32_t facet_at(const rg_mesh *m, rg_vec2 x)
-{
-    for (int32_t f = 0; f < m->nf; f++) {
-        int odd = 0;
-        for (int32_t j = m->facet_start[f]; j < m->facet_start[f + 1]; j++) {
-            const rg_vec2 a = m->X[m->edge[m->facet_edge[j]][0]], b = m->X[m->edge[m->facet_edge[j]][1]];
-            if ((a.y > x.y) != (b.y > x.y)) odd ^= x.x < a.x + (x.y - a.y) / (b.y - a.y) * (b.x - a.x);
-        }
-        if (odd) return f;
-    }
-    return -1;
-}
-
-/* A point of the pattern well inside the facet that stays where it is. */
-static rg_vec2 inside_root(const rg_layers *l)
-{
-    const rg_cells *c = &l->cells;
-    for (int32_t i = 0; i < c->faces.count; i++)
-        for (int32_t j = c->over_start[i]; j < c->over_start[i + 1]; j++)
-            if (c->over[j] == l->flat.root) return c->point[i];
-    return l->flat.middle[l->flat.root];
-}
-
-/* wish[l->pairs.count]: out, the order that the simple folds of p go on from, for layers of the first stage. */
-static void order_needed(const work *w, const rg_simple *p, const rg_layers *l, double *wish)
-{
-    const rg_cells *c = &l->cells;
-    const rg_flat *f = &l->flat;
-    const size_t nf = (size_t)p->nf;
-    /* The first stage's own root looks up in its plane; the sheet's looks as taking apart left it. */
-    const int32_t g = facet_at(&l->mesh, inside_root(w->layers));
-    const int turned = g < 0 ? 0 : f->up[f->facet_of[g]] * p->up;
-    memset(wish, 0, (size_t)l->pairs.count * sizeof *wish);
-    for (int32_t i = 0; i < c->faces.count; i++) {
-        const int32_t *over = c->over + c->over_start[i], n = c->over_start[i + 1] - c->over_start[i];
-        for (int32_t j = 0; j < n; j++)
-            for (int32_t k = j + 1; k < n; k++) {
-                int32_t of[2];
-                for (int side = 0; side < 2; side++) {
-                    const rg_isometry *q = &f->place[over[side ? k : j]];
-                    const rg_vec2 r = rg_vec2_sub(c->point[i], q->t);
-                    of[side] = facet_at(&w->drawn, (rg_vec2){rg_vec2_dot(q->c[0], r), rg_vec2_dot(q->c[1], r)});
-                }
-                if (of[0] < 0 || of[1] < 0) continue;
-                wish[rg_pairs_find(&l->pairs, over[j], over[k])] += turned * p->above[(size_t)of[0] * nf + (size_t)of[1]];
-            }
-    }
-}
-
-static rg_status layers_of(const work *w, const rg_mesh *m, rg_layers **l)
-{
-    rg_diag why;
-    double *angle = rg_mem_array(&w->mem, (size_t)m->N, sizeof *angle);
-    if (!angle) return RG_ENOMEM;
-    for (int32_t i = 0; i < m->N; i++) angle[i] = i < m->N - m->added ? w->sign * m->target[m->crease_edge[i]] : 0;
-    const rg_status s = rg_layers_of_mesh(m, angle, 0, &w->mem, NULL, l, &why);
-    rg_mem_free(&w->mem, angle);
-    return s;
-}
-
-/* The number that an order of the layers has; -1: there is none such, or it is not among those that are looked at. */
-static rg_status number_of(rg_layers *l, const double *wish, int64_t *number)
-{
-    const rg_parts *p = &l->parts;
-    uint64_t all = 0, radix = 1;
-    *number = -1;
-    for (int32_t i = 0; i < p->count; i++) {
-        uint64_t k = 0;
-        int same = 0;
-        for (; !same && k < p->orders[i] && k < (uint64_t)MOST_FACETS; k++) {
-            rg_orders_undo(&l->orders, l->settled);
-            const rg_status s = rg_parts_choose(p, &l->orders, i, k);
-            if (s != RG_OK) return s;
-            same = 1;
-            for (int32_t j = p->start[i]; j < p->start[i + 1]; j++) same &= wish[p->pair[j]] * l->orders.value[p->pair[j]] > 0;
-        }
-        if (!same || radix > INT64_MAX / p->orders[i]) return RG_OK;
-        all += (k - 1) * radix;
-        radix *= p->orders[i];
-    }
-    *number = all <= INT64_MAX ? (int64_t)all : -1;
-    return RG_OK;
-}
-
-/* Pairs of the first stage that the simple folds of p need in another order than they have come to, is[]. */
-static int32_t differ(const work *w, const rg_simple *p, const rg_layers *l, const double *is, double *want)
-{
-    int32_t n = 0;
-    order_needed(w, p, l, want);
-    for (int32_t i = 0; i < l->pairs.count; i++) n += !(is[i] == 0 || want[i] * is[i] > 0);
-    return n;
-}
-
-static int is_same_base(const rg_simple *p, const rg_simple *q)
-{
-    for (int32_t e = 0; e < p->ne; e++)
-        if ((p->stage[e] == 0) != (q->stage[e] == 0)) return 0;
-    return 1;
-}
-
-/* An order of the end whose simple folds go on from what the first stage came to, is[]: part by part, while it differs less. */
-static rg_status follow(work *w, const rg_layers *l, const double *is, double *want, int *does)
-{
-    const rg_parts *p = &w->layers->parts;
-    int32_t least = differ(w, &w->simple, l, is, want), tries = 0;
-    rg_status s = RG_OK;
-    for (int32_t i = 0; least > 0 && i < p->count && w->settings->layer_order < 0; i++)
-        for (uint64_t k = 0; s == RG_OK && least > 0 && k < p->orders[i] && k < MOST_OF_A_PART; k++) {
-            rg_simple now;
-            const uint64_t was = w->which[i];
-            if (k == was) continue;
-            if (tries++ >= MOST_TRIES || (int64_t)tries * w->layers->flat.nf > MOST_FACETS) return RG_OK;
-            w->which[i] = k;
-            s = take_apart(w, &now);
-            const int32_t n = s == RG_OK && is_same_base(&now, &w->simple) ? differ(w, &now, l, is, want) : least;
-            keep_if(w, &now, n < least);
-            if (n < least) least = n;
-            else w->which[i] = was;
-        }
-    *does = s == RG_OK && least == 0;
-    return s;
-}
-
-/* Does what was found come to an order that simple folds go on from? */
-static rg_status comes_to(work *w, const rg_attempt *t, int *does)
-{
-    rg_layers *l = NULL;
-    rg_tree tree = {0};
-    double *want = NULL, *is = NULL;
-    *does = 0;
-    rg_status s = layers_of(w, &t->mesh, &l);
-    if (s == RG_OK && l->info.state == RG_LAYERS_VALID) {
-        const rg_seen_frames seen = {&t->mesh, &tree, t->rho, t->flat, t->count};
-        want = rg_mem_array(&w->mem, (size_t)l->pairs.count, sizeof *want);
-        is = rg_mem_array(&w->mem, (size_t)l->pairs.count, sizeof *is);
-        s = want && is ? rg_tree_init(&t->mesh, -1, &tree) : RG_ENOMEM;
-        if (s == RG_OK) s = rg_seen_order(l, &seen, is);
-        /* What shows only nearly is made a whole order. */
-        if (s == RG_OK) s = rg_layers_choose_near(l, is);
-        for (int32_t i = 0; s == RG_OK && i < l->pairs.count; i++) is[i] = l->orders.value[i];
-        if (s == RG_OK) s = follow(w, l, is, want, does);
-    }
-    rg_layers_destroy(l);
-    if (tree.mem.resize) rg_tree_free(&tree);
-    RG_MEM_FREE(&w->mem, want, is);
     return s;
 }
 
@@ -308,11 +84,12 @@ static rg_status drop_open_frames(rg_attempt *t)
     const rg_status s = place ? rg_tree_init(m, -1, &tree) : RG_ENOMEM;
     int32_t kept = 0;
     for (int32_t k = 0; s == RG_OK && k < t->count; k++) {
-        const rg_vec2 *X = t->flat ? t->flat + (size_t)k * nv : m->X;
-        rg_pose_facets(m, X, &tree, t->rho + (size_t)k * N, place);
+        const double *rho = rg_attempt_angles(t, k);
+        const rg_vec2 *X = rg_attempt_pattern(t, k);
+        rg_pose_facets(m, X, &tree, rho, place);
         if (!(rg_pose_gap(X, &tree, place) <= CLOSED * m->size)) continue;
-        memmove(t->rho + (size_t)kept * N, t->rho + (size_t)k * N, N * sizeof *t->rho);
-        if (t->flat) memmove(t->flat + (size_t)kept * nv, t->flat + (size_t)k * nv, nv * sizeof *t->flat);
+        memmove(t->rho + (size_t)kept * N, rho, N * sizeof *rho);
+        if (t->flat) memmove(t->flat + (size_t)kept * nv, X, nv * sizeof *X);
         kept++;
     }
     if (s == RG_OK) t->count = kept;
@@ -322,7 +99,8 @@ static rg_status drop_open_frames(rg_attempt *t)
     return s;
 }
 
-/* Is what was found folded, free, exactly on the pattern at its end, and, unless that is known, in the order that is needed? */
+/* Is what was found folded, free, exactly on the pattern at its end, and, unless that is known, in the order that is
+ * needed? */
 static rg_status is_good(work *w, rg_search *c, int order_is_known, int *good)
 {
     rg_attempt *t = &c->best;
@@ -337,36 +115,16 @@ static rg_status is_good(work *w, rg_search *c, int order_is_known, int *good)
     if (s == RG_OK && crossing < 0) s = drop_open_frames(t);
     if (s != RG_OK || crossing >= 0 || t->count < LEAST_READ / 2) return s;
     const rg_mesh *m = &t->mesh;
-    const double *rho = t->rho + (size_t)(t->count - 1) * (size_t)m->N;
-    const rg_vec2 *X = t->flat ? t->flat + (size_t)(t->count - 1) * (size_t)m->nv : m->X;
-    for (int32_t i = 0; i < m->N; i++)
-        if (!(fabs(rho[i] - (i < m->N - m->added ? w->sign * m->target[m->crease_edge[i]] : 0)) <= AT_END)) return RG_OK;
+    const double *rho = rg_attempt_angles(t, t->count - 1);
+    const rg_vec2 *X = rg_attempt_pattern(t, t->count - 1);
+    for (int32_t i = 0; i < m->N; i++) {
+        const double end = i < m->N - m->added ? w->u.sign * m->target[m->crease_edge[i]] : 0;
+        if (!(fabs(rho[i] - end) <= AT_END)) return RG_OK;
+    }
     for (int32_t v = 0; v < m->nv; v++)
         if (!(rg_vec2_length(rg_vec2_sub(X[v], m->X[v])) <= AT_END * m->size)) return RG_OK;
     *good = order_is_known;
-    return order_is_known ? RG_OK : comes_to(w, t, good);
-}
-
-/* The number that the order which is needed has among those of the first stage's triangles; -1: none. */
-static rg_status find_number(const work *w, int64_t *number)
-{
-    rg_layers *l = NULL;
-    rg_mesh triangles;
-    double *wish = NULL;
-    *number = -1;
-    rg_status s = rg_triangulate_all(&w->base, &triangles);
-    if (s != RG_OK) return s;
-    s = layers_of(w, &triangles, &l);
-    if (s == RG_OK && l->info.state == RG_LAYERS_VALID) {
-        wish = rg_mem_array(&w->mem, (size_t)l->pairs.count, sizeof *wish);
-        if (wish) order_needed(w, &w->simple, l, wish);
-        s = wish ? number_of(l, wish, number) : RG_ENOMEM;
-    }
-    if (*number > INT32_MAX) *number = -1;
-    rg_layers_destroy(l);
-    rg_mesh_free(&triangles);
-    rg_mem_free(&w->mem, wish);
-    return s;
+    return order_is_known ? RG_OK : rg_undone_go_on(&w->u, t, good);
 }
 
 /* One way to fold the first stage. */
@@ -376,9 +134,9 @@ static rg_status fold_by(work *w, way_to_fold how, rg_watch *watch, int *good, r
     rg_search c = {0};
     rg_settings with = *w->settings;
     int64_t number = -1;
-    rg_status s = how == BY_NUMBER ? find_number(w, &number) : RG_OK;
+    rg_status s = how == BY_NUMBER ? rg_undone_number(&w->u, &w->base, &number) : RG_OK;
     if (how == BY_NUMBER && number < 0) return s;
-    if (how == PLAIN && !(w->simple.base <= PART_FOR_PLAIN * w->none->N)) return s;
+    if (how == PLAIN && !(w->u.simple.base <= PART_FOR_PLAIN * w->u.none->N)) return s;
     with.layer_order = (int32_t)number;
     with.frames = with.frames > LEAST_READ ? with.frames : LEAST_READ;
     with.pace = RG_PACE_STEADY;
@@ -411,9 +169,9 @@ static rg_status make_mesh(work *w, rg_diag *why)
 {
     const rg_mesh *t = &w->search.best.mesh;
     rg_lines l;
-    if (!t->mem.resize || t->added == 0) return rg_mesh_copy(&w->drawn, &w->fine);
+    if (!t->mem.resize || t->added == 0) return rg_mesh_copy(&w->u.drawn, &w->fine);
     rg_lines_init(&l, &w->mem);
-    rg_status s = rg_overlay_draw(&l, &w->drawn, 0, NULL);
+    rg_status s = rg_overlay_draw(&l, &w->u.drawn, 0, NULL);
     if (s == RG_OK) s = rg_overlay_draw(&l, t, 1, NULL);
     if (s == RG_OK) return rg_overlay_mesh(&l, RG_MERGE_DEFAULT, &w->fine, why);
     rg_lines_free(&l);
@@ -424,22 +182,22 @@ static rg_status make_mesh(work *w, rg_diag *why)
 static rg_status overlay(work *w)
 {
     rg_mesh *m = &w->fine;
-    const double tol = TWO_DRAWINGS * w->drawn.size;
-    rg_status s = rg_overlay_init(&w->of_drawn, m, &w->drawn, tol);
-    if (s == RG_OK && w->simple.base > 0) s = rg_overlay_init(&w->of_base, m, &w->search.best.mesh, tol);
+    const double tol = TWO_DRAWINGS * w->u.drawn.size;
+    rg_status s = rg_overlay_init(&w->of_drawn, m, &w->u.drawn, tol);
+    if (s == RG_OK && w->u.simple.base > 0) s = rg_overlay_init(&w->of_base, m, &w->search.best.mesh, tol);
     if (s == RG_OK) s = RG_MEM_ARRAYS(&w->mem, RG_ARRAY(w->stage, (size_t)m->N), RG_ARRAY(w->end, (size_t)m->N),
                                       RG_ARRAY(w->X, (size_t)m->nv));
     if (s != RG_OK) return s;
     memcpy(w->X, m->X, (size_t)m->nv * sizeof *m->X);
-    if (w->moved > 0) rg_overlay_points(&w->of_drawn, w->none->X, m->X);
+    if (w->u.moved > 0) rg_overlay_points(&w->of_drawn, w->u.none->X, m->X);
     rg_mesh_sectors(m, m->X, m->loop_theta);
     int32_t last = -1;
     for (int32_t i = 0; i < m->N; i++) {
-        const int32_t c = w->of_drawn.crease[i], e = m->crease_edge[i], of = c < 0 ? -1 : w->drawn.crease_edge[c];
-        w->stage[i] = c < 0 ? -1 : w->simple.stage[of];
-        w->end[i] = c < 0 ? 0 : w->angle[c];
-        m->assignment[e] = c < 0 ? RG_FLAT : w->drawn.assignment[of];
-        m->target[e] = c < 0 ? NAN : w->drawn.target[of];
+        const int32_t c = w->of_drawn.crease[i], e = m->crease_edge[i], of = c < 0 ? -1 : w->u.drawn.crease_edge[c];
+        w->stage[i] = c < 0 ? -1 : w->u.simple.stage[of];
+        w->end[i] = c < 0 ? 0 : w->u.angle[c];
+        m->assignment[e] = c < 0 ? RG_FLAT : w->u.drawn.assignment[of];
+        m->target[e] = c < 0 ? NAN : w->u.drawn.target[of];
         if (c >= 0) last = i;
     }
     m->added = m->N - 1 - last;
@@ -449,7 +207,7 @@ static rg_status overlay(work *w)
 /* Which vertices and edges of the drawing they are. */
 static rg_status trace(const work *w, rg_stages *q)
 {
-    const rg_mesh *m = &w->fine, *d = &w->drawn;
+    const rg_mesh *m = &w->fine, *d = &w->u.drawn;
     const double tol = TWO_DRAWINGS * d->size;
     if (m->N == d->N && m->nv == d->nv) return RG_OK;
     if (RG_MEM_ARRAYS(&q->mem, RG_ARRAY(q->vertex, (size_t)m->nv),
@@ -460,10 +218,10 @@ static rg_status trace(const work *w, rg_stages *q)
         q->edge[e] = i < 0 || w->of_drawn.crease[i] < 0 ? -1 : d->crease_edge[w->of_drawn.crease[i]];
         for (int32_t g = 0; i < 0 && g < d->ne && q->edge[e] < 0; g++) {
             if (d->edge_crease[g] >= 0) continue;
-            const rg_vec2 a = d->X[d->edge[g][0]], b = d->X[d->edge[g][1]], p = w->X[m->edge[e][0]], r = w->X[m->edge[e][1]];
-            const rg_vec2 x = {(p.x + r.x) / 2, (p.y + r.y) / 2};
-            const double n = rg_vec2_length(rg_vec2_sub(b, a));
-            if (fabs(rg_vec2_turn(a, b, x)) <= tol * n && rg_vec2_dot(rg_vec2_sub(x, a), rg_vec2_sub(x, b)) < 0) q->edge[e] = g;
+            const rg_vec2 a = d->X[d->edge[g][0]], b = d->X[d->edge[g][1]];
+            const rg_vec2 p = w->X[m->edge[e][0]], r = w->X[m->edge[e][1]], x = {(p.x + r.x) / 2, (p.y + r.y) / 2};
+            const int on_line = fabs(rg_vec2_turn(a, b, x)) <= tol * rg_vec2_length(rg_vec2_sub(b, a));
+            if (on_line && rg_vec2_dot(rg_vec2_sub(x, a), rg_vec2_sub(x, b)) < 0) q->edge[e] = g;
         }
     }
     return RG_OK;
@@ -474,22 +232,19 @@ static rg_status trace(const work *w, rg_stages *q)
 /* How far creases turn in the first stage: the sum of the most that one turns from state to state. */
 static double turned_at_first(const rg_attempt *t)
 {
-    const size_t N = (size_t)t->mesh.N;
     double sum = 0;
-    for (int32_t k = 1; k < t->count; k++) {
-        double most = 0;
-        for (size_t i = 0; i < N; i++) most = fmax(most, fabs(t->rho[(size_t)k * N + i] - t->rho[(size_t)(k - 1) * N + i]));
-        sum += most;
-    }
+    for (int32_t k = 1; k < t->count; k++)
+        sum += rg_gaps_turn(t->mesh.N, rg_attempt_angles(t, k - 1), rg_attempt_angles(t, k));
     return sum;
 }
 
-/* Frames are even in the largest angle that a crease turns, but for simple folds; the states between stages are frames, where there are
- * enough of them for each stage to have one. */
+/* Frames are even in the largest angle that a crease turns, but for simple folds; the states between stages are frames,
+ * where there are enough of them for each stage to have one. */
 static rg_status share_frames(work *w)
 {
-    const int32_t stages = w->simple.stages, legs = w->settings->frames - 1;
-    const double first = w->simple.base > 0 ? turned_at_first(&w->search.best) : 0, all = first + A_SIMPLE_FOLD * stages;
+    const int32_t stages = w->u.simple.stages, legs = w->settings->frames - 1;
+    const double first = w->u.simple.base > 0 ? turned_at_first(&w->search.best) : 0;
+    const double all = first + A_SIMPLE_FOLD * stages;
     w->frames = w->settings->frames;
     if (RG_MEM_ARRAYS(&w->mem, RG_ARRAY(w->first_frame, (size_t)stages + 2),
                       RG_ARRAY(w->begins, (size_t)stages + 2)) != RG_OK) return RG_ENOMEM;
@@ -512,27 +267,30 @@ static int read(void *ctx, double progress, double *rho, rg_vec2 *X)
     double k = progress * (w->frames - 1);
     if (fabs(k - round(k)) <= 1e-9 * w->frames) k = round(k);
     int32_t j = 0;
-    while (j < w->simple.stages && k > first[j + 1]) j++;
+    while (j < w->u.simple.stages && k > first[j + 1]) j++;
     const double done = first[j + 1] > first[j] ? (k - first[j]) / (first[j + 1] - first[j]) : 1;
-    const int32_t at = j == 0 && w->simple.base > 0 ? (int32_t)lround(done * (t->count - 1)) : -1;
+    const int32_t at = j == 0 && w->u.simple.base > 0 ? (int32_t)lround(done * (t->count - 1)) : -1;
     memcpy(X, w->X, (size_t)w->fine.nv * sizeof *X);
     if (at >= 0 && at < t->count - 1) {
         rg_overlay_angles(&w->of_base, t->rho + (size_t)at * (size_t)t->mesh.N, rho);
         if (t->flat) rg_overlay_points(&w->of_base, t->flat + (size_t)at * (size_t)t->mesh.nv, X);
         return 1;
     }
-    for (int32_t i = 0; i < w->fine.N; i++) rho[i] = w->stage[i] < 0 || w->stage[i] > j ? 0 : w->stage[i] == j && j > 0 ? done * w->end[i] : w->end[i];
+    for (int32_t i = 0; i < w->fine.N; i++) {
+        if (w->stage[i] < 0 || w->stage[i] > j) rho[i] = 0;
+        else rho[i] = w->stage[i] == j && j > 0 ? done * w->end[i] : w->end[i];
+    }
     return 1;
 }
 
-/* ------------------------------------------------------------------------------------------------- what is told ---- */
+/* ----------------------------------------------------------------------------------------------- what is told ---- */
 
 /* Is crease i of the motion made by fold f, f < 0: at first? */
 static int made_by(const work *w, int32_t i, const rg_simple_fold *f)
 {
     if (!f) return w->stage[i] == 0;
     if (w->stage[i] != f->stage) return 0;
-    const int32_t *g = w->drawn.edge_facet[w->drawn.crease_edge[w->of_drawn.crease[i]]];
+    const int32_t *g = w->u.drawn.edge_facet[w->u.drawn.crease_edge[w->of_drawn.crease[i]]];
     return f->moves[g[0]] != f->moves[g[1]];
 }
 
@@ -546,7 +304,7 @@ static int32_t list_creases(const work *w, const rg_simple_fold *f, int32_t *cre
 
 static rg_status tell(const work *w, rg_stages *q)
 {
-    const rg_simple *p = &w->simple;
+    const rg_simple *p = &w->u.simple;
     const int32_t at_once = p->base > 0;
     int32_t n = 0;
     q->mem = w->mem;
@@ -560,8 +318,8 @@ static rg_status tell(const work *w, rg_stages *q)
     for (int32_t k = 0; k < p->folds; k++) {
         const rg_simple_fold *f = &p->fold[k];
         rg_folding_stage *s = &q->stage[f->stage - 1 + at_once];
-        q->fold[k] = (rg_simple_turn){.crease = q->crease + n, .creases = list_creases(w, f, q->crease + n), .over = f->over,
-                                     .line = {{f->a.x, f->a.y}, {f->b.x, f->b.y}}};
+        q->fold[k] = (rg_simple_turn){.crease = q->crease + n, .creases = list_creases(w, f, q->crease + n),
+                                      .over = f->over, .line = {{f->a.x, f->a.y}, {f->b.x, f->b.y}}};
         if (s->folds++ == 0) s->fold = &q->fold[k], s->crease = q->crease + n;
         s->creases += q->fold[k].creases;
         n += q->fold[k].creases;
@@ -576,13 +334,15 @@ static rg_status tell(const work *w, rg_stages *q)
 static void adopt(work *w, rg_search *c, rg_attempt *t)
 {
     const rg_search *b = &w->search;
-    const rg_simple *p = &w->simple;
+    const rg_simple *p = &w->u.simple;
     t->method = b->best.mem.resize ? b->best.method : "simple folds";
     t->solver = b->best.mem.resize ? b->best.solver : "none";
     t->cost.steps = b->best.cost.steps, t->cost.seconds = b->best.cost.seconds;
-    snprintf(t->reason, sizeof t->reason, "folded in %d stages: %d of %d creases at once, then %d simple folds", (int)(p->stages + (p->base > 0)),
-             (int)p->base, (int)w->none->N, (int)p->folds);
-    if (p->base == 0) snprintf(t->reason, sizeof t->reason, "folded in %d stages: %d simple folds", (int)p->stages, (int)p->folds);
+    const int stages = (int)p->stages, folds = (int)p->folds;
+    if (p->base > 0)
+        snprintf(t->reason, sizeof t->reason, "folded in %d stages: %d of %d creases at once, then %d simple folds",
+                 stages + 1, (int)p->base, (int)w->u.none->N, folds);
+    else snprintf(t->reason, sizeof t->reason, "folded in %d stages: %d simple folds", stages, folds);
     rg_attempt_free(&c->best);
     c->best = *t;
     memset(t, 0, sizeof *t);
@@ -591,7 +351,8 @@ static void adopt(work *w, rg_search *c, rg_attempt *t)
     c->rung = "in stages";
     c->direction = "forward";
     c->compliance = b->compliance;
-    snprintf(c->strategy, sizeof c->strategy, "in stages%s%.130s", p->base > 0 ? ", the first " : "", p->base > 0 ? b->strategy : "");
+    snprintf(c->strategy, sizeof c->strategy, "in stages%s%.130s", p->base > 0 ? ", the first " : "",
+             p->base > 0 ? b->strategy : "");
 }
 
 /* What is left is folded; then it is put together. */
@@ -603,8 +364,8 @@ static rg_status fold(work *w, rg_stages *q, rg_search *c, rg_watch *watch, rg_d
     rg_settings with = *w->settings;
     with.pace = RG_PACE_PERCENT; /* `read` has its own */
     rg_status s = RG_OK;
-    if (w->simple.base > 0) s = draw_base(w, why);
-    if (s == RG_OK && w->simple.base > 0) s = fold_base(w, watch, &good, why);
+    if (w->u.simple.base > 0) s = draw_base(w, why);
+    if (s == RG_OK && w->u.simple.base > 0) s = fold_base(w, watch, &good, why);
     rg_cost_add(&c->cost, &w->search.cost);
     c->tries += w->search.tries;
     if (s != RG_OK || !good) return s;
@@ -614,7 +375,8 @@ static rg_status fold(work *w, rg_stages *q, rg_search *c, rg_watch *watch, rg_d
     rg_mesh m = {0};
     double *target = rg_mem_array(&w->mem, (size_t)w->fine.N, sizeof *target);
     if (!target && s == RG_OK) s = RG_ENOMEM;
-    for (int32_t i = 0; s == RG_OK && i < w->fine.N; i++) target[i] = w->sign * w->fine.target[w->fine.crease_edge[i]];
+    for (int32_t i = 0; s == RG_OK && i < w->fine.N; i++)
+        target[i] = w->u.sign * w->fine.target[w->fine.crease_edge[i]];
     if (s == RG_OK) s = rg_mesh_copy(&w->fine, &m);
     if (s == RG_OK) s = rg_attempt_from_path(&t, &m, &with, target, read, w, why);
     if (s == RG_OK) s = rg_unfolding_judge(&t, &with, NULL, &good, &unproved, why);
@@ -627,20 +389,16 @@ static rg_status fold(work *w, rg_stages *q, rg_search *c, rg_watch *watch, rg_d
     return s;
 }
 
-rg_status rg_stages_try(rg_stages *q, rg_search *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch, rg_diag *why)
+rg_status rg_stages_try(rg_stages *q, rg_search *c, const rg_mesh *none, const rg_settings *s, rg_watch *watch,
+                        rg_diag *why)
 {
-    work w = {.mem = rg_mem_default(s->memory), .none = none, .settings = s, .sign = s->to < 0 ? -1 : 1};
-    double off = 0;
+    work w = {.mem = rg_mem_default(s->memory), .settings = s};
     memset(q, 0, sizeof *q);
     if (fabs(s->to) != 1 || watch->cancelled) return RG_OK;
-    rg_status status = find_layers(&w);
-    if (status == RG_OK && w.simple.folds > 0) {
-        status = rg_mesh_copy(none, &w.drawn);
-        if (status == RG_OK) status = rg_rectify(none, &w.simple, w.drawn.X, &w.moved, &off);
-        if (status == RG_OK) rg_mesh_sectors(&w.drawn, w.drawn.X, w.drawn.loop_theta);
-        const int may_move = s->adjust != 0 || w.moved == 0;
-        if (status == RG_OK && off <= RG_RECTIFIED && w.moved <= ON_THE_PATTERN * none->size && may_move) status = fold(&w, q, c, watch, why);
-    }
+    rg_status status = rg_undone_init(&w.u, none, s);
+    const double most = s->adjust != 0 ? ON_THE_PATTERN * none->size : 0; /* that vertices may move by */
+    const int closes = w.u.off <= RG_RECTIFIED && w.u.moved <= most;
+    if (status == RG_OK && w.u.simple.folds > 0 && closes) status = fold(&w, q, c, watch, why);
     work_free(&w);
     return status == RG_ENOMEM ? rg_fail(status, why, 0, "out of memory") : status;
 }

@@ -16,7 +16,8 @@ const double *rg_fold_state(const rg_fold *f, int32_t k)
 
 const rg_vec2 *rg_fold_pattern(const rg_fold *f, int32_t k)
 {
-    return f->steered ? f->track.flat + (size_t)k * (size_t)rg_fold_mesh(f)->nv : rg_motion_pattern(f->shared->motion, k);
+    const rg_motion *m = f->shared->motion;
+    return f->steered ? f->track.flat + (size_t)k * (size_t)m->mesh.nv : rg_motion_pattern(m, k);
 }
 
 double rg_fold_progress(const rg_fold *f, int32_t k)
@@ -47,8 +48,9 @@ const rg_step_info *rg_fold_look(rg_fold *f)
     count(f, &solves, &iterations);
     rg_pose_facets(&m->mesh, f->flat, &m->tree, f->rho, f->place);
     rg_pose_vertices(&m->mesh, f->flat, &m->tree, f->place, f->x);
-    f->info = (rg_step_info){.outcome = RG_RUNNING, .progress = f->progress, .frame = f->between ? -1 : f->at, .closure = f->closure,
-                             .frames = rg_fold_states(f), .reason = "", .solves = (int32_t)(solves - f->solves),
+    f->info = (rg_step_info){.outcome = RG_RUNNING, .progress = f->progress, .frame = f->between ? -1 : f->at,
+                             .closure = f->closure, .frames = rg_fold_states(f), .reason = "",
+                             .solves = (int32_t)(solves - f->solves),
                              .iterations = (int32_t)(iterations - f->iterations)};
     f->solves = solves, f->iterations = iterations;
     if (!is_last) return &f->info;

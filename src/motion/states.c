@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Two drawings of one point are each within the tolerance of where it ought to be; below the least, points are the same. */
+/* Two drawings of a point are each within the tolerance of where it ought to be; below the least, points are the
+ * same. */
 static const double TWO_DRAWINGS = 2, LEAST_MERGE = 1e-9;
 /* Closing a state on the lines of two drawings may turn creases by this much, radians; beyond, it is another state. */
 static const double SAME_STATE = 0.02;
@@ -37,19 +38,20 @@ static const double *angles_now(const rg_states *q, const rg_mesh **mesh)
 {
     const rg_stretch *last = &q->stretch[q->stretches - 1];
     *mesh = &last->attempt.mesh;
-    return last->attempt.rho + (size_t)(last->backwards ? 0 : last->attempt.count - 1) * (size_t)last->attempt.mesh.N;
+    return rg_attempt_angles(&last->attempt, last->backwards ? 0 : last->attempt.count - 1);
 }
 
 /* Takes *t over. */
-static void walk(rg_states *q, rg_attempt *t, double compliance, int backwards, double begin, double end, int32_t reaches)
+static void walk(rg_states *q, rg_attempt *t, double compliance, int backwards, double begin, double end,
+                 int32_t reaches)
 {
     const double gain = t->relax ? t->relax->how.gain : 0;
     q->stretch[q->stretches++] = (rg_stretch){*t, compliance, gain, backwards, 0, begin, end, reaches};
     memset(t, 0, sizeof *t);
 }
 
-/* Makes up for the rounding of drawings: works off what rho[N] does not close by, eq. (14). *closes: zero if nothing, or only
- * another state does; rho is then left as it is. */
+/* Makes up for the rounding of drawings: works off what rho[N] does not close by, eq. (14). *closes: zero if nothing,
+ * or only another state does; rho is then left as it is. */
 static rg_status close_up(const rg_states *q, const rg_mesh *m, double *rho, int *closes)
 {
     const rg_relaxation still = {0};
@@ -77,21 +79,20 @@ static rg_status stand(const rg_states *q, const rg_mesh *m, const double *rho, 
     t->outcome = RG_FOLDED;
     t->method = "relaxed", t->solver = "none";
     rg_status s = rg_mesh_copy(m, &t->mesh);
-    t->rho = rg_mem_array(&q->mem, N, sizeof *rho);
-    t->from = rg_mem_array(&q->mem, N, sizeof *rho);
-    t->target = rg_mem_array(&q->mem, N, sizeof *rho);
-    if (s == RG_OK && t->rho && t->from && t->target) {
-        memcpy(t->rho, rho, N * sizeof *rho);
-        memcpy(t->target, rho, N * sizeof *rho);
-        t->count = 1;
-        return RG_OK;
+    if (s == RG_OK) s = RG_MEM_ARRAYS(&q->mem, RG_ARRAY(t->rho, N), RG_ARRAY(t->from, N), RG_ARRAY(t->target, N));
+    if (s != RG_OK) {
+        rg_attempt_free(t);
+        return s;
     }
-    rg_attempt_free(t);
-    return RG_ENOMEM;
+    memcpy(t->rho, rho, N * sizeof *rho);
+    memcpy(t->target, rho, N * sizeof *rho);
+    t->count = 1;
+    return RG_OK;
 }
 
 /* One search, its frames read off, counted. */
-static rg_status look_for(rg_states *q, const rg_problem *p, int32_t frames, rg_watch *watch, rg_search *found, rg_diag *why)
+static rg_status look_for(rg_states *q, const rg_problem *p, int32_t frames, rg_watch *watch, rg_search *found,
+                          rg_diag *why)
 {
     rg_settings s = q->settings;
     s.frames = frames > 2 ? frames : 2;
@@ -173,7 +174,8 @@ static rg_status angles_of(const rg_states *q, const leg *w, const rg_mesh *coar
     double *target = rg_mem_array(&q->mem, (size_t)coarse->N, sizeof *target);
     rg_status s = rg_overlay_init(&o, &w->mesh, coarse, q->tol);
     if (!target) s = RG_ENOMEM;
-    for (int32_t i = 0; s == RG_OK && i < coarse->N; i++) target[i] = q->settings.to * coarse->target[coarse->crease_edge[i]];
+    for (int32_t i = 0; s == RG_OK && i < coarse->N; i++)
+        target[i] = q->settings.to * coarse->target[coarse->crease_edge[i]];
     if (s == RG_OK) rg_overlay_angles(&o, of ? of : target, rho);
     rg_overlay_free(&o);
     rg_mem_free(&q->mem, target);
@@ -185,8 +187,12 @@ static void assign(const rg_states *q, leg *w)
 {
     for (int32_t i = 0; i < w->mesh.N; i++) {
         const double target = q->settings.to * w->to[i];
-        w->mesh.target[w->mesh.crease_edge[i]] = target == 0 ? NAN : target;
-        w->mesh.assignment[w->mesh.crease_edge[i]] = target > 0 ? RG_VALLEY : target < 0 ? RG_MOUNTAIN : target == 0 ? RG_FLAT : RG_UNASSIGNED;
+        const int32_t e = w->mesh.crease_edge[i];
+        w->mesh.target[e] = target == 0 ? NAN : target;
+        w->mesh.assignment[e] = target > 0    ? RG_VALLEY
+                                : target < 0  ? RG_MOUNTAIN
+                                : target == 0 ? RG_FLAT
+                                              : RG_UNASSIGNED;
     }
 }
 
@@ -235,7 +241,8 @@ static rg_status direct(rg_states *q, const leg *w, rg_watch *watch, rg_search *
 
 /* ------------------------------------------------------------------------------------------------- legs ---- */
 
-/* State k as it folds, backwards, then the next one, if that comes farther than `farthest` of the way. Either may be flat. */
+/* State k as it folds, backwards, then the next one, if that comes farther than `farthest` of the way. Either may be
+ * flat. */
 static rg_status through_flat(rg_states *q, const leg *w, double farthest, rg_watch *watch, int *done, rg_diag *why)
 {
     const int32_t k = w->k, all = w->frames - 1, down = w->from_flat ? 0 : w->to_flat ? all : all / 2, up = all - down;
@@ -265,16 +272,18 @@ static rg_status fill_up(rg_attempt *t, int32_t frames)
 {
     const size_t N = (size_t)t->mesh.N, nv = (size_t)t->mesh.nv, room = (size_t)frames + 1;
     if (t->count >= frames) return RG_OK;
-    double *rho = rg_mem_array(&t->mem, room * N, sizeof *rho);
-    rg_vec2 *flat = t->flat ? rg_mem_array(&t->mem, room * nv, sizeof *flat) : NULL;
-    if (!rho || (t->flat && !flat)) {
-        RG_MEM_FREE(&t->mem, rho, flat);
-        return RG_ENOMEM;
+    double *rho;
+    rg_vec2 *flat = NULL;
+    rg_status s = RG_MEM_ARRAYS(&t->mem, RG_ARRAY(rho, room * N));
+    if (s == RG_OK && t->flat) s = RG_MEM_ARRAYS(&t->mem, RG_ARRAY(flat, room * nv));
+    if (s != RG_OK) {
+        rg_mem_free(&t->mem, rho);
+        return s;
     }
     for (int32_t k = 0; k < frames; k++) {
-        const size_t from = (size_t)(k < t->count ? k : t->count - 1);
-        memcpy(rho + (size_t)k * N, t->rho + from * N, N * sizeof *rho);
-        if (flat) memcpy(flat + (size_t)k * nv, t->flat + from * nv, nv * sizeof *flat);
+        const int32_t from = k < t->count ? k : t->count - 1;
+        memcpy(rho + (size_t)k * N, rg_attempt_angles(t, from), N * sizeof *rho);
+        if (flat) memcpy(flat + (size_t)k * nv, rg_attempt_pattern(t, from), nv * sizeof *flat);
     }
     RG_MEM_FREE(&t->mem, t->rho, t->flat);
     t->rho = rho, t->flat = flat, t->count = frames;
@@ -345,7 +354,8 @@ rg_status rg_states_run(rg_states *q, const rg_pattern *const *pattern, int32_t 
         status = go(q, k, (s->frames - 1) / legs + (k < (s->frames - 1) % legs) + 1, why);
     if (status != RG_OK || q->outcome != RG_RUNNING) return status;
     q->outcome = RG_FOLDED;
-    snprintf(q->reason, sizeof q->reason, "folded%s%s", q->by_flat_count ? "; unfolded to flat where the direct way is blocked" : "",
+    snprintf(q->reason, sizeof q->reason, "folded%s%s",
+             q->by_flat_count ? "; unfolded to flat where the direct way is blocked" : "",
              q->stretch[0].attempt.outcome == RG_FOLDED ? "" : "; from the first state only as far as it folds");
     return RG_OK;
 }

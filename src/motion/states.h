@@ -1,16 +1,18 @@
 /* states.h -- from one folded state to the next: the ways between them, each an attempt or two.
  * Paper    section 4, Fig. 9        Uses  search.h overlay.h        Used by  assemble.c
  *
- * A way is first looked for directly: a relaxed path from the fold angles of one state to those of the next, on a mesh that has
- * the creases of both, forwards or, where the next state is known exactly, backwards from it. Where that is blocked, as the
- * paper says of sinks, the first state is unfolded to flat, as it would fold but backwards, and the next one folded. */
+ * A way is first looked for directly: a relaxed path from the fold angles of one state to those of the next, on a mesh
+ * that has the creases of both, forwards or, where the next state is known exactly, backwards from it. Where that is
+ * blocked, as the paper says of sinks, the first state is unfolded to flat, as it would fold but backwards, and the
+ * next one folded. */
 #ifndef RG_STATES_H
 #define RG_STATES_H
 
 #include "motion/overlay.h"
 #include "motion/search.h"
 
-/* An attempt as part of the whole: its frames after the first, or, with the roles of first and last exchanged, backwards. */
+/* An attempt as part of the whole: its frames after the first, or, with the roles of first and last exchanged,
+ * backwards. */
 typedef struct rg_stretch {
     rg_attempt attempt;
     double compliance, gain;

@@ -1,33 +1,35 @@
 /* steering.c -- new aims on the way: rigami.h, rg_fold_drive and others.
  *
- * A leg begins where the fold stood when something was set, with the first step after that, and goes on the pattern that the state has. What
- * was passed before stays in the track. All room is made when something is set: a step asks for none. */
+ * A leg begins where the fold stood when something was set, with the first step after that, and goes on the pattern
+ * that the state has. What was passed before stays in the track. All room is made when something is set: a step asks
+ * for none. */
 #include "motion/fold.h"
 
 #include <string.h>
 
 /* ------------------------------------------------------------------------------------------------- room ---- */
 
+void rg_track_copy(rg_track *to, const rg_track *from, const rg_mesh *m)
+{
+    const size_t n = (size_t)from->count, N = (size_t)m->N, nv = (size_t)m->nv;
+    memcpy(to->rho, from->rho, n * N * sizeof *to->rho);
+    memcpy(to->flat, from->flat, n * nv * sizeof *to->flat);
+    memcpy(to->progress, from->progress, n * sizeof *to->progress);
+    memcpy(to->closure, from->closure, n * sizeof *to->closure);
+}
+
 static rg_status grow(rg_fold *f, int32_t states)
 {
     const size_t N = (size_t)rg_fold_mesh(f)->N, nv = (size_t)rg_fold_mesh(f)->nv, n = (size_t)states;
     rg_track *t = &f->track, more = {.count = t->count, .room = states};
     if (states <= t->room) return RG_OK;
-    more.rho = rg_mem_array(&f->mem, n * N, sizeof *more.rho);
-    more.flat = rg_mem_array(&f->mem, n * nv, sizeof *more.flat);
-    more.progress = rg_mem_array(&f->mem, n, sizeof *more.progress);
-    more.closure = rg_mem_array(&f->mem, n, sizeof *more.closure);
-    const int ok = more.rho && more.flat && more.progress && more.closure;
-    if (ok && t->count > 0) {
-        memcpy(more.rho, t->rho, (size_t)t->count * N * sizeof *more.rho);
-        memcpy(more.flat, t->flat, (size_t)t->count * nv * sizeof *more.flat);
-        memcpy(more.progress, t->progress, (size_t)t->count * sizeof *more.progress);
-        memcpy(more.closure, t->closure, (size_t)t->count * sizeof *more.closure);
-    }
-    rg_track *const gone = ok ? t : &more;
-    RG_MEM_FREE(&f->mem, gone->rho, gone->flat, gone->progress, gone->closure);
-    if (ok) *t = more;
-    return ok ? RG_OK : RG_ENOMEM;
+    const rg_status s = RG_MEM_ARRAYS(&f->mem, RG_ARRAY(more.rho, n * N), RG_ARRAY(more.flat, n * nv),
+                                      RG_ARRAY(more.progress, n), RG_ARRAY(more.closure, n));
+    if (s != RG_OK) return s;
+    if (t->count > 0) rg_track_copy(&more, t, rg_fold_mesh(f));
+    RG_MEM_FREE(&f->mem, t->rho, t->flat, t->progress, t->closure);
+    *t = more;
+    return RG_OK;
 }
 
 static void append(rg_fold *f, const double *rho, const rg_vec2 *flat, double progress, double closure)
@@ -47,7 +49,7 @@ rg_status rg_fold_own_track(rg_fold *f, int32_t states)
     if (s != RG_OK || f->steered) return s;
     const rg_motion *m = f->shared->motion;
     for (int32_t k = 0; k <= f->at; k++)
-        append(f, rg_motion_angles(m, k), rg_motion_pattern(m, k), m->frame[k].percent / 100, m->frame[k].closure_residual);
+        append(f, rg_motion_angles(m, k), rg_motion_pattern(m, k), rg_fold_progress(f, k), m->frame[k].closure_residual);
     f->steered = 1;
     f->ending.outcome = RG_RUNNING;
     f->ending.reason = "";
@@ -109,8 +111,9 @@ void rg_fold_advance(rg_fold *f)
     const int32_t last = f->settings.frames - 1, next = f->track.count - f->first;
     const double before = f->track.progress[f->track.count - 1];
     if (F->outcome == RG_RUNNING) rg_steer_to(F, next >= last ? 1 : (double)next / last);
-    const double s = F->outcome == RG_STOPPED ? F->s : next >= last ? 1 : (double)next / last;
-    if (F->outcome != RG_STOPPED ? next <= last : s > before) append(f, F->out, rg_fold_pattern(f, f->first), s, F->closure);
+    const int stopped = F->outcome == RG_STOPPED;
+    const double s = stopped ? F->s : next >= last ? 1 : (double)next / last;
+    if (stopped ? s > before : next <= last) append(f, F->out, rg_fold_pattern(f, f->first), s, F->closure);
     if (F->outcome != RG_RUNNING) end(f);
 }
 

@@ -1,7 +1,8 @@
 /* stepping.c -- a motion state by state, for callers that own the loop: rigami.h, rg_fold.
  *
- * The search happens in create: what folds a pattern is known only when it has come to its end. A step then goes to the next frame of
- * the motion that was found, which is the one that rg_motion_create finds, to the bit; or, where somebody has steered, one state further. */
+ * The search happens in create: what folds a pattern is known only when it has come to its end. A step then goes to the
+ * next frame of the motion that was found, which is the one that rg_motion_create finds, to the bit; or, where somebody
+ * has steered, one state further. */
 #include "base/settings.h"
 #include "base/status.h"
 #include "fold/chord.h"
@@ -13,7 +14,7 @@
 /* Progress between two states is met to this, or an angle; what is off by more, at a leap of the path, is not it. */
 static const double SAME_PLACE = 1e-13, NOT_THERE = 1e-11;
 static const int32_t SECANTS = 40;
-/* What went straight on has its frames where progress was held to so much; a place between them is one where a frame would be. */
+/* What went straight on has frames where progress was held to so much; a place between them is where one would be. */
 static const double HELD = 1e-10;
 
 /* ------------------------------------------------------------------------------------------- making one ---- */
@@ -46,18 +47,16 @@ rg_status rg_fold_on(rg_shared *shared, const rg_memory *mem, const rg_settings 
     rg_fold *f = rg_mem_array(mem, 1, sizeof *f);
     if (!f) return RG_ENOMEM;
     const rg_mesh *m = &shared->motion->mesh;
+    const size_t N = (size_t)m->N, nv = (size_t)m->nv, M = (size_t)m->M;
     f->mem = *mem;
     f->settings = *s;
-    f->rho = rg_mem_array(mem, (size_t)m->N, sizeof *f->rho);
-    f->flat = rg_mem_array(mem, (size_t)m->nv, sizeof *f->flat);
-    f->place = rg_mem_array(mem, (size_t)m->nf, sizeof *f->place);
-    f->x = rg_mem_array(mem, (size_t)m->nv, sizeof *f->x);
-    f->theta = rg_mem_array(mem, (size_t)m->loop_start[m->M], sizeof *f->theta);
-    f->ending.vertex = rg_mem_array(mem, (size_t)m->M, sizeof *f->ending.vertex);
-    f->ending.crease = rg_mem_array(mem, (size_t)m->N, sizeof *f->ending.crease);
-    if (!f->rho || !f->flat || !f->place || !f->x || !f->theta || !f->ending.vertex || !f->ending.crease) {
+    const rg_status status = RG_MEM_ARRAYS(mem, RG_ARRAY(f->rho, N), RG_ARRAY(f->flat, nv),
+                                           RG_ARRAY(f->place, (size_t)m->nf), RG_ARRAY(f->x, nv),
+                                           RG_ARRAY(f->theta, (size_t)m->loop_start[m->M]),
+                                           RG_ARRAY(f->ending.vertex, M), RG_ARRAY(f->ending.crease, N));
+    if (status != RG_OK) {
         rg_fold_destroy(f);
-        return RG_ENOMEM;
+        return status;
     }
     f->shared = shared;
     atomic_fetch_add(&shared->holders, 1);
@@ -67,8 +66,9 @@ rg_status rg_fold_on(rg_shared *shared, const rg_memory *mem, const rg_settings 
 }
 
 /* Takes motion and path over, also on failure. */
-static rg_status take_over(rg_motion *motion, rg_attempt *path, const rg_memory *mem, const rg_settings *settings, rg_fold **fold)
+static rg_status take_over(rg_motion *motion, rg_attempt *path, const rg_settings *settings, rg_fold **fold)
 {
+    const rg_memory own = rg_mem_default(settings->memory), *mem = &own;
     rg_shared *shared = rg_mem_array(mem, 1, sizeof *shared);
     if (!shared || pthread_mutex_init(&shared->reading, NULL) != 0) {
         rg_attempt_free(path);
@@ -84,7 +84,8 @@ static rg_status take_over(rg_motion *motion, rg_attempt *path, const rg_memory 
     return s;
 }
 
-rg_status rg_fold_create(const rg_pattern *p, const rg_settings *given, rg_progress progress, void *ctx, rg_fold **fold, rg_diag *why)
+rg_status rg_fold_create(const rg_pattern *p, const rg_settings *given, rg_progress progress, void *ctx, rg_fold **fold,
+                         rg_diag *why)
 {
     rg_settings settings;
     rg_motion *motion = NULL;
@@ -92,8 +93,7 @@ rg_status rg_fold_create(const rg_pattern *p, const rg_settings *given, rg_progr
     rg_attempt path = {0};
     if (s == RG_OK) s = rg_motion_with_path(p, &settings, progress, ctx, &motion, &path, why);
     if (s != RG_OK) return s;
-    const rg_memory mem = rg_mem_default(settings.memory);
-    s = take_over(motion, &path, &mem, &settings, fold);
+    s = take_over(motion, &path, &settings, fold);
     return s == RG_OK ? s : rg_fail(s, why, 0, "%s", rg_status_text(s));
 }
 
@@ -106,8 +106,7 @@ rg_status rg_fold_create_flat(const rg_pattern *p, const rg_settings *given, rg_
     rg_status s = rg_settings_take(given, &settings, why);
     if (s == RG_OK) s = rg_motion_unfolded(p, &settings, &motion, why);
     if (s != RG_OK) return s;
-    const rg_memory mem = rg_mem_default(settings.memory);
-    s = take_over(motion, &none, &mem, &settings, &f);
+    s = take_over(motion, &none, &settings, &f);
     if (s == RG_OK) s = rg_fold_make_steer(f);
     if (s == RG_OK) s = rg_fold_own_track(f, 1);
     if (s != RG_OK) {
@@ -157,26 +156,20 @@ static double progress_of(const rg_fold *f, const double *rho)
     return n ? sum / n : 1;
 }
 
-static rg_status make_way(rg_fold *f, int moves)
-{
-    if (f->way[moves]) return RG_OK;
-    if (!f->guess && !(f->guess = rg_mem_array(&f->mem, (size_t)rg_fold_mesh(f)->N, sizeof *f->guess))) return RG_ENOMEM;
-    rg_between *b = rg_mem_array(&f->mem, 1, sizeof *b);
-    if (!b) return RG_ENOMEM;
-    const rg_status s = rg_between_init(b, &f->mem, rg_fold_mesh(f), moves, &f->settings);
-    if (s == RG_OK) f->way[moves] = b;
-    else {
-        rg_between_free(b);
-        rg_mem_free(&f->mem, b);
-    }
-    return s;
-}
-
 /* The engine for the states between k and k + 1; NULL: memory is short. */
 static rg_between *way_between(rg_fold *f, int32_t k)
 {
-    const int moves = memcmp(rg_fold_pattern(f, k), rg_fold_pattern(f, k + 1), (size_t)rg_fold_mesh(f)->nv * sizeof(rg_vec2)) != 0;
-    return make_way(f, moves) == RG_OK ? f->way[moves] : NULL;
+    const rg_mesh *m = rg_fold_mesh(f);
+    const size_t bytes = (size_t)m->nv * sizeof(rg_vec2);
+    const int moves = memcmp(rg_fold_pattern(f, k), rg_fold_pattern(f, k + 1), bytes) != 0;
+    if (f->way[moves]) return f->way[moves];
+    if (!f->guess) f->guess = rg_mem_array(&f->mem, (size_t)m->N, sizeof *f->guess);
+    rg_between *b = f->guess ? rg_mem_array(&f->mem, 1, sizeof *b) : NULL;
+    if (!b) return NULL;
+    if (rg_between_init(b, &f->mem, m, moves, &f->settings) == RG_OK) return f->way[moves] = b;
+    rg_between_free(b);
+    rg_mem_free(&f->mem, b);
+    return NULL;
 }
 
 /* Does the track bend nowhere, so that more than two of its states tell where it goes between them? */
@@ -186,8 +179,10 @@ static int is_smooth(const rg_fold *f)
     return f->steered || (strcmp(r->method, "adaptive") == 0 && r->stages == 0);
 }
 
-/* The polynomial through the states about k and k + 1, SIDE of them on each side, as far as progress rises: its value at that part of the
- * way between them, f->guess. Zero: it strays from their chord, which is better then, or there is none where a leg ends. */
+static int rises(const rg_fold *f, int32_t k) { return rg_fold_progress(f, k) < rg_fold_progress(f, k + 1); }
+
+/* f->guess: the polynomial through the states about k and k + 1, SIDE of them on each side, as far as progress rises,
+ * at that part of the way between them. Zero: it strays from their chord, which is better then, or a leg ends. */
 static int follow(rg_fold *f, int32_t k, double part)
 {
     enum { SIDE = 3 };
@@ -195,10 +190,9 @@ static int follow(rg_fold *f, int32_t k, double part)
     const double *a = rg_fold_state(f, k), *b = rg_fold_state(f, k + 1);
     const double s = rg_fold_progress(f, k) + part * (rg_fold_progress(f, k + 1) - rg_fold_progress(f, k));
     int32_t first = k, last = k + 1;
-    double turn = 0;
-    if (!(rg_fold_progress(f, k) < rg_fold_progress(f, k + 1))) return 0;
-    while (first > 0 && k - first < SIDE - 1 && rg_fold_progress(f, first - 1) < rg_fold_progress(f, first)) first--;
-    while (last < rg_fold_states(f) - 1 && last - k < SIDE && rg_fold_progress(f, last) < rg_fold_progress(f, last + 1)) last++;
+    if (!rises(f, k)) return 0;
+    while (first > 0 && k - first < SIDE - 1 && rises(f, first - 1)) first--;
+    while (last < rg_fold_states(f) - 1 && last - k < SIDE && rises(f, last)) last++;
     for (int32_t i = 0; i < N; i++) f->guess[i] = 0;
     for (int32_t j = first; j <= last; j++) {
         const double *rho = rg_fold_state(f, j);
@@ -207,22 +201,20 @@ static int follow(rg_fold *f, int32_t k, double part)
             if (l != j) w *= (s - rg_fold_progress(f, l)) / (rg_fold_progress(f, j) - rg_fold_progress(f, l));
         for (int32_t i = 0; i < N; i++) f->guess[i] += w * rho[i];
     }
-    for (int32_t i = 0; i < N; i++) turn = fmax(turn, fabs(b[i] - a[i]));
+    const double turn = rg_gaps_turn(N, a, b);
     for (int32_t i = 0; i < N; i++)
         if (!(fabs(f->guess[i] - (a[i] + part * (b[i] - a[i]))) <= turn)) return 0;
     return 1;
 }
 
-/* The crease that turns most from a to b. */
-static int32_t fastest(const rg_fold *f, const double *a, const double *b)
+/* The crease that turns most from state k to the next. */
+static int32_t leader(const rg_fold *f, int32_t k)
 {
-    int32_t c = 0;
-    for (int32_t i = 1; i < rg_fold_mesh(f)->N; i++)
-        if (fabs(b[i] - a[i]) > fabs(b[c] - a[c])) c = i;
-    return c;
+    return rg_gaps_leader(rg_fold_mesh(f)->N, rg_fold_state(f, k), rg_fold_state(f, k + 1));
 }
 
-/* What closes far from both states is on no way from one to the other: a crease farther past half a turn than in these tells. */
+/* What closes far from both states is on no way from one to the other: a crease farther past half a turn than in both
+ * of them tells. */
 static int overfolds(const rg_fold *f, const double *rho, const double *from, const double *to)
 {
     for (int32_t i = 0; i < rg_fold_mesh(f)->N; i++)
@@ -230,32 +222,38 @@ static int overfolds(const rg_fold *f, const double *rho, const double *from, co
     return 0;
 }
 
-/* The state at that part of the way from k to k + 1 in which crease c has the angle, NAN: that which it has there. Returns its closure; NAN:
- * none was found. */
+static rg_motion_state state(const rg_fold *f, int32_t k)
+{
+    return (rg_motion_state){rg_fold_state(f, k), rg_fold_pattern(f, k), k, 0};
+}
+
+/* The state at that part of the way from k to k + 1 in which crease c has the angle, NAN: that which it has there.
+ * Returns its closure; NAN: none was found. */
 static double at_part(rg_fold *f, rg_between *b, int32_t k, double part, int32_t c, double angle)
 {
-    const rg_vec2 *X = rg_fold_pattern(f, k), *Y = rg_fold_pattern(f, k + 1);
-    const double *from = rg_fold_state(f, k), *to = rg_fold_state(f, k + 1);
-    const double closure =
-        !b->moves && is_smooth(f) && follow(f, k, part)
-            ? rg_between_at(b, f->guess, X, f->guess, X, 0, c, isnan(angle) ? f->guess[c] : angle)
-            : rg_between_at(b, from, X, to, Y, part, c, isnan(angle) ? from[c] + part * (to[c] - from[c]) : angle);
-    return overfolds(f, b->z, from, to) ? NAN : closure;
+    const rg_motion_state from = state(f, k), to = state(f, k + 1), guess = {f->guess, from.X, k, 1};
+    double closure;
+    if (!b->moves && is_smooth(f) && follow(f, k, part)) {
+        closure = rg_between_at(b, &guess, &guess, 0, c, isnan(angle) ? f->guess[c] : angle);
+    } else {
+        const double there = from.rho[c] + part * (to.rho[c] - from.rho[c]);
+        closure = rg_between_at(b, &from, &to, part, c, isnan(angle) ? there : angle);
+    }
+    return overfolds(f, b->z, from.rho, to.rho) ? NAN : closure;
 }
 
 rg_status rg_fold_read_between(rg_fold *f, int32_t k, double part, double *rho, rg_vec2 *X, int *closes)
 {
-    const double *a = rg_fold_state(f, k), *b = rg_fold_state(f, k + 1);
     rg_between *way = way_between(f, k);
     if (!way) return RG_ENOMEM;
-    *closes = !isnan(at_part(f, way, k, part, fastest(f, a, b), NAN));
+    *closes = !isnan(at_part(f, way, k, part, leader(f, k), NAN));
     memcpy(rho, way->z, (size_t)rg_fold_mesh(f)->N * sizeof *rho);
     memcpy(X, way->flat, (size_t)rg_fold_mesh(f)->nv * sizeof *X);
     return RG_OK;
 }
 
-/* Of a leg that is over it is not known any more whose ways counted: as the states on both sides tell. Its last state has no progress but
- * that of the leg which begins there. */
+/* Of a leg that is over it is not known any more whose ways counted: as the states on both sides tell. Its last state
+ * has no progress but that of the leg which begins there. */
 static double progress_before(const rg_fold *f, int32_t k, double part)
 {
     const double from = rg_fold_progress(f, k), to = rg_fold_progress(f, k + 1);
@@ -304,8 +302,47 @@ static double read_path(rg_shared *of, double s, double *rho)
     return closure;
 }
 
-/* Off the path itself, between frames k and k + 1, where crease c has the angle `goal`; c -1: where that is progress. *found zero: there is
- * no path to read, or it leaps over that place. What is read depends on the place alone, not on where frames are. RG_ENOMEM. */
+/* What is off by off_low at `low` and by off_high at `high`, which are on both sides of where it is off by nothing. */
+typedef struct bracket { double low, off_low, high, off_high; } bracket;
+
+/* By the secant; now and then the middle, where that creeps. */
+static double next_guess(const bracket *b, int32_t n)
+{
+    return n % 4 == 3 ? (b->low + b->high) / 2 : b->low - b->off_low * (b->high - b->low) / (b->off_high - b->off_low);
+}
+
+static void narrow(bracket *b, double x, double off)
+{
+    if (off * b->off_low > 0) b->low = x, b->off_low = off;
+    else b->high = x, b->off_high = off;
+}
+
+/* f->read: the state on the path itself, between frames k and k + 1, where crease c has the angle `goal`; c -1: where
+ * that is progress. Returns its closure; NAN: the path leaps over that place. */
+static double look_on_path(rg_fold *f, int32_t k, int32_t c, double goal)
+{
+    rg_shared *of = f->shared;
+    const rg_relax *F = of->path.relax;
+    const double tol = F ? F->tol : f->settings.tol, *due = of->path.due;
+    const double a = c < 0 ? rg_fold_progress(f, k) : rg_fold_state(f, k)[c];
+    const double b = c < 0 ? rg_fold_progress(f, k + 1) : rg_fold_state(f, k + 1)[c];
+    const double even = of->path.backwards ? 1 - goal : goal; /* where frames are, if they are even in it */
+    const int tries_even = c < 0 && (even - due[k]) * (due[k + 1] - even) > 0;
+    bracket on = {due[k], a - goal, due[k + 1], b - goal};
+    double off = NAN, closure = NAN;
+    for (int32_t n = 0; n < SECANTS && !(fabs(off) <= SAME_PLACE); n++) {
+        const double s = n == 0 && tries_even ? even : next_guess(&on, n);
+        closure = read_path(of, s, f->read);
+        off = (c < 0 ? progress_of(f, f->read) : f->read[c]) - goal;
+        if (!(closure <= tol) || s == on.low || s == on.high) break;
+        if (n == 0 && s == even && !F && fabs(off) <= HELD) break;
+        narrow(&on, s, off);
+    }
+    return closure <= tol && fabs(off) <= (F ? NOT_THERE : HELD) ? closure : NAN;
+}
+
+/* Stands there, where there is such a place: *found. What is read depends on the place alone, not on where frames are.
+ * RG_ENOMEM. */
 static rg_status find_on_path(rg_fold *f, int32_t k, int32_t c, double goal, int *found)
 {
     rg_shared *of = f->shared;
@@ -316,22 +353,8 @@ static rg_status find_on_path(rg_fold *f, int32_t k, int32_t c, double goal, int
     if (!f->read && !(f->read = rg_mem_array(&f->mem, F ? (size_t)F->n : N, sizeof *f->read))) return RG_ENOMEM;
     const rg_status status = open_path(of);
     if (status != RG_OK) return status;
-    const double tol = F ? F->tol : f->settings.tol;
-    const double *due = of->path.due;
-    double low = due[k], high = due[k + 1], off_low = (c < 0 ? rg_fold_progress(f, k) : rg_fold_state(f, k)[c]) - goal;
-    double off_high = (c < 0 ? rg_fold_progress(f, k + 1) : rg_fold_state(f, k + 1)[c]) - goal, off = NAN, closure = NAN;
-    for (int32_t n = 0; n < SECANTS && !(fabs(off) <= SAME_PLACE); n++) {
-        const double straight = of->path.backwards ? 1 - goal : goal; /* as frames are, where they are even in it */
-        double s = low - off_low * (high - low) / (off_high - off_low);
-        if (n == 0 && c < 0 && (straight - low) * (high - straight) > 0) s = straight;
-        else if (n % 4 == 3) s = (low + high) / 2;
-        closure = read_path(of, s, f->read);
-        off = (c < 0 ? progress_of(f, f->read) : f->read[c]) - goal;
-        if (!(closure <= tol) || s == low || s == high || (n == 0 && s == straight && !F && fabs(off) <= HELD)) break;
-        if (off * off_low > 0) low = s, off_low = off;
-        else high = s, off_high = off;
-    }
-    if (!(closure <= tol && fabs(off) <= (F ? NOT_THERE : HELD))) return RG_OK;
+    const double closure = look_on_path(f, k, c, goal);
+    if (isnan(closure)) return RG_OK;
     *found = 1;
     for (int32_t j = k; j <= k + 1 && !F; j++)
         if (memcmp(f->read, rg_fold_state(f, j), N * sizeof *f->read) == 0) {
@@ -348,9 +371,9 @@ static rg_status find_on_path(rg_fold *f, int32_t k, int32_t c, double goal, int
 /* Between states k and k + 1, at that progress: the crease that turns most leads. */
 static rg_status find_progress(rg_fold *f, int32_t k, double goal)
 {
-    const double *a = rg_fold_state(f, k), *b = rg_fold_state(f, k + 1);
-    double low = 0, high = 1, at_low = rg_fold_progress(f, k), at_high = rg_fold_progress(f, k + 1), part = 0, closure = NAN;
-    const int32_t c = fastest(f, a, b);
+    double low = 0, high = 1, at_low = rg_fold_progress(f, k), at_high = rg_fold_progress(f, k + 1);
+    double part = 0, closure = NAN;
+    const int32_t c = leader(f, k);
     int found;
     const rg_status s = find_on_path(f, k, -1, goal, &found);
     if (s != RG_OK || found) return s;
@@ -397,13 +420,13 @@ static int passes(const rg_fold *f, int32_t k, int32_t c, double angle)
 /* Which part of the way from k to k + 1 that is, of which the chord says `part`. */
 static double part_at(rg_fold *f, int32_t k, int32_t c, double angle, double part)
 {
-    double low = 0, high = 1, off_low = rg_fold_state(f, k)[c] - angle, off_high = rg_fold_state(f, k + 1)[c] - angle, x = part;
+    bracket on = {0, rg_fold_state(f, k)[c] - angle, 1, rg_fold_state(f, k + 1)[c] - angle};
+    double x = part;
     for (int32_t n = 0; n < SECANTS && is_smooth(f) && follow(f, k, x); n++) {
         const double off = f->guess[c] - angle;
         if (fabs(off) <= SAME_PLACE) break;
-        if (off * off_low > 0) low = x, off_low = off;
-        else high = x, off_high = off;
-        x = n % 4 == 3 ? (low + high) / 2 : low - off_low * (high - low) / (off_high - off_low);
+        narrow(&on, x, off);
+        x = next_guess(&on, n);
     }
     return x;
 }
@@ -420,7 +443,8 @@ static rg_status stand_at_angle(rg_fold *f, int32_t k, int32_t c, double angle)
     rg_between *way = s == RG_OK ? way_between(f, k) : NULL;
     if (!way) return RG_ENOMEM;
     if (found) { /* and by rounding to the angle itself */
-        const double closure = rg_between_at(way, f->rho, f->flat, f->rho, f->flat, 0, c, angle);
+        const rg_motion_state here = {f->rho, f->flat, k, 1};
+        const double closure = rg_between_at(way, &here, &here, 0, c, angle);
         if (!isnan(closure)) stand_between(f, way, k, part, closure);
         return RG_OK;
     }

@@ -9,8 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Work, multiplications, by effort: some 10 s of one core, and 10 minutes. A step costs as much as there is of a sheet, so one of
- * more triangles than these gets more, in proportion, but not more than what some thousand need, a minute. */
+/* Work, multiplications, by effort: some 10 s of one core, and 10 minutes. A step costs as much as there is of a sheet,
+ * so one of more triangles than these gets more, in proportion, but not more than what some thousand need, a minute. */
 static const double MOST_WORK[] = {0, 5e10, 3e12};
 static const int32_t TRIANGLES = 250;
 static const double MOST_TIMES = 4;
@@ -21,30 +21,35 @@ static const double PART_OF_SHORT = 0.5;
 /* What moving a vertex of the pattern by the shortest line at it counts, in radians of a crease, as in relax.h. */
 static const double GIVE = 1;
 
-/* Where not all of the ways between frames could be proved free, another motion is looked for until it has cost so many times as much. */
+/* Where not all of the ways between frames could be proved free, another motion is looked for until it has cost so many
+ * times as much. */
 static const double AGAIN = 3;
 
-/* A path is looked at in so many states, evenly in percent, whatever frames are asked for: what is chosen must not depend on them. */
+/* A path is looked at in so many states, evenly in percent, whatever frames are asked for: what is chosen must not
+ * depend on them. */
 static const int32_t LOOKED_AT = 121;
 
-/* The first state, of frames and what lies between them, in which facets cross, or before which they do on the way; -1: none, or the
- * watch (NULL: nobody's) stopped it before it came to one. */
+/* The first state, of frames and what lies between them, in which facets cross, or before which they do on the way; -1:
+ * none, or the watch (NULL: nobody's) stopped it before it came to one. */
 static rg_status first_crossing(const rg_attempt *t, rg_watch *watch, int32_t *frame)
 {
     const rg_mesh *m = &t->mesh;
     rg_course course = {0};
     rg_tree tree = {0};
-    rg_place *place = rg_mem_array(&t->mem, (size_t)m->nf, sizeof *place);
-    rg_vec3 *x = rg_mem_array(&t->mem, (size_t)m->nv, sizeof *x);
-    rg_status s = place && x ? rg_tree_init(m, -1, &tree) : RG_ENOMEM;
+    rg_place *place;
+    rg_vec3 *x;
+    rg_status s = RG_MEM_ARRAYS(&t->mem, RG_ARRAY(place, (size_t)m->nf), RG_ARRAY(x, (size_t)m->nv));
+    if (s == RG_OK) s = rg_tree_init(m, -1, &tree);
     if (s == RG_OK) s = rg_course_init(m, &course);
     *frame = -1;
     const int32_t all = t->count + t->gaps.count;
-    for (int32_t k = 0, j = 0; s == RG_OK && k + j < all && course.found.first < 0 && !(watch && rg_watch_asked(watch));) {
+    for (int32_t k = 0, j = 0; s == RG_OK && k + j < all && course.found.first < 0;) {
+        if (watch && rg_watch_asked(watch)) break;
         const int gap = j < t->gaps.count && t->gaps.after[j] < k;
-        const size_t at = (size_t)(gap ? j++ : k++);
-        const rg_vec2 *flat = gap ? t->gaps.flat : t->flat, *X = flat ? flat + at * (size_t)m->nv : m->X;
-        rg_pose_facets(m, X, &tree, (gap ? t->gaps.rho : t->rho) + at * (size_t)m->N, place);
+        const int32_t at = gap ? j++ : k++;
+        const double *rho = gap ? rg_gaps_angles(&t->gaps, m, at) : rg_attempt_angles(t, at);
+        const rg_vec2 *X = gap ? rg_gaps_pattern(&t->gaps, m, at) : rg_attempt_pattern(t, at);
+        rg_pose_facets(m, X, &tree, rho, place);
         rg_pose_vertices(m, X, &tree, place, x);
         s = rg_course_add(&course, &(rg_plates_state){X, place, x}, !gap);
     }
@@ -69,13 +74,6 @@ rg_status rg_unfolding_crosses(rg_attempt *t, const rg_settings *settings, rg_wa
 }
 
 const char *const RG_UNFOLDED = "unfolded without contact";
-
-static int stop(void *ctx, double done)
-{
-    rg_watch *w = ctx;
-    if (w->progress && !w->cancelled) w->cancelled = w->progress(w->ctx, done < 0 ? 0 : done > 1 ? 1 : done) != 0;
-    return w->cancelled;
-}
 
 static int read(void *ctx, double progress, double *rho, rg_vec2 *X)
 {
@@ -103,7 +101,8 @@ static rg_status differ(const rg_mesh *none, int *yes)
 }
 
 /* What unfolding found, as an attempt. */
-static rg_status take_over(rg_attempt *t, rg_unfold *u, const rg_mesh *none, const rg_settings *s, int shorter, rg_diag *why)
+static rg_status take_over(rg_attempt *t, rg_unfold *u, const rg_mesh *none, const rg_settings *s, int shorter,
+                           rg_diag *why)
 {
     rg_mesh m;
     const double sign = s->to < 0 ? -1 : 1;
@@ -138,9 +137,11 @@ static void adopt(rg_search *c, rg_attempt *t, const char *how, int shorter)
     snprintf(c->strategy, sizeof c->strategy, "%.140s%s", how, shorter ? ", short diagonals" : "");
 }
 
-rg_status rg_unfolding_judge(const rg_attempt *t, const rg_settings *s, rg_watch *watch, int *is_free, int32_t *unproved, rg_diag *why)
+rg_status rg_unfolding_judge(const rg_attempt *t, const rg_settings *s, rg_watch *watch, int *is_free,
+                             int32_t *unproved, rg_diag *why)
 {
-    rg_motion m = {.mem = t->mem, .settings = *s, .mesh = t->mesh, .target = t->target, .from = t->from, .rho = t->rho, .flat = t->flat, .gaps = t->gaps};
+    rg_motion m = {.mem = t->mem, .settings = *s, .mesh = t->mesh, .target = t->target, .from = t->from,
+                   .rho = t->rho, .flat = t->flat, .gaps = t->gaps};
     m.frame = rg_mem_array(&m.mem, (size_t)t->count, sizeof *m.frame);
     m.report.frame_count = t->count;
     m.report.frames = m.frame;
@@ -166,10 +167,15 @@ typedef struct taker {
     char how[160];
 } taker;
 
-static int stop_taking(void *ctx, double done) { return stop(((taker *)ctx)->watch, done); }
+static int stop(void *ctx, double done)
+{
+    rg_watch *w = ((taker *)ctx)->watch;
+    if (w->progress && !w->cancelled) w->cancelled = w->progress(w->ctx, done < 0 ? 0 : done > 1 ? 1 : done) != 0;
+    return w->cancelled;
+}
 
-/* What is free between its states is looked at once more as it is read; and a part of the way is to be one of creases that have all
- * left flat. */
+/* What is free between its states is looked at once more as it is read; and of a part of the way all creases are to
+ * have left flat. */
 static rg_status accept(void *ctx, rg_unfold *u, int *yes)
 {
     taker *k = ctx;
@@ -182,22 +188,21 @@ static rg_status accept(void *ctx, rg_unfold *u, int *yes)
     rg_status s = take_over(&t, u, k->none, &look, k->shorter, k->why);
     if (s == RG_OK) s = rg_unfolding_judge(&t, &look, k->watch, &is_free, &unproved, k->why);
     const int good = s == RG_OK && is_free && !k->watch->cancelled && rg_search_is_folded(&t);
+    rg_attempt_free(&t);
     *yes = good && unproved == 0;
-    if (good && (*yes || !k->found.mem.resize)) {
-        rg_attempt_free(&k->found);
-        rg_attempt_free(&t);
-        s = take_over(&k->found, u, k->none, k->settings, k->shorter, k->why);
-        memcpy(k->how, u->how, sizeof k->how);
-        u->most = fmin(u->most, AGAIN * u->work);
-    } else {
-        rg_attempt_free(&t);
-    }
+    if (!good || !(*yes || !k->found.mem.resize)) return s;
+    rg_attempt_free(&k->found);
+    memcpy(k->how, u->how, sizeof k->how);
+    s = take_over(&k->found, u, k->none, k->settings, k->shorter, k->why);
+    u->most = fmin(u->most, AGAIN * u->work);
     return s;
 }
 
-rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings *s, double part, rg_watch *watch, rg_diag *why)
+rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings *s, double part, rg_watch *watch,
+                           rg_diag *why)
 {
-    if (s->adjust == 0 || s->triangulate == RG_TRIANGULATE_NONE) return RG_OK; /* it bends facets and moves the pattern */
+    /* It bends facets and moves the pattern. */
+    if (s->adjust == 0 || s->triangulate == RG_TRIANGULATE_NONE) return RG_OK;
     const rg_memory mem = rg_mem_default(s->memory);
     const double begun = rg_seconds();
     const int32_t triangles = none->facet_start[none->nf] - 2 * none->nf;
@@ -207,7 +212,7 @@ rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings 
     rg_status status = differ(none, &two);
     for (k.shorter = 0; status == RG_OK && k.shorter <= two && !k.found.mem.resize && !watch->cancelled; k.shorter++) {
         const double work = k.shorter ? PART_OF_SHORT * most : most;
-        const rg_unfold_wish wish = {s->to < 0 ? -1 : 1, s->layer_order, k.shorter, work, stop_taking, accept, &k};
+        const rg_unfold_wish wish = {s->to < 0 ? -1 : 1, s->layer_order, k.shorter, work, stop, accept, &k};
         rg_unfold u;
         status = rg_unfold_run(&u, &mem, none, &wish);
         c->tries += u.tries;
@@ -219,7 +224,8 @@ rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings 
     return status == RG_ENOMEM ? rg_fail(status, why, 0, "%s", rg_status_text(status)) : status;
 }
 
-rg_status rg_unfolding_wanted(rg_search *c, const rg_mesh *none, const rg_settings *s, const rg_watch *watch, int *wanted, rg_diag *why)
+rg_status rg_unfolding_wanted(rg_search *c, const rg_mesh *none, const rg_settings *s, const rg_watch *watch,
+                              int *wanted, rg_diag *why)
 {
     int32_t crossing = -1;
     *wanted = 0;

@@ -1,5 +1,6 @@
 #include "write/paced.h"
 #include "motion/between.h"
+#include "motion/measure.h"
 
 #include <string.h>
 
@@ -8,34 +9,10 @@ typedef struct pacer {
     rg_between *way[2]; /* where the pattern stays, where it moves; NULL: not needed yet */
 } pacer;
 
-/* The crease that turns most from frame k to the next. */
-static int32_t leader(const rg_motion *m, int32_t k)
-{
-    const double *a = rg_motion_angles(m, k), *b = rg_motion_angles(m, k + 1);
-    int32_t c = 0;
-    for (int32_t i = 1; i < m->mesh.N; i++)
-        if (fabs(b[i] - a[i]) > fabs(b[c] - a[c])) c = i;
-    return c;
-}
-
+/* How far the crease goes that turns most from frame k to the next. */
 static double turn(const rg_motion *m, int32_t k)
 {
-    const int32_t c = leader(m, k);
-    return fabs(rg_motion_angles(m, k + 1)[c] - rg_motion_angles(m, k)[c]);
-}
-
-/* The mean part of the ways of the creases that are driven, as it is measured of every frame. */
-static double percent_of(const rg_motion *m, const double *rho)
-{
-    double sum = 0;
-    int32_t n = 0;
-    for (int32_t i = 0; i < m->mesh.N; i++) {
-        const double way = m->target[i] - m->from[i];
-        if (isnan(way) || way == 0) continue;
-        sum += fmin(100, 100 * (rho[i] - m->from[i]) / way);
-        n++;
-    }
-    return n ? sum / n : 100;
+    return rg_gaps_turn(m->mesh.N, rg_motion_angles(m, k), rg_motion_angles(m, k + 1));
 }
 
 static rg_status way_of(pacer *p, int moves, rg_between **way)
@@ -63,20 +40,20 @@ static rg_status put(pacer *p, int32_t k, double part, rg_motion *to, int32_t f)
 {
     const rg_motion *m = p->m;
     const size_t N = (size_t)m->mesh.N, nv = (size_t)m->mesh.nv;
-    const double *a = rg_motion_angles(m, k), *b = rg_motion_angles(m, k + 1);
-    const rg_vec2 *X = rg_motion_pattern(m, k), *Y = rg_motion_pattern(m, k + 1);
-    const int32_t c = leader(m, k);
+    const rg_motion_state a = {rg_motion_angles(m, k), rg_motion_pattern(m, k), k, 0};
+    const rg_motion_state b = {rg_motion_angles(m, k + 1), rg_motion_pattern(m, k + 1), k + 1, 0};
+    const int32_t c = rg_gaps_leader(m->mesh.N, a.rho, b.rho);
     rg_between *way;
-    const rg_status s = way_of(p, memcmp(X, Y, nv * sizeof *X) != 0, &way);
+    const rg_status s = way_of(p, memcmp(a.X, b.X, nv * sizeof *a.X) != 0, &way);
     if (s != RG_OK) return s;
-    const double closure = rg_between_at(way, a, X, b, Y, part, c, a[c] + part * (b[c] - a[c]));
+    const double closure = rg_between_at(way, &a, &b, part, c, a.rho[c] + part * (b.rho[c] - a.rho[c]));
     if (isnan(closure)) {
         copy(m, part < 0.5 ? k : k + 1, to, f);
         return RG_OK;
     }
     memcpy(to->rho + (size_t)f * N, way->z, N * sizeof *to->rho);
     if (to->flat) memcpy(to->flat + (size_t)f * nv, way->flat, nv * sizeof *to->flat);
-    to->frame[f] = (rg_frame){.percent = percent_of(m, way->z), .closure_residual = closure};
+    to->frame[f] = (rg_frame){.percent = rg_measure_percent(m, way->z, 100), .closure_residual = closure};
     return RG_OK;
 }
 
