@@ -29,6 +29,16 @@ int rg_ladder_is_better(const rg_attempt *t, const rg_attempt *old)
     return t->score > old->score + (t->moved > 0 && old->moved == 0 ? WORTH_MOVING : 0);
 }
 
+void rg_cost_add(rg_cost *sum, const rg_cost *c)
+{
+    sum->steps += c->steps;
+    sum->solves += c->solves;
+    sum->iterations += c->iterations;
+    sum->factorizations += c->factorizations;
+    sum->assemblies += c->assemblies;
+    sum->seconds += c->seconds;
+}
+
 void rg_ladder_note(rg_search *q, const rg_ladder_try *one, const rg_attempt *t)
 {
     q->tries++;

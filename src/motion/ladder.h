@@ -1,10 +1,36 @@
-/* ladder.h -- one try at a rung of the search's ladder, and which of two tries is better.
- * Paper    sections 3.1 to 3.4        Uses  search.h race.h        Used by  retract.c search.c */
+/* ladder.h -- what a search looks for and has found so far; one try at a rung of its ladder, and which of two is
+ * better.
+ * Paper    sections 3.1 to 3.4        Uses  attempt.h race.h        Used by  retract.h search.h */
 #ifndef RG_LADDER_H
 #define RG_LADDER_H
 
 #include "base/race.h"
-#include "motion/search.h"
+#include "motion/attempt.h"
+
+/* A way to look for, on the creases as drawn. */
+typedef struct rg_problem {
+    const rg_mesh *drawn; /* borrowed */
+    const double *from;   /* [drawn->N] radians; NULL: flat */
+    const double *to;     /* [drawn->N] radians, NAN: none; NULL: the mesh's own targets */
+    int end_is_known;     /* non-zero: `to` closes, so that it may be looked for from there */
+    int keeps;            /* non-zero: the path of what goes straight on is kept, too */
+} rg_problem;
+
+/* So many tries are told of; few searches make more. */
+enum { RG_MOST_TRIED = 64 };
+
+typedef struct rg_search {
+    rg_attempt best;
+    const char *triangulation, *why_triangulated;
+    char strategy[160];
+    const char *rung, *direction;
+    double compliance;
+    int32_t tries;        /* rungs up to the one that is kept, and retractions */
+    double work;          /* of all tries */
+    rg_cost cost;         /* of all tries */
+    rg_try tried[RG_MOST_TRIED]; /* the first of them */
+    int32_t tried_count;
+} rg_search;
 
 /* The facets as drawn, or cut: so that inside angles are split, or by the shortest diagonals. Either folds patterns
  * that the other does not. */
@@ -57,6 +83,7 @@ rg_status rg_ladder_race(rg_ladder *l, const rg_ladder_try *one, rg_race *race, 
 int rg_ladder_workers(const rg_ladder *l);
 /* As rg_progress, ctx: the ladder. What is told never runs backwards, whichever try it is of. */
 int rg_ladder_tell(void *ladder, double done);
+void rg_cost_add(rg_cost *sum, const rg_cost *c);
 /* One try that counts. */
 void rg_ladder_note(rg_search *q, const rg_ladder_try *one, const rg_attempt *t);
 

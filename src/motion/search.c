@@ -1,7 +1,6 @@
 #include "motion/search.h"
 #include "base/status.h"
 #include "fold/tuning.h"
-#include "motion/ladder.h"
 #include "motion/retract.h"
 
 #include <stdio.h>
@@ -29,16 +28,6 @@ static const rg_rung LADDER[] = {
     {"relaxed 4", 0, RG_CUT_SPLIT, {4, 0.1, 0, 0}, 0, 1, RG_EFFORT_THOROUGH},
 };
 enum { RUNGS = sizeof LADDER / sizeof *LADDER };
-
-void rg_cost_add(rg_cost *sum, const rg_cost *c)
-{
-    sum->steps += c->steps;
-    sum->solves += c->solves;
-    sum->iterations += c->iterations;
-    sum->factorizations += c->factorizations;
-    sum->assemblies += c->assemblies;
-    sum->seconds += c->seconds;
-}
 
 void rg_search_tell(rg_motion *m, int32_t tries, const rg_cost *cost)
 {

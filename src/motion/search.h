@@ -1,5 +1,5 @@
 /* search.h -- what is tried, in which order, until the pattern folds; and which attempt is kept.
- * Paper    sections 3.1 to 3.4        Uses  attempt.h        Used by  the other files of this room; chart
+ * Paper    sections 3.1 to 3.4        Uses  ladder.h retract.h        Used by  the other files of this room; chart
  *
  * The ladder: as drawn; triangulated; relaxed, the pattern moving ever more readily, from flat or from the folded end.
  * The lowest rung that folds wins; if none does, what came farthest is kept. Then the retraction: of what folds, the
@@ -8,38 +8,12 @@
 #ifndef RG_SEARCH_H
 #define RG_SEARCH_H
 
-#include "motion/attempt.h"
-
-/* A way to look for, on the creases as drawn. */
-typedef struct rg_problem {
-    const rg_mesh *drawn; /* borrowed */
-    const double *from;   /* [drawn->N] radians; NULL: flat */
-    const double *to;     /* [drawn->N] radians, NAN: none; NULL: the mesh's own targets */
-    int end_is_known;     /* non-zero: `to` closes, so that it may be looked for from there */
-    int keeps;            /* non-zero: the path of what goes straight on is kept, too */
-} rg_problem;
-
-/* So many tries are told of; few searches make more. */
-enum { RG_MOST_TRIED = 64 };
-
-typedef struct rg_search {
-    rg_attempt best;
-    const char *triangulation, *why_triangulated;
-    char strategy[160];
-    const char *rung, *direction;
-    double compliance;
-    int32_t tries;        /* rungs up to the one that is kept, and retractions */
-    double work;          /* of all tries */
-    rg_cost cost;         /* of all tries */
-    rg_try tried[RG_MOST_TRIED]; /* the first of them */
-    int32_t tried_count;
-} rg_search;
+#include "motion/ladder.h"
 
 /* RG_OK also when no attempt folds. Owner: the caller, rg_attempt_free of `best`, whose frames are not read off yet. */
 rg_status rg_search_run(rg_search *q, const rg_problem *p, const rg_settings *s, rg_watch *watch, rg_diag *why);
 /* Is t what was asked for, with no crease past half a turn and none left behind? */
 int rg_search_is_folded(const rg_attempt *t);
-void rg_cost_add(rg_cost *sum, const rg_cost *c);
 /* Fills what m->report says of the effort and of the size of m->mesh. */
 void rg_search_tell(rg_motion *m, int32_t tries, const rg_cost *cost);
 
