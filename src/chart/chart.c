@@ -21,7 +21,8 @@ int rg_chart_reached(const rg_chart *c, const rg_run *r)
     return r->outcome == RG_FOLDED && r->frames == c->settings.frames;
 }
 
-/* It does the same job: closes to the tolerance asked for in every frame, and is as near to the path, if that is known. */
+/* It does the same job: closes to the tolerance asked for in every frame, and is as near to the path, if that is
+ * known. */
 static int as_accurate(const rg_chart *c, const rg_run *r)
 {
     const double error = c->run[0].error;

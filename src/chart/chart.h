@@ -12,7 +12,8 @@
 
 #include <stdio.h>
 
-/* Curves: 4 methods by step and 1 by tolerance with 3 solvers each, 5 points a curve; the relaxed stepper's; and the default. */
+/* Curves: 4 methods by step and 1 by tolerance with 3 solvers each, 5 points a curve; the relaxed stepper's; and the
+ * default. */
 enum { RG_CHART_POINTS = 5, RG_CHART_RUNS = 5 * 3 * RG_CHART_POINTS + RG_RELAXED_POINTS + 1 };
 
 struct rg_chart {

@@ -143,8 +143,8 @@ rg_status rg_order_measure(rg_order order[RG_ORDERS], const rg_mesh *m, const rg
         o->method = methods[j];
         o->open.slope = o->closed.slope = NAN;
         if (from < 1 || to >= ref->frames.count || from >= to) continue;
-        /* Where there are more equations than creases, C has one more rank off the path, and the open formula no way on;
-         * and Newton's is Euler's formula. */
+        /* Where there are more equations than creases, C has one more rank off the path, and the open formula no way
+         * on; and Newton's is Euler's formula. */
         if (m->N > 3 * m->M && methods[j] != RG_METHOD_NEWTON && status == RG_OK)
             status = measure(&o->open, methods[j], 1, m, s, ref, from, to, why);
         if (status == RG_OK) status = measure(&o->closed, methods[j], 0, m, s, ref, from, to, why);

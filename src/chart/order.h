@@ -1,9 +1,9 @@
 /* order.h -- the order that a method shows: how its error falls with its step, on a smooth stretch of the path.
  * Paper    eq. (10), which is of order 1        Uses  reference.h        Used by  chart.c relaxed.c
  *
- * Two orders. Open: the formula alone, nothing closed and no residual fed back, from one frame of the reference to a later
- * one. Closed: the method as it folds. Where the sheet can go one way only, whoever closes is exact whatever
- * its step, and feeding the residual back makes Euler's method one of order 2; along a freedom of the sheet the order of
+ * Two orders. Open: the formula alone, nothing closed and no residual fed back, from one frame of the reference to a
+ * later one. Closed: the method as it folds. Where the sheet can go one way only, whoever closes is exact whatever its
+ * step, and feeding the residual back makes Euler's method one of order 2; along a freedom of the sheet the order of
  * the formula is what remains. */
 #ifndef RG_ORDER_H
 #define RG_ORDER_H

@@ -12,7 +12,8 @@ static const double SAME_WAY = 0.5;
 /* Runs that take longer, in seconds, are the last; what is quicker is repeated while all its runs take less. */
 static const double LONGEST = 2, PATIENCE = 0.1;
 static const int REPEATS = 3;
-/* Steps that a run may take: the finest takes some thousands. The way out of the start and into the end adds a few nodes. */
+/* Steps that a run may take: the finest takes some thousands. The way out of the start and into the end adds a few
+ * nodes. */
 
 /* What a run leaves to compare with: [frames] states at even progress. */
 typedef struct track { rg_frames rho, pattern; } track;

@@ -1,10 +1,12 @@
-/* relaxed.h -- the curve of the relaxed stepper, for sheets that no straight method folds: its steps halved, again and again.
+/* relaxed.h -- the curve of the relaxed stepper, for sheets that no straight method folds: its steps halved, again and
+ * again.
  * Paper    eqs. (14), (19) as one system; section 3.3        Uses  run.h search.h        Used by  chart.h
  *
- * The rung of the ladder that folds the sheet is climbed once; what it came to (creases added, symmetry kept, how readily what
- * gives way, from which end) is then folded anew with steps of twice the largest one asked for, with that one, with half of it
- * and so on. The finest is what the others are measured against: there is no closed form, and where the sheet can go many ways
- * only the path's own limit says which one is meant. Angles and pattern are compared at the same progress. */
+ * The rung of the ladder that folds the sheet is climbed once; what it came to (creases added, symmetry kept, how
+ * readily what gives way, from which end) is then folded anew with steps of twice the largest one asked for, with that
+ * one, with half of it and so on. The finest is what the others are measured against: there is no closed form, and
+ * where the sheet can go many ways only the path's own limit says which one is meant. Angles and pattern are compared
+ * at the same progress. */
 #ifndef RG_RELAXED_H
 #define RG_RELAXED_H
 

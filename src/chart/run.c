@@ -129,7 +129,8 @@ rg_status rg_run_make(rg_run *r, const rg_mesh *m, const rg_settings *settings, 
     while (status == RG_OK && info.outcome == RG_RUNNING) {
         if (way->grade > 0) grade(f, way->grade);
         status = rg_straight_step(f, &info);
-        /* Within 1 % of the end and no way on, or crept up to it beside it: that is the last frame, but not one to measure others by. */
+        /* Within 1 % of the end and no way on, or crept up to it beside it: that is the last frame, but not one to
+         * measure others by. */
         const int last = info.outcome == RG_FOLDED && r->frames == s.frames - 1 && (info.frame < 0 || !has_landed(f));
         if (info.frame < 0 && !last) continue;
         const double from = rg_seconds();

@@ -8,8 +8,8 @@
 /* Beside rg_method's: the relaxed stepper, see relaxed.h. */
 #define RG_METHOD_RELAXED ((rg_method)(RG_METHOD_ADAPTIVE + 1))
 
-/* Multiplications of C and r anew over those of a product with C, of which a block has three: two turns of a 3 x 3 frame
- * by one angle each, 4 x 3 multiplications a turn, less what the zeros of a turn save. */
+/* Multiplications of C and r anew over those of a product with C, of which a block has three: two turns of a 3 x 3
+ * frame by one angle each, 4 x 3 multiplications a turn, less what the zeros of a turn save. */
 enum { RG_ASSEMBLY_PASSES = 6 };
 
 /* How to fold. */

@@ -1,4 +1,5 @@
-/* touch.h -- what it costs to keep facets out of each other's way, against how deep they cross where they are left as they are.
+/* touch.h -- what it costs to keep facets out of each other's way, against how deep they cross where they are left as
+ * they are.
  * Uses  rigami.h        Used by  chart.h table.c */
 #ifndef RG_TOUCH_H
 #define RG_TOUCH_H

@@ -7,8 +7,8 @@
 
 static int32_t degree(const rg_sparse *C, int32_t k) { return C->start[k + 1] - C->start[k]; }
 
-/* sorted[count]: out, the vertices by rising degree. of_degree[most + 2]: scratch, zero. *fours: out, how many there are
- * of them. Returns the blocks that they take. */
+/* sorted[count]: out, the vertices by rising degree. of_degree[most + 2]: scratch, zero. *fours: out, how many there
+ * are of them. Returns the blocks that they take. */
 static size_t sort_by_degree(const rg_sparse *C, const int32_t *vertex, int32_t count, int32_t most,
                              int32_t *of_degree, int32_t *sorted, int32_t *fours)
 {

@@ -1,9 +1,10 @@
-/* constraint.h -- all vertices: C (3M x N) and r at given fold angles, and how r changes where the pattern may give way.
+/* constraint.h -- all vertices: C (3M x N) and r at given fold angles, and how r changes where the pattern may give
+ * way.
  * Paper    eqs. (6)-(8), (11), (12); (16)-(18)        Uses  loop.h turn.h sparse.h freedom.h kawasaki.h
  * Used by  mobility.c project.c tangent.c coupled.c
  *
- * F depends on the sector angles theta as it does on rho: dF/dtheta_i = [A_(i+1) e_z]x F, the normal of that facet, seen
- * from the first. So what rho cannot close, X can:
+ * F depends on the sector angles theta as it does on rho: dF/dtheta_i = [A_(i+1) e_z]x F, the normal of that facet,
+ * seen from the first. So what rho cannot close, X can:
  *
  *     [ C  D ] [drho]      [r ]        D = dr/dX          eqs. (11), (17)
  *     [ 0  G ] [ dX ] = -  [r']        G = dG/dX          eqs. (17), (18) */
@@ -51,8 +52,8 @@ typedef struct rg_constraint {
 } rg_constraint;
 
 rg_status rg_constraint_init(rg_constraint *K, const rg_memory *mem, const rg_mesh *m);
-/* The same, and the pattern may give way; f NULL: it may not. kawasaki non-zero: eq. (16) is kept at every vertex where the
- * pattern given obeys it. Both: RG_ENOMEM. Owner: the caller, rg_constraint_free. */
+/* The same, and the pattern may give way; f NULL: it may not. kawasaki non-zero: eq. (16) is kept at every vertex where
+ * the pattern given obeys it. Both: RG_ENOMEM. Owner: the caller, rg_constraint_free. */
 rg_status rg_constraint_init_moving(rg_constraint *K, const rg_memory *mem, const rg_mesh *m, const rg_freedom *f,
                                     int kawasaki);
 void rg_constraint_free(rg_constraint *K);

@@ -200,8 +200,8 @@ double rg_coupled_assemble(rg_coupled *J, const double *rho, const double *u, do
     return rg_constraint_assemble_at(J->K, J->G ? &J->some : NULL, rho, u, off);
 }
 
-/* The direction of a loop entry turns by g . (dX of its far end - dX of the vertex): adds what that of v does to the rows. Turning it takes
- * from the sector behind it what it gives to the one before. */
+/* The direction of a loop entry turns by g . (dX of its far end - dX of the vertex): adds what that of v does to the
+ * rows. Turning it takes from the sector behind it what it gives to the one before. */
 static void add_turn(rg_coupled *J, const int32_t at[2], int32_t v, rg_vec2 g, rg_vec3 normal, double sign, const double *scale)
 {
     const int32_t *of = J->K->freedom->way[J->G ? J->G->vertex_orbit[v] : v];

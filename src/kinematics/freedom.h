@@ -27,8 +27,8 @@ void rg_freedom_move(const rg_freedom *f, const double *u, rg_vec2 *X);
 double rg_freedom_farthest(const rg_freedom *f, const double *u);
 /* u[U]: becomes what moves the pattern alike everywhere, the mean of its displacements over G. d[nv]: scratch. */
 void rg_freedom_mean(const rg_freedom *f, const rg_symmetry *G, double *u, rg_vec2 *d);
-/* Zero: a facet has turned over, or shrunk to less than `least` of its area. room[U]: out, of each way 1 less the part used up of what
- * the facets round its vertex may shrink, 1 ... 0; NULL: not asked for. */
+/* Zero: a facet has turned over, or shrunk to less than `least` of its area. room[U]: out, of each way 1 less the part
+ * used up of what the facets round its vertex may shrink, 1 ... 0; NULL: not asked for. */
 int rg_freedom_room(const rg_freedom *f, const rg_vec2 *X, double least, double *room);
 
 #endif

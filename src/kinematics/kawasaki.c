@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-/* A vertex counts as flat-foldable when Kawasaki's sum is off by no more (radians, 1.15 degrees): twice what drawings by hand are. */
+/* A vertex counts as flat-foldable when Kawasaki's sum is off by no more (radians, 1.15 degrees): twice what drawings
+ * by hand are. */
 static const double FLAT_FOLDABLE = 0.02;
 
 static int is_drawn(const rg_mesh *m, int32_t crease) { return crease < m->N - m->added; }

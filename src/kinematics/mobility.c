@@ -2,8 +2,8 @@
 #include "linalg/qr.h"
 #include "linalg/scale.h"
 
-/* Equations of an over-constrained sheet that say the same thing twice differ by what the state is off, some 1e-13, over the
- * slowest mode; the slowest mode of a large sheet is some 1e-5. */
+/* Equations of an over-constrained sheet that say the same thing twice differ by what the state is off, some 1e-13,
+ * over the slowest mode; the slowest mode of a large sheet is some 1e-5. */
 static const double CUT = 1e-7;
 
 static rg_status set_pattern(rg_constraint *K, const rg_mesh *m, const rg_vec2 *X)

@@ -6,9 +6,9 @@
 
 #include "kinematics/constraint.h"
 
-/* At fold angles rho[N] on the pattern X[nv], NULL: that of the mesh. All of its components together. Flat and flat-folded
- * sheets have more ways to first order than they can go; a sheet stuck within 1e-3 of flat may be told as either.
- * RG_ENOMEM. */
+/* At fold angles rho[N] on the pattern X[nv], NULL: that of the mesh. All of its components together. Flat and
+ * flat-folded sheets have more ways to first order than they can go; a sheet stuck within 1e-3 of flat may be told as
+ * either. RG_ENOMEM. */
 rg_status rg_mobility(const rg_mesh *m, const rg_vec2 *X, const double *rho, int32_t *ways);
 
 #endif

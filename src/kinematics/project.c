@@ -57,15 +57,15 @@ void rg_project_renew_near(rg_project *P)
     P->stale = P->factored;
 }
 
-/* With more equations than creases it is the exception that a step can be taken at all: n is in the row space of B but for
- * beta, and 1 - v.u below is all rounding. By columns that case is like any other. */
+/* With more equations than creases it is the exception that a step can be taken at all: n is in the row space of B but
+ * for beta, and 1 - v.u below is all rounding. By columns that case is like any other. */
 static int by_columns(const rg_project *P)
 {
     return P->held && P->cholesky.shape == RG_SHAPE_COLUMNS && P->scale.B.N <= 3 * P->scale.B.M;
 }
 
-/* z = B^T P r. With n held, B (I - n n^T) takes the place of B, and P + u u^T / (1 - v.u) that of P, v = B n, u = P v; or
- * by columns, A = B^T B + beta I, z = A \ B^T r less the multiple of q = A \ n that makes it orthogonal to n. */
+/* z = B^T P r. With n held, B (I - n n^T) takes the place of B, and P + u u^T / (1 - v.u) that of P, v = B n, u = P v;
+ * or by columns, A = B^T B + beta I, z = A \ B^T r less the multiple of q = A \ n that makes it orthogonal to n. */
 static void pinv_held(void *project, const double *r, double *z)
 {
     rg_project *P = project;

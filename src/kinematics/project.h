@@ -37,7 +37,8 @@ void rg_project_free(rg_project *P);
 
 /* Tells that C has new numbers. */
 void rg_project_renew(rg_project *P);
-/* The same, and that they are so near to those factored last that the factor will do; should it not, it is made anew. */
+/* The same, and that they are so near to those factored last that the factor will do; should it not, it is made
+ * anew. */
 void rg_project_renew_near(rg_project *P);
 
 /* drho = drho0 - C^T y   where   (C C^T) y = r + C drho0                                               eq. (15)

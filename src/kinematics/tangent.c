@@ -5,8 +5,8 @@
 
 /* As exact as rounding lets it be. */
 static const double SOLVE_TOLERANCE = 1e-13;
-/* What is left of a unit vector by chance when motions are projected out of it is its share of what is left of the space; less than this
- * is rounding. That many vectors in a row have to leave nothing. */
+/* What is left of a unit vector by chance when motions are projected out of it is its share of what is left of the
+ * space; less than this is rounding. That many vectors in a row have to leave nothing. */
 static const double NOTHING = 1e-6;
 static const int32_t SURE = 2;
 /* Each makes a reaction better by the fourth power of ten or so. */
@@ -155,7 +155,8 @@ static void make_orthogonal(const rg_tangent *t, int32_t freedoms, double *x)
         }
 }
 
-/* A motion that the others do not make, of unit length; the length of what was found: NOTHING or less, there is none. */
+/* A motion that the others do not make, of unit length; the length of what was found: NOTHING or less, there is
+ * none. */
 static rg_status find_motion(rg_tangent *t, int32_t freedoms, uint64_t *seed, double *x, double *length)
 {
     const int32_t N = t->K.C.N;

@@ -1,7 +1,8 @@
 #include "kinematics/turn.h"
 #include "base/lanes.h"
 
-/* pi / 2 in three parts (Cody and Waite): the first two have so few bits that their product with a small integer is exact. */
+/* pi / 2 in three parts (Cody and Waite): the first two have so few bits that their product with a small integer is
+ * exact. */
 static const double TWO_OVER_PI = 0.63661977236758134308;
 static const double PART1 = 1.57079632673412561417, PART2 = 6.07710050630396597660e-11, PART3 = 2.02226624879595063154e-21;
 /* Adding and taking away 3/2 2^52 rounds to an integer, which is then in the lowest bits. */

@@ -1,11 +1,11 @@
 /* cg.h -- the hand-written conjugate gradient.
  * Paper    section 4; the backslash of eq. (15)        Uses  sparse.h        Used by  project.c
  *
- * Solves C C^T y = b for the step x = C^T y it is wanted for. Flat paper, flat-folded paper and every quad mesh make
- * C C^T singular, and a residual r of eq. (14) need not lie in its range; the textbook recurrence, which assumes that it
+ * Solves C C^T y = b for the step x = C^T y it is wanted for. Flat paper, flat-folded paper and every quad mesh make C
+ * C^T singular, and a residual r of eq. (14) need not lie in its range; the textbook recurrence, which assumes that it
  * does, then drifts away. So the recurrence here is that of the least-squares form (CGLS; Hestenes and Stiefel 1952,
- * section 10, on A = P^(1/2) C): it minimises (b - C x)^T P (b - C x) over growing Krylov spaces of C C^T, with the same
- * two products an iteration, and gives the pseudo-inverse answer x = C^+ b whenever b is in the range. */
+ * section 10, on A = P^(1/2) C): it minimises (b - C x)^T P (b - C x) over growing Krylov spaces of C C^T, with the
+ * same two products an iteration, and gives the pseudo-inverse answer x = C^+ b whenever b is in the range. */
 #ifndef RG_CG_H
 #define RG_CG_H
 
@@ -51,11 +51,11 @@ void rg_cg_solve(const rg_sparse *C, rg_apply *P, const void *ctx, const double 
 typedef void rg_apply_pinv(void *ctx, const double *r, double *z);
 
 /* Least squares again, min ||b - B x||, from a G that is nearly the pseudo-inverse of B: G r is the step that would end
- * it, and where it does not, the next step is made conjugate to it (B p orthogonal to the B p before: conjugate gradients
- * where G B is symmetric, conjugate residuals where it is nearly so).
- * It stops on the length of that step or, where steps become shorter regularly, of what the next one would be, in radians,
- * not on a residual: where a sheet is over-constrained some of the residual, as small as rounding, is out of reach, and
- * whoever chases it freezes the sheet.
+ * it, and where it does not, the next step is made conjugate to it (B p orthogonal to the B p before: conjugate
+ * gradients where G B is symmetric, conjugate residuals where it is nearly so). It stops on the length of that step or,
+ * where steps become shorter regularly, of what the next one would be, in radians, not on a residual: where a sheet is
+ * over-constrained some of the residual, as small as rounding, is out of reach, and whoever chases it freezes the
+ * sheet.
  *   x[N]      out  the solution, in the range of G
  *   relative  stop at this part of the first step's length
  *   absolute  stop at this length

@@ -6,9 +6,10 @@
  *
  *     P = (B B^T + beta I)^-1 = (I - B (B^T B + beta I)^-1 B^T) / beta
  *
- * so the cheaper one is factored: columns, unless vertices of many creases fill them up. x = B^T P b is nearly B^+ b, and
- * as B^T is applied last it has no part along what the sheet can do, whatever P is: not even when P is of a state that has
- * been left. Modes of B below beta^(1/2), of which a smooth sheet has few, are left to the iteration in cg.h. */
+ * so the cheaper one is factored: columns, unless vertices of many creases fill them up. x = B^T P b is nearly B^+ b,
+ * and as B^T is applied last it has no part along what the sheet can do, whatever P is: not even when P is of a state
+ * that has been left. Modes of B below beta^(1/2), of which a smooth sheet has few, are left to the iteration in
+ * cg.h. */
 #ifndef RG_CHOLESKY_H
 #define RG_CHOLESKY_H
 

@@ -5,7 +5,8 @@
 
 RG_WITHIN double sum_of(const rg_quad *s) { return ((*s)[0] + (*s)[1]) + ((*s)[2] + (*s)[3]); }
 
-/* What `first` columns before take from the next n <= 4: u (columns of `room`, from row `first` on), written in full fours. */
+/* What `first` columns before take from the next n <= 4: u (columns of `room`, from row `first` on), written in full
+ * fours. */
 RG_WIDE static void updates(int32_t m, int32_t first, const double *A, size_t room, double *u)
 {
     for (int32_t i = first; i < m; i += 8) {

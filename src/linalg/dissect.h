@@ -1,5 +1,5 @@
-/* dissect.h -- nested dissection: a graph is parted by few of its nodes, each part again, and parts are eliminated before
- * what parts them, so that nothing fills in between them.
+/* dissect.h -- nested dissection: a graph is parted by few of its nodes, each part again, and parts are eliminated
+ * before what parts them, so that nothing fills in between them.
  * Paper    the backslash of eq. (15)        Uses  separator.h        Used by  symbolic.c
  *
  *   A. George: Nested dissection of a regular finite element mesh. SIAM J. Numer. Anal. 10 (1973).

@@ -5,7 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* What an eliminated front hands up to the next: its last rows in the columns that are left, by columns, and where each begins. */
+/* What an eliminated front hands up to the next: its last rows in the columns that are left, by columns, and where each
+ * begins. */
 typedef struct part {
     double *x;       /* [columns][rows] */
     int32_t *lead;   /* [rows] rising */
@@ -32,7 +33,8 @@ static void put(rg_rows *A, int32_t *n, int32_t col, double x)
     A->x[(*n)++] = x;
 }
 
-/* Upright, so that there is less to eliminate: the rows of B where they are more than the creases, else those of B^T. */
+/* Upright, so that there is less to eliminate: the rows of B where they are more than the creases, else those of
+ * B^T. */
 static rg_status list_rows(const rg_sparse *B, int upright, const rg_memory *mem, rg_rows *A)
 {
     const size_t rows = upright ? 3 * (size_t)B->M : (size_t)B->N, entries = 3 * (size_t)B->start[B->M];
@@ -119,7 +121,8 @@ typedef struct front {
     int32_t *lead;                 /* [rows] of each that was taken, in which column */
 } front;
 
-/* The front of supernode s, its rows sorted by where they begin. below[k]: where the rows end that begin in columns up to k. */
+/* The front of supernode s, its rows sorted by where they begin. below[k]: where the rows end that begin in columns up
+ * to k. */
 static rg_status gather(factor *f, int32_t s, front *F)
 {
     const rg_symbolic *S = &f->R.L.S;
@@ -155,7 +158,8 @@ static rg_status gather(factor *f, int32_t s, front *F)
     return RG_OK;
 }
 
-/* Householder's reflection takes the n numbers of column k from row r on to the first of them, and goes over the columns behind. */
+/* Householder's reflection takes the n numbers of column k from row r on to the first of them, and goes over the
+ * columns behind. */
 static void turn(front *F, int32_t k, int32_t r, int32_t n, double length)
 {
     const size_t tall = (size_t)F->rows;
@@ -169,8 +173,9 @@ static void turn(front *F, int32_t k, int32_t r, int32_t n, double length)
     v[0] = pivot;
 }
 
-/* Its own columns are eliminated, of which those that are no longer than `cut` count as zero, and what is left becomes as few rows as there
- * are columns. *pivots grows by the rows that its own columns take, which are returned; *taken: rows in all. */
+/* Its own columns are eliminated, of which those that are no longer than `cut` count as zero, and what is left becomes
+ * as few rows as there are columns. *pivots grows by the rows that its own columns take, which are returned; *taken:
+ * rows in all. */
 static int32_t eliminate(front *F, double cut, int32_t *pivots, int32_t *taken)
 {
     int32_t r = 0, own = 0;

@@ -5,9 +5,9 @@
 #ifdef RG_GPL
 #include <gsl/gsl_linalg.h>
 
-/* An over-constrained sheet that is off its path by the closure tolerance has a singular value of that size where on the
- * path it has a zero; taken for real it would freeze the sheet. The slowest real one of a sheet small enough to come here
- * is above 1e-4. */
+/* An over-constrained sheet that is off its path by the closure tolerance has a singular value of that size where on
+ * the path it has a zero; taken for real it would freeze the sheet. The slowest real one of a sheet small enough to
+ * come here is above 1e-4. */
 static const double CUT = 1e-7;
 
 /* GSL's own allocations end the program when they fail, so it works in ours, through views. */

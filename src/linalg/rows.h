@@ -18,8 +18,8 @@ typedef struct rg_rows {
 rg_status rg_rows_init(rg_rows *r, const rg_memory *mem);
 void rg_rows_free(rg_rows *r);
 void rg_rows_clear(rg_rows *r);
-/* One more: x[n] at col[n]; numbers at the same column are added up. RG_ENOMEM: the list is as it was. Allocates only where it
- * has never been as long. */
+/* One more: x[n] at col[n]; numbers at the same column are added up. RG_ENOMEM: the list is as it was. Allocates only
+ * where it has never been as long. */
 rg_status rg_rows_add(rg_rows *r, int32_t n, const int32_t *col, const double *x);
 
 /* row_i . v */

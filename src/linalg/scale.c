@@ -4,8 +4,8 @@
 #include <string.h>
 
 /* The least pivot. At a vertex whose creases have turned by rho the third one is about rho^2, the residual along it as
- * well, and its rounding of 1e-16 is worth a step of 1e-16 / rho: down to 3e-6 that is below any tolerance, and from there
- * on so is the residual. */
+ * well, and its rounding of 1e-16 is worth a step of 1e-16 / rho: down to 3e-6 that is below any tolerance, and from
+ * there on so is the residual. */
 static const double LEAST_PIVOT = 1e-11;
 
 rg_status rg_scale_init(rg_scale *S, const rg_memory *mem, const rg_sparse *C)
@@ -32,8 +32,8 @@ RG_WITHIN void inverse_root(const rg_quad *pivot, rg_quad *root)
     for (int i = 0; i < 4; i++) (*root)[i] = (*pivot)[i] > LEAST_PIVOT ? 1 / sqrt((*pivot)[i]) : 0;
 }
 
-/* d: xx, yy, zz, xy, xz, yz of C C^T at each; w: six numbers of the inverse of its factor. The first crease of a loop is e_x, so xx >= 1, and
- * two neighbours are never in line: only the third pivot can go. */
+/* d: xx, yy, zz, xy, xz, yz of C C^T at each; w: six numbers of the inverse of its factor. The first crease of a loop
+ * is e_x, so xx >= 1, and two neighbours are never in line: only the third pivot can go. */
 RG_WITHIN void invert(const rg_quad *d, rg_quad *w)
 {
     rg_quad a, b, c;

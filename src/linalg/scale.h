@@ -2,8 +2,8 @@
  * Paper    eqs. (9), (11): the same equations in other words        Uses  sparse.h        Used by  mobility.c project.c
  *
  * Near flat and near flat-folded the third row of a vertex is as small as the fold angles, and C C^T as badly
- * conditioned as their squares; with B_k B_k^T = I that is gone, and B B^T no worse there than anywhere else. What solves
- * C x = b solves B x = S b. */
+ * conditioned as their squares; with B_k B_k^T = I that is gone, and B B^T no worse there than anywhere else. What
+ * solves C x = b solves B x = S b. */
 #ifndef RG_SCALE_H
 #define RG_SCALE_H
 
@@ -18,8 +18,8 @@ typedef struct rg_scale {
 rg_status rg_scale_init(rg_scale *S, const rg_memory *mem, const rg_sparse *C);
 void rg_scale_free(rg_scale *S);
 
-/* Takes the numbers of C. A direction that no crease of a vertex can turn, as the third one in flat paper, becomes a row
- * of zeros. */
+/* Takes the numbers of C. A direction that no crease of a vertex can turn, as the third one in flat paper, becomes a
+ * row of zeros. */
 void rg_scale_update(rg_scale *S, const rg_sparse *C);
 /* b <- S b                b[3M] */
 void rg_scale_rows(const rg_scale *S, double *b);

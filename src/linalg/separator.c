@@ -214,8 +214,8 @@ static void free_refinement(const rg_memory *mem, refinement *r)
                 r->to[1].key, r->log, r->was);
 }
 
-/* Nodes as they are met from v on, breadth first; those of another component come after all of v's. Returns the last one
- * of v's. */
+/* Nodes as they are met from v on, breadth first; those of another component come after all of v's. Returns the last
+ * one of v's. */
 static int32_t breadth_first(const rg_weighted *g, int32_t v, int32_t *met, int32_t *order)
 {
     int32_t count = 0, done = 0, farthest = -1;

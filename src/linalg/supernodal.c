@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* c (m x n, columns of `room`) = a b^T over k columns; a and b are rows of one panel with columns of `tall`. m and n are
- * rounded up to four. */
+/* c (m x n, columns of `room`) = a b^T over k columns; a and b are rows of one panel with columns of `tall`. m and n
+ * are rounded up to four. */
 RG_WIDE static void multiply(int32_t m, int32_t n, int32_t k, const double *a, const double *b, int32_t tall, double *c,
                           int32_t room)
 {
@@ -47,8 +47,8 @@ RG_WIDE static void multiply(int32_t m, int32_t n, int32_t k, const double *a, c
     }
 }
 
-/* Columns of a panel from `first` on, four or fewer, their updates from before done: factored. tall: rows, and the distance of
- * columns, a multiple of four; rows that are only there to make it one are zero and stay it. */
+/* Columns of a panel from `first` on, four or fewer, their updates from before done: factored. tall: rows, and the
+ * distance of columns, a multiple of four; rows that are only there to make it one are zero and stay it. */
 RG_WIDE static int factor_columns(double *x, int32_t tall, int32_t first, int32_t last)
 {
     for (int32_t j = first; j < last; j++) {

@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-/* Operations a row. Dissection takes some 8 microseconds a row and saves half of a factorisation, of which a fold makes a
- * hundred or so, at 15 operations a nanosecond. */
+/* Operations a row. Dissection takes some 8 microseconds a row and saves half of a factorisation, of which a fold makes
+ * a hundred or so, at 15 operations a nanosecond. */
 static const double DISSECT_FROM = 4000;
 /* A supernode and its parent become one if that has so few columns, and of its numbers at most this part is zero. */
 static const struct { int32_t columns; double zeros; } MERGE[] = {{4, 1}, {16, 0.8}, {48, 0.1}, {INT32_MAX, 0.05}};
