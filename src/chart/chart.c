@@ -35,7 +35,8 @@ const rg_run *rg_chart_best(const rg_chart *c, int in_passes)
     const rg_run *best = NULL;
     for (int32_t i = 0; i < c->runs; i++) {
         const rg_run *r = &c->run[i];
-        if (as_accurate(c, r) && (!best || (in_passes ? r->passes < best->passes : r->seconds < best->seconds))) best = r;
+        if (as_accurate(c, r) && (!best || (in_passes ? r->passes < best->passes : r->seconds < best->seconds)))
+            best = r;
     }
     return best;
 }
@@ -45,13 +46,15 @@ int rg_chart_on_front(const rg_chart *c, int32_t i)
     const rg_run *r = &c->run[i];
     if (!rg_chart_reached(c, r) || isnan(r->error)) return 0;
     for (int32_t j = 0; j < c->runs; j++)
-        if (j != i && rg_chart_reached(c, &c->run[j]) && c->run[j].seconds <= r->seconds && c->run[j].error <= r->error) return 0;
+        if (j != i && rg_chart_reached(c, &c->run[j]) && c->run[j].seconds <= r->seconds && c->run[j].error <= r->error)
+            return 0;
     return 1;
 }
 
 int rg_chart_same_curve(const rg_chart *c, int32_t i)
 {
-    return i > 1 && c->run[i].way.method == c->run[i - 1].way.method && c->run[i].way.solver == c->run[i - 1].way.solver;
+    return i > 1 && c->run[i].way.method == c->run[i - 1].way.method &&
+        c->run[i].way.solver == c->run[i - 1].way.solver;
 }
 
 /* Who watches, and what is done of how much. */
@@ -99,7 +102,8 @@ static void add_relaxed(rg_chart *c)
 
 static rg_status all_curves(rg_chart *c, const rg_mesh *m, watch *w, rg_diag *why)
 {
-    static const rg_method methods[] = {RG_METHOD_EULER, RG_METHOD_NEWTON, RG_METHOD_HEUN, RG_METHOD_RK4, RG_METHOD_ADAPTIVE};
+    static const rg_method methods[] = {RG_METHOD_EULER, RG_METHOD_NEWTON, RG_METHOD_HEUN, RG_METHOD_RK4,
+                                        RG_METHOD_ADAPTIVE};
     static const rg_solver solvers[] = {RG_SOLVER_CG, RG_SOLVER_CHOLESKY, RG_SOLVER_SVD};
     const rg_way default_way = {RG_METHOD_AUTO, RG_SOLVER_AUTO, c->settings.step, c->settings.tol, 0};
     rg_status s = RG_OK;
@@ -117,7 +121,8 @@ static rg_status all_curves(rg_chart *c, const rg_mesh *m, watch *w, rg_diag *wh
 }
 
 /* The sheet as drawn, or cut into triangles if that is asked for, or if it folds so and not as drawn. */
-static rg_status choose_mesh(rg_chart *c, const rg_mesh *none, const rg_mesh *all, const rg_mesh **m, int *folds, rg_diag *why)
+static rg_status choose_mesh(rg_chart *c, const rg_mesh *none, const rg_mesh *all, const rg_mesh **m, int *folds,
+                             rg_diag *why)
 {
     const rg_way way = {RG_METHOD_AUTO, RG_SOLVER_AUTO, c->settings.step, c->settings.tol, 0};
     rg_run run;
@@ -171,8 +176,8 @@ static rg_status fill(rg_chart *c, const rg_mesh *none, const rg_mesh *all, watc
     return s;
 }
 
-rg_status rg_chart_create(const rg_pattern *p, const rg_settings *given, rg_progress progress, void *ctx, rg_chart **chart,
-                          rg_diag *why)
+rg_status rg_chart_create(const rg_pattern *p, const rg_settings *given, rg_progress progress, void *ctx,
+                          rg_chart **chart, rg_diag *why)
 {
     rg_settings mine, *const settings = &mine;
     const rg_status taken = rg_settings_take(given, settings, why);
@@ -185,7 +190,8 @@ rg_status rg_chart_create(const rg_pattern *p, const rg_settings *given, rg_prog
     rg_chart *c = rg_mem_array(&mem, 1, sizeof *c);
     if (c) c->mem = mem, c->settings = *settings;
     else s = RG_ENOMEM;
-    if (s == RG_OK && none.M == 0) s = rg_fail(RG_EARG, why, 0, "no vertex inside the sheet: there is nothing to solve");
+    if (s == RG_OK && none.M == 0)
+        s = rg_fail(RG_EARG, why, 0, "no vertex inside the sheet: there is nothing to solve");
     if (s == RG_OK) s = rg_triangulate_all(&none, &all);
     if (s == RG_OK) s = rg_alike_find(p, &c->alike);
     if (s == RG_OK) s = fill(c, &none, &all, &w, why);

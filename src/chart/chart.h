@@ -22,7 +22,7 @@ struct rg_chart {
     int32_t nv, N, M, added, frames;
     int triangulated;
     rg_reference ref;
-    rg_relaxed relaxed;         /* where nothing folds straight on; then N, M, added are of its sheet, and ref is empty */
+    rg_relaxed relaxed;         /* where nothing folds straight on; then N, M, added are of its sheet, ref is empty */
     int32_t runs;
     rg_run run[RG_CHART_RUNS];  /* curve by curve; the first is the default */
     rg_order order[RG_ORDERS];

@@ -5,7 +5,8 @@
 
 static const double PATIENCE = 1;
 
-rg_status rg_model_fold(rg_model *o, const rg_mesh *m, const rg_settings *s, int32_t drawn, const rg_frames *with, rg_diag *why)
+rg_status rg_model_fold(rg_model *o, const rg_mesh *m, const rg_settings *s, int32_t drawn, const rg_frames *with,
+                        rg_diag *why)
 {
     const rg_memory mem = rg_mem_default(s->memory);
     const rg_way way = {RG_METHOD_AUTO, RG_SOLVER_AUTO, s->step, s->tol, 0};

@@ -14,6 +14,7 @@ typedef struct rg_model {
 } rg_model;
 
 /* Folds m, of which `drawn` creases are compared with the reference's frames. RG_ENOMEM. */
-rg_status rg_model_fold(rg_model *o, const rg_mesh *m, const rg_settings *s, int32_t drawn, const rg_frames *with, rg_diag *why);
+rg_status rg_model_fold(rg_model *o, const rg_mesh *m, const rg_settings *s, int32_t drawn, const rg_frames *with,
+                        rg_diag *why);
 
 #endif

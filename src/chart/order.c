@@ -29,8 +29,8 @@ double rg_slope_of(int32_t n, const double *x, const double *y)
 }
 
 /* A fold that stands at a frame of the reference and is to go to progress s_end. */
-static rg_status stand(rg_straight **f, const rg_mesh *m, const rg_settings *settings, const rg_reference *ref, int32_t from,
-                       double s_end, rg_method method, rg_diag *why)
+static rg_status stand(rg_straight **f, const rg_mesh *m, const rg_settings *settings, const rg_reference *ref,
+                       int32_t from, double s_end, rg_method method, rg_diag *why)
 {
     rg_settings s = *settings;
     rg_mesh copy;
@@ -67,7 +67,9 @@ static int open_step(rg_straight *f, rg_method method, double h)
         if (!(rg_integrate_tangent(f, at, f->s + part * h, 0, k[j]) > 0)) return 0;
     }
     for (int32_t i = 0; i < N; i++)
-        rho[i] += rk4 ? h / 6 * (k1[i] + 2 * k[0][i] + 2 * k[1][i] + k[2][i]) : heun ? h / 2 * (k1[i] + k[0][i]) : h * k1[i];
+        rho[i] += rk4    ? h / 6 * (k1[i] + 2 * k[0][i] + 2 * k[1][i] + k[2][i])
+                  : heun ? h / 2 * (k1[i] + k[0][i])
+                         : h * k1[i];
     f->s += h;
     return 1;
 }

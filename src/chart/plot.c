@@ -39,7 +39,8 @@ static void fit(const rg_chart *c, int in_passes, axes *a)
         if (!is_drawn(c, r)) continue;
         low = fmin(low, cost(r, in_passes)), high = fmax(high, cost(r, in_passes));
         least = fmin(least, fmax(r->error, LEAST_ERROR)), most = fmax(most, r->error);
-        if (r->pattern_error > 0) least = fmin(least, fmax(r->pattern_error, LEAST_ERROR)), most = fmax(most, r->pattern_error);
+        if (r->pattern_error > 0)
+            least = fmin(least, fmax(r->pattern_error, LEAST_ERROR)), most = fmax(most, r->pattern_error);
     }
     if (!(high > 0)) low = 1e-3, high = 1;
     a->left = LEFT + in_passes * (PANEL + GAP);
@@ -66,17 +67,21 @@ static void grid(const axes *a, const char *label, int names, FILE *out)
         const int x = across(a, pow(10, n));
         fprintf(out, "<path d=\"M%d %dV%d\"/>\n", x, TOP, BOTTOM);
     }
-    for (int n = (int)a->y0; n <= (int)a->y1; n += 2) fprintf(out, "<path d=\"M%d %dh%d\"/>\n", a->left, down(a, pow(10, n)), PANEL);
+    for (int n = (int)a->y0; n <= (int)a->y1; n += 2)
+        fprintf(out, "<path d=\"M%d %dh%d\"/>\n", a->left, down(a, pow(10, n)), PANEL);
     fprintf(out, "</g>\n<g stroke=\"#999999\" stroke-width=\"8\">\n");
     for (int n = (int)floor(a->x0); n <= (int)floor(a->x1); n++)
         for (int k = 2; k < 10; k++) {
             const double at = k * pow(10, n);
-            if (log10(at) > a->x0 && log10(at) < a->x1) fprintf(out, "<path d=\"M%d %dv-50\"/>\n", across(a, at), BOTTOM);
+            if (log10(at) > a->x0 && log10(at) < a->x1)
+                fprintf(out, "<path d=\"M%d %dv-50\"/>\n", across(a, at), BOTTOM);
         }
-    fprintf(out, "</g>\n<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"none\" stroke=\"#444444\" stroke-width=\"10\"/>\n",
-            a->left, TOP, PANEL, BOTTOM - TOP);
-    for (int n = (int)ceil(a->x0); n <= (int)floor(a->x1); n++) power(across(a, pow(10, n)), BOTTOM + 220, "middle", n, out);
-    for (int n = (int)a->y0; names && n <= (int)a->y1; n += 2) power(a->left - 60, down(a, pow(10, n)) + 60, "end", n, out);
+    fprintf(out, "</g>\n<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" ", a->left, TOP, PANEL, BOTTOM - TOP);
+    fprintf(out, "fill=\"none\" stroke=\"#444444\" stroke-width=\"10\"/>\n");
+    for (int n = (int)ceil(a->x0); n <= (int)floor(a->x1); n++)
+        power(across(a, pow(10, n)), BOTTOM + 220, "middle", n, out);
+    for (int n = (int)a->y0; names && n <= (int)a->y1; n += 2)
+        power(a->left - 60, down(a, pow(10, n)) + 60, "end", n, out);
     text(a->left + PANEL / 2, BOTTOM + 480, "middle", 150, out);
     fprintf(out, "%s</text>\n", label);
 }
@@ -84,23 +89,26 @@ static void grid(const axes *a, const char *label, int names, FILE *out)
 static void mark(int x, int y, rg_solver solver, const char *colour, FILE *out)
 {
     const char *style = "stroke=\"white\" stroke-width=\"12\"";
-    if (solver == RG_SOLVER_CG) fprintf(out, "<circle cx=\"%d\" cy=\"%d\" r=\"62\" fill=\"%s\" %s/>\n", x, y, colour, style);
+    if (solver == RG_SOLVER_CG)
+        fprintf(out, "<circle cx=\"%d\" cy=\"%d\" r=\"62\" fill=\"%s\" %s/>\n", x, y, colour, style);
     else if (solver == RG_SOLVER_CHOLESKY)
-        fprintf(out, "<rect x=\"%d\" y=\"%d\" width=\"112\" height=\"112\" fill=\"%s\" %s/>\n", x - 56, y - 56, colour, style);
+        fprintf(out, "<rect x=\"%d\" y=\"%d\" width=\"112\" height=\"112\" fill=\"%s\" %s/>\n", x - 56, y - 56, colour,
+                style);
     else fprintf(out, "<path d=\"M%d %dl70 126h-140z\" fill=\"%s\" %s/>\n", x, y - 78, colour, style);
 }
 
 /* The default: a ring and a cross hair, so that what lies under it stays to be seen. */
 static void mark_default(int x, int y, FILE *out)
 {
-    fprintf(out, "<path d=\"M%d %dh-110m330 0h110M%d %dv-110m0 330v110\" stroke=\"black\" stroke-width=\"22\"/>\n", x - 110, y, x,
-            y - 110);
+    fprintf(out, "<path d=\"M%d %dh-110m330 0h110M%d %dv-110m0 330v110\" stroke=\"black\" stroke-width=\"22\"/>\n",
+            x - 110, y, x, y - 110);
     fprintf(out, "<circle cx=\"%d\" cy=\"%d\" r=\"110\" fill=\"none\" stroke=\"black\" stroke-width=\"22\"/>\n", x, y);
 }
 
 static const char *dashes(rg_solver s)
 {
-    return s == RG_SOLVER_CG ? "" : s == RG_SOLVER_CHOLESKY ? " stroke-dasharray=\"90 50\"" : " stroke-dasharray=\"25 45\"";
+    if (s == RG_SOLVER_CG) return "";
+    return s == RG_SOLVER_CHOLESKY ? " stroke-dasharray=\"90 50\"" : " stroke-dasharray=\"25 45\"";
 }
 
 static void curves(const rg_chart *c, const axes *a, int in_passes, FILE *out)
@@ -111,7 +119,8 @@ static void curves(const rg_chart *c, const axes *a, int in_passes, FILE *out)
         if (!rg_chart_same_curve(c, i) && open) fputs("\"/>\n", out), open = 0;
         if (!is_drawn(c, r)) continue;
         if (!open)
-            fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"20\"%s points=\"", COLOUR[r->method], dashes(r->solver));
+            fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"20\"%s points=\"", COLOUR[r->method],
+                    dashes(r->solver));
         open = 1;
         fprintf(out, "%d,%d ", across(a, cost(r, in_passes)), down(a, r->error));
     }
@@ -128,16 +137,16 @@ static void pattern_curve(const rg_chart *c, const axes *a, int in_passes, FILE 
 {
     for (int marks = 0; marks < 2; marks++) {
         if (!marks)
-            fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"20\" stroke-dasharray=\"25 45\" points=\"",
-                    COLOUR[RG_METHOD_RELAXED]);
+            fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"20\"%s points=\"",
+                    COLOUR[RG_METHOD_RELAXED], dashes(RG_SOLVER_SVD));
         for (int32_t i = 1; i <= c->relaxed.points; i++) {
             const rg_run *r = &c->run[i];
             if (!is_drawn(c, r) || !(r->pattern_error > 0)) continue;
             const int x = across(a, cost(r, in_passes)), y = down(a, r->pattern_error);
             if (!marks) fprintf(out, "%d,%d ", x, y);
             else
-                fprintf(out, "<circle cx=\"%d\" cy=\"%d\" r=\"62\" fill=\"white\" stroke=\"%s\" stroke-width=\"20\"/>\n", x, y,
-                        COLOUR[RG_METHOD_RELAXED]);
+                fprintf(out, "<circle cx=\"%d\" cy=\"%d\" r=\"62\" fill=\"white\" stroke=\"%s\" "
+                             "stroke-width=\"20\"/>\n", x, y, COLOUR[RG_METHOD_RELAXED]);
         }
         if (!marks) fputs("\"/>\n", out);
     }
@@ -147,7 +156,8 @@ static void tolerance(const rg_chart *c, const axes *a, FILE *out)
 {
     if (!(log10(c->settings.tol) > a->y0 && log10(c->settings.tol) < a->y1)) return;
     const int y = down(a, c->settings.tol);
-    fprintf(out, "<path d=\"M%d %dh%d\" stroke=\"#666666\" stroke-width=\"10\" stroke-dasharray=\"20 30\"/>\n", a->left, y, PANEL);
+    fprintf(out, "<path d=\"M%d %dh%d\" stroke=\"#666666\" stroke-width=\"10\" stroke-dasharray=\"20 30\"/>\n", a->left,
+            y, PANEL);
     fprintf(out, "<g fill=\"#666666\">");
     text(a->left + PANEL - 40, y - 40, "end", 115, out);
     fprintf(out, "closure tolerance</text></g>\n");
@@ -161,7 +171,8 @@ static void legend(const rg_chart *c, FILE *out)
         const rg_run *r = &c->run[i];
         stopped += !rg_chart_reached(c, r);
         if (rg_chart_same_curve(c, i) || (c->relaxed.folds && r->method != RG_METHOD_RELAXED)) continue;
-        fprintf(out, "<path d=\"M%d %dh360\" stroke=\"%s\" stroke-width=\"20\"%s/>\n", x, y, COLOUR[r->method], dashes(r->solver));
+        fprintf(out, "<path d=\"M%d %dh360\" stroke=\"%s\" stroke-width=\"20\"%s/>\n", x, y, COLOUR[r->method],
+                dashes(r->solver));
         mark(x + 180, y, r->solver, COLOUR[r->method], out);
         text(x + 440, y + 45, "start", 130, out);
         fprintf(out, "%s, %s</text>\n", rg_run_method_name(r->method), rg_run_solver_name(r->solver));

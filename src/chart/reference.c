@@ -76,7 +76,8 @@ static rg_status by_halving(rg_reference *ref, const rg_mesh *m, const rg_settin
     return status;
 }
 
-rg_status rg_reference_make(rg_reference *ref, const rg_memory *mem, const rg_mesh *m, const rg_settings *s, rg_diag *why)
+rg_status rg_reference_make(rg_reference *ref, const rg_memory *mem, const rg_mesh *m, const rg_settings *s,
+                            rg_diag *why)
 {
     memset(ref, 0, sizeof *ref);
     ref->mem = *mem;

@@ -23,7 +23,8 @@ typedef struct rg_reference {
 } rg_reference;
 
 /* RG_OK also where the path ends early: frames.count tells. Owner: the caller, rg_reference_free. */
-rg_status rg_reference_make(rg_reference *ref, const rg_memory *mem, const rg_mesh *m, const rg_settings *s, rg_diag *why);
+rg_status rg_reference_make(rg_reference *ref, const rg_memory *mem, const rg_mesh *m, const rg_settings *s,
+                            rg_diag *why);
 void rg_reference_free(rg_reference *ref);
 
 #endif

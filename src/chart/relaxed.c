@@ -12,8 +12,6 @@ static const double SAME_WAY = 0.5;
 /* Runs that take longer, in seconds, are the last; what is quicker is repeated while all its runs take less. */
 static const double LONGEST = 2, PATIENCE = 0.1;
 static const int REPEATS = 3;
-/* Steps that a run may take: the finest takes some thousands. The way out of the start and into the end adds a few
- * nodes. */
 
 /* What a run leaves to compare with: [frames] states at even progress. */
 typedef struct track { rg_frames rho, pattern; } track;
@@ -31,7 +29,8 @@ static double all_passes(const rg_relax *F)
 {
     const rg_least *A = &F->J.A, *by_orbits = &F->orbits.A;
     const double whole = A->start[A->columns], orbits = F->by_orbits ? by_orbits->start[by_orbits->columns] : 0;
-    return RG_ASSEMBLY_PASSES * (double)F->assemblies + passes(A) + (orbits > 0 ? passes(by_orbits) * orbits / whole : 0);
+    return RG_ASSEMBLY_PASSES * (double)F->assemblies + passes(A) +
+        (orbits > 0 ? passes(by_orbits) * orbits / whole : 0);
 }
 
 /* Frames of the path that F found, and by how much they are open. */
@@ -55,14 +54,16 @@ static void read_off(rg_relax *F, const rg_settings *s, const rg_attempt *best, 
 static rg_status begin(rg_relax *F, const rg_attempt *best, const rg_settings *s)
 {
     const size_t N = (size_t)best->mesh.N;
-    double *from = rg_mem_array(&best->mem, N, sizeof *from), *to = rg_mem_array(&best->mem, N, sizeof *to);
-    for (size_t i = 0; from && to && i < N; i++) {
+    double *from, *to;
+    rg_status status = RG_MEM_ARRAYS(&best->mem, RG_ARRAY(from, N), RG_ARRAY(to, N));
+    for (size_t i = 0; status == RG_OK && i < N; i++) {
         const double goal = best->target[i];
         from[i] = best->backwards && !isnan(goal) ? goal : 0;
         to[i] = !best->backwards || isnan(goal) ? goal : 0;
     }
     memset(F, 0, sizeof *F);
-    rg_status status = from && to ? rg_relax_init(F, &best->mesh, s, &best->relax->how, best->backwards ? from : NULL, to) : RG_ENOMEM;
+    const double *start = best->backwards ? from : NULL;
+    if (status == RG_OK) status = rg_relax_init(F, &best->mesh, s, &best->relax->how, start, to);
     if (status == RG_OK && best->symmetry) status = rg_relax_keep(F, best->symmetry);
     RG_MEM_FREE(&best->mem, from, to);
     return status;
@@ -75,8 +76,8 @@ static int is_ended(rg_watch *w)
 }
 
 /* Folds like `best`, by another step. out NULL: for its time only. */
-static rg_status fold(const rg_attempt *best, const rg_settings *settings, double step, rg_watch *watch, rg_run *r, track *out,
-                      char reason[static RG_REASON])
+static rg_status fold(const rg_attempt *best, const rg_settings *settings, double step, rg_watch *watch, rg_run *r,
+                      track *out, char reason[static RG_REASON])
 {
     rg_settings s = *settings;
     rg_relax F;
@@ -197,7 +198,8 @@ static rg_status halve(rg_relaxed *R, const rg_settings *s, rg_watch *watch)
         R->points = k + 1;
         if (seconds > LONGEST) break;
     }
-    R->folds = status == RG_OK && !watch->cancelled && R->points > RG_RELAXED_DEFAULT && R->run[RG_RELAXED_DEFAULT].outcome == RG_FOLDED;
+    const int had = status == RG_OK && !watch->cancelled && R->points > RG_RELAXED_DEFAULT;
+    R->folds = had && R->run[RG_RELAXED_DEFAULT].outcome == RG_FOLDED;
     if (R->folds) compare(R, of, m->size);
     for (int32_t k = 0; k < RG_RELAXED_POINTS; k++) {
         RG_MEM_FREE(&R->mem, of[k].rho.rho, of[k].pattern.rho);

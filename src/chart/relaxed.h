@@ -24,10 +24,12 @@ typedef struct rg_relaxed {
     rg_run run[RG_RELAXED_POINTS];
     int finer_stops;          /* non-zero: half the reference's step stops short, run[points], and that is why: */
     char reason[RG_REASON];
-    double change[RG_RELAXED_POINTS], pattern_change[RG_RELAXED_POINTS]; /* from the run before; NAN: one of them stops */
+    double change[RG_RELAXED_POINTS];         /* of angles from the run before; NAN: one of them stops */
+    double pattern_change[RG_RELAXED_POINTS]; /* the same of the pattern */
     double order, pattern_order; /* by which the changes fall with the step; NAN: none can be seen */
     double error, pattern_error; /* of the reference, as far as can be told; INFINITY: nothing can */
-    double off[RG_RELAXED_PERCENTS], pattern_off[RG_RELAXED_PERCENTS]; /* of the run by the step asked for, at those percents */
+    double off[RG_RELAXED_PERCENTS];          /* of the run by the step asked for, at those percents */
+    double pattern_off[RG_RELAXED_PERCENTS];
 } rg_relaxed;
 
 extern const int rg_relaxed_percent[RG_RELAXED_PERCENTS];

@@ -53,7 +53,8 @@ static double passes_of_one(const rg_straight *f, double pass)
                 4 * (double)f->P.cholesky.triangular * f->P.cholesky.L.S.entries) / pass;
     if (f->P.solver == RG_SOLVER_SVD) { /* Golub and Reinsch's count, 4 m^2 n + 8 m n^2 + 9 n^3 */
         const double a = 3.0 * f->mesh.M, b = f->mesh.N, big = fmax(a, b), small = fmin(a, b);
-        sum += (double)f->P.factorizations * (4 * big * big * small + 8 * big * small * small + 9 * small * small * small) / pass;
+        const double once = 4 * big * big * small + 8 * big * small * small + 9 * small * small * small;
+        sum += (double)f->P.factorizations * once / pass;
     }
     return sum;
 }
@@ -108,8 +109,8 @@ static int has_landed(const rg_straight *f)
     return landed;
 }
 
-rg_status rg_run_make(rg_run *r, const rg_mesh *m, const rg_settings *settings, const rg_way *way, const rg_frames *with,
-                      rg_frames *keep, rg_diag *why)
+rg_status rg_run_make(rg_run *r, const rg_mesh *m, const rg_settings *settings, const rg_way *way,
+                      const rg_frames *with, rg_frames *keep, rg_diag *why)
 {
     rg_settings s = *settings;
     rg_mesh copy;
@@ -160,7 +161,8 @@ rg_status rg_run_time(rg_run *r, const rg_mesh *m, const rg_settings *s, double 
 {
     double all = r->seconds;
     rg_status status = RG_OK;
-    for (int n = 1; n < MOST_REPEATS && status == RG_OK && (all < LONG_ENOUGH || n < FEWEST_REPEATS) && all < patience; n++) {
+    for (int n = 1; n < MOST_REPEATS && status == RG_OK && (all < LONG_ENOUGH || n < FEWEST_REPEATS) &&
+         all < patience; n++) {
         rg_run again;
         status = rg_run_make(&again, m, s, &r->way, NULL, NULL, why);
         all += again.seconds;

@@ -34,7 +34,7 @@ typedef struct rg_run {
     int32_t frames;   /* reached */
     double percent;   /* reached */
     double error;     /* max over frames and creases of |rho - reference|, radians; NAN: nothing to compare with */
-    double pattern_error; /* max over frames and vertices of | X - reference | over the sheet's size; NAN: not moved or not known */
+    double pattern_error; /* the same of vertices, over the sheet's size; NAN: they stay, or nothing to compare */
     double closure;   /* the largest in a frame, radians */
     double beyond;    /* the most a crease was beyond half a turn in a frame, radians */
     double seconds;   /* of all it takes, the least of several times */

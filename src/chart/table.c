@@ -37,13 +37,14 @@ static void brief(double x, FILE *out)
 
 void rg_chart_csv(const rg_chart *c, const char *title, FILE *out)
 {
-    fputs("pattern,creases,constraints,method,solver,step_deg,tol_rad,default,outcome,frames,percent,error_rad,pattern_error,closure_rad,"
-          "seconds,passes,steps,solves,cg_iterations,factorizations,assemblies\n", out);
+    fputs("pattern,creases,constraints,method,solver,step_deg,tol_rad,default,outcome,frames,percent,error_rad,"
+          "pattern_error,closure_rad,seconds,passes,steps,solves,cg_iterations,factorizations,assemblies\n", out);
     for (int32_t i = 0; i < c->runs; i++) {
         const rg_run *r = &c->run[i];
         fputc('"', out);
         for (const char *s = title; *s; s++) fprintf(out, *s == '"' ? "\"\"" : "%c", *s);
-        fprintf(out, "\",%d,%d,%s,%s", (int)c->N, 3 * (int)c->M, rg_run_method_name(r->method), rg_run_solver_name(r->solver));
+        fprintf(out, "\",%d,%d,%s,%s", (int)c->N, 3 * (int)c->M, rg_run_method_name(r->method),
+                rg_run_solver_name(r->solver));
         field(r->way.step / RG_DEG, out);
         field(r->way.tol, out);
         fprintf(out, ",%d,%s,%d", i == 0, rg_chart_reached(c, r) ? "reached" : "stopped", (int)r->frames);
@@ -67,7 +68,8 @@ static void reference(const rg_chart *c, FILE *out)
         return;
     }
     if (ref->frames.count < 2) {
-        fputs("none: steps cut shorter and shorter do not get from flat to the next frame, or to different ones.\n\n", out);
+        fputs("none: steps cut shorter and shorter do not get from flat to the next frame, or to different ones.\n\n",
+              out);
         return;
     }
     fputs("rk4 with graded steps, halved; the path changed by", out);
@@ -79,7 +81,8 @@ static void reference(const rg_chart *c, FILE *out)
     brief(ref->error, out);
     fputs(" rad.\n\n", out);
     if (ref->frames.count < c->settings.frames)
-        fprintf(out, "It is known for %d of %d frames: errors are those of these.\n\n", (int)ref->frames.count, (int)c->settings.frames);
+        fprintf(out, "It is known for %d of %d frames: errors are those of these.\n\n", (int)ref->frames.count,
+                (int)c->settings.frames);
 }
 
 static void verdict(const rg_chart *c, FILE *out)
@@ -87,7 +90,8 @@ static void verdict(const rg_chart *c, FILE *out)
     if (c->runs == 0) return;
     const rg_run *a = &c->run[0], *quick = rg_chart_best(c, 0), *lean = rg_chart_best(c, 1);
     if (!rg_chart_reached(c, a) || !quick || !lean) {
-        fprintf(out, "The default, %s with %s, stops short.\n\n", rg_run_method_name(a->method), rg_run_solver_name(a->solver));
+        fprintf(out, "The default, %s with %s, stops short.\n\n", rg_run_method_name(a->method),
+                rg_run_solver_name(a->solver));
         return;
     }
     fprintf(out, "The default is %s with %s: ", rg_run_method_name(a->method), rg_run_solver_name(a->solver));
@@ -115,7 +119,8 @@ static void runs(const rg_chart *c, FILE *out)
     for (int32_t i = 1, n = 0; i < c->runs; i++) {
         const rg_run *r = &c->run[i];
         if (rg_chart_reached(c, r)) continue;
-        fprintf(out, "%s%s with %s at ", n++ ? "; " : ": ", rg_run_method_name(r->method), rg_run_solver_name(r->solver));
+        fprintf(out, "%s%s with %s at ", n++ ? "; " : ": ", rg_run_method_name(r->method),
+                rg_run_solver_name(r->solver));
         brief(r->percent, out);
         fputs(" percent, step ", out);
         brief(r->way.step / RG_DEG, out);
@@ -126,7 +131,8 @@ static void runs(const rg_chart *c, FILE *out)
     for (int32_t i = 0; i < c->runs; i++) {
         const rg_run *r = &c->run[i];
         if (i > 0 && !rg_chart_on_front(c, i)) continue;
-        fprintf(out, "| %s%s | %s | ", i == 0 ? "**default** " : "", rg_run_method_name(r->method), rg_run_solver_name(r->solver));
+        fprintf(out, "| %s%s | %s | ", i == 0 ? "**default** " : "", rg_run_method_name(r->method),
+                rg_run_solver_name(r->solver));
         if (r->method == RG_METHOD_ADAPTIVE) fputs("-", out);
         else brief(r->way.step / RG_DEG, out);
         fputs(" | ", out);
@@ -229,11 +235,12 @@ static void relaxed(const rg_chart *c, FILE *out)
     brief(d->passes, out);
     fputs(" passes.", out);
     if (d != last) off_on_the_way(R, out);
-    fputs("\n\n| step, deg | outcome | angles off, rad | changed by | pattern off | changed by | closure, rad | ms | passes | steps |\n"
-          "|---|---|---|---|---|---|---|---|---|---|\n", out);
+    fputs("\n\n| step, deg | outcome | angles off, rad | changed by | pattern off | changed by | closure, rad | ms | "
+          "passes | steps |\n|---|---|---|---|---|---|---|---|---|---|\n", out);
     for (int32_t k = 0; k < R->points; k++) {
         const rg_run *r = &R->run[k];
-        const double numbers[] = {r->error, R->change[k], r->pattern_error, R->pattern_change[k], r->closure, 1000 * r->seconds, r->passes};
+        const double numbers[] = {r->error, R->change[k], r->pattern_error, R->pattern_change[k], r->closure,
+                                  1000 * r->seconds, r->passes};
         fputs("| ", out);
         brief(r->way.step / RG_DEG, out);
         fprintf(out, " | %s |", rg_chart_reached(c, r) ? k + 1 == R->points ? "reference" : "reached" : "stopped");
@@ -277,13 +284,14 @@ static void model(const char *name, const rg_model *o, FILE *out)
 
 static void models(const rg_chart *c, FILE *out)
 {
-    fputs("| model | unknowns | constraints | mobility | outcome | path off, rad | closure, rad | facets bend, deg | ms | passes |\n"
-          "|---|---|---|---|---|---|---|---|---|---|\n", out);
+    fputs("| model | unknowns | constraints | mobility | outcome | path off, rad | closure, rad | facets bend, deg "
+          "| ms | passes |\n|---|---|---|---|---|---|---|---|---|---|\n", out);
     model("facets as drawn", &c->none, out);
     model("all triangles", &c->all, out);
-    fprintf(out, "| bars and hinges | %d | %d bars, %d hinges | | | | | | | |\n\n", 3 * (int)c->nodes, (int)c->edges_all,
-            (int)c->all.unknowns);
-    fprintf(out, "Symmetries: %d; they leave %d of %d creases and %d of %d vertices to solve for.\n", (int)c->alike.order,
+    fprintf(out, "| bars and hinges | %d | %d bars, %d hinges | | | | | | | |\n\n", 3 * (int)c->nodes,
+            (int)c->edges_all, (int)c->all.unknowns);
+    fprintf(out, "Symmetries: %d; they leave %d of %d creases and %d of %d vertices to solve for.\n",
+            (int)c->alike.order,
             (int)c->alike.creases, (int)c->none.unknowns, (int)c->alike.vertices, (int)c->none.constraints / 3);
 }
 
@@ -292,8 +300,8 @@ static void contact(const rg_chart *c, FILE *out)
 {
     static const char *const name[RG_TOUCHES] = {"left as they are", "kept apart"};
     const rg_touch *left = &c->touch[RG_TOUCH_LEFT];
-    fputs("\nFacets that would pass through each other:\n\n| | seconds | times those | folded | crosses from | depth, of the sheet | frames | added creases |\n"
-          "|---|---|---|---|---|---|---|---|\n", out);
+    fputs("\nFacets that would pass through each other:\n\n| | seconds | times those | folded | crosses from "
+          "| depth, of the sheet | frames | added creases |\n|---|---|---|---|---|---|---|---|\n", out);
     for (int k = 0; k < RG_TOUCHES; k++) {
         const rg_touch *t = &c->touch[k];
         if (!(t->seconds > 0)) continue;

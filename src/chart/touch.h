@@ -19,7 +19,7 @@ typedef struct rg_touch {
 enum { RG_TOUCH_LEFT, RG_TOUCH_AVOIDED, RG_TOUCHES };
 
 /* Folds it both ways, as `rigami fold` does. RG_ENOMEM. */
-rg_status rg_touch_measure(rg_touch touch[RG_TOUCHES], const rg_pattern *p, const rg_settings *s, rg_progress progress, void *ctx,
-                           rg_diag *why);
+rg_status rg_touch_measure(rg_touch touch[RG_TOUCHES], const rg_pattern *p, const rg_settings *s, rg_progress progress,
+                           void *ctx, rg_diag *why);
 
 #endif

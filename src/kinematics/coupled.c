@@ -184,7 +184,8 @@ rg_status rg_coupled_init(rg_coupled *J, const rg_memory *mem, rg_constraint *K,
         for (int32_t k = 0; k < m->M; k++)
             if (!G || G->vertex_orbit[m->inner_vertex[k]] == m->inner_vertex[k]) J->vertex[J->count++] = k;
         int32_t rows = 3 * J->count;
-        for (int32_t n = 0; n < J->count; n++) J->kawasaki[n] = K->kawasaki[J->vertex[n]] < 0 ? -1 : rows++; /* eq. (16) */
+        for (int32_t n = 0; n < J->count; n++)
+            J->kawasaki[n] = K->kawasaki[J->vertex[n]] < 0 ? -1 : rows++; /* eq. (16) */
         const int32_t creases = number_creases(J);
         s = make_pattern(J, rows, G ? number_ways(J, creases) : number_all_ways(J, creases));
     }
@@ -202,7 +203,8 @@ double rg_coupled_assemble(rg_coupled *J, const double *rho, const double *u, do
 
 /* The direction of a loop entry turns by g . (dX of its far end - dX of the vertex): adds what that of v does to the
  * rows. Turning it takes from the sector behind it what it gives to the one before. */
-static void add_turn(rg_coupled *J, const int32_t at[2], int32_t v, rg_vec2 g, rg_vec3 normal, double sign, const double *scale)
+static void add_turn(rg_coupled *J, const int32_t at[2], int32_t v, rg_vec2 g, rg_vec3 normal, double sign,
+                     const double *scale)
 {
     const int32_t *of = J->K->freedom->way[J->G ? J->G->vertex_orbit[v] : v];
     for (int i = 0; i < 2; i++) {
@@ -249,7 +251,8 @@ static void gather(const rg_coupled *J, const double *z, double *y)
     for (int32_t w = 0; w < f->U; w++)
         for (int i = 0; i < 2; i++) {
             const int32_t v = f->vertex[w];
-            if (J->way[v][i] >= 0) y[J->way[v][i]] += rg_vec2_dot(J->direction[v][i], f->direction[w]) * z[J->K->C.N + w];
+            if (J->way[v][i] >= 0)
+                y[J->way[v][i]] += rg_vec2_dot(J->direction[v][i], f->direction[w]) * z[J->K->C.N + w];
         }
 }
 

@@ -1,6 +1,6 @@
 /* coupled.h -- closure by fold angles and pattern together, and the least step that works it off: one unknown for each
  * crease and each way of a vertex, or one for each orbit of a symmetric sheet and the rows of one vertex of each.
- * Paper    eqs. (14), (15), (19)        Uses  constraint.h symmetry.h least.h        Used by  fold, unfold, motion/between.c
+ * Paper    eqs. (14), (15), (19)        Uses  constraint.h symmetry.h least.h        Used by  fold, motion, unfold
  *
  * With S the scales of the unknowns and A the matrix of constraint.h,
  *
@@ -31,7 +31,7 @@ typedef struct rg_coupled {
     double *part;            /* [N] of each in it */
     int32_t (*way)[2];       /* [nv] columns by which vertices move, -1: none */
     rg_vec2 (*direction)[2]; /* [nv] part of each in them */
-    rg_least A;              /* R A S Q, with what belongs to it; without G its columns are creases, then ways, in their order */
+    rg_least A;              /* R A S Q; without G its columns are creases, then ways, in their order */
     int32_t *at;             /* along mesh->loop_crease: entry of A.x of the crease */
     int32_t (*at_own)[2], (*at_far)[2]; /* [M], and along mesh->loop_crease: of the ways of a vertex */
     double *sign, *b, *y;    /* [corners] [rows] [columns] scratch */

@@ -1,6 +1,6 @@
 /* mobility.h -- how many ways a folded sheet can go, to first order.
- * Paper    section 3.2, eq. (9): N less the rank of C, where N - 3M is only a guess        Uses  constraint.h scale.h qr.h
- * Used by  motion.c model.c */
+ * Paper    section 3.2, eq. (9): N less the rank of C, where N - 3M is only a guess
+ * Uses     constraint.h scale.h qr.h        Used by  motion.c model.c */
 #ifndef RG_MOBILITY_H
 #define RG_MOBILITY_H
 

@@ -154,8 +154,10 @@ static rg_status solve_any(rg_project *P, const rg_constraint *K, const double *
                            double absolute, rg_cg_report *rep)
 {
     if (P->solver == RG_SOLVER_CG) {
-        int32_t N = K->C.N, most = ITERATIONS_PER_CREASE * N > ITERATIONS_AT_LEAST ? ITERATIONS_PER_CREASE * N : ITERATIONS_AT_LEAST;
-        rg_cg_solve(&K->C, rg_jacobi_apply, &P->jacobi, hold, P->b, P->y, x, relative, most, &P->cg, rep); /* eq. (15) */
+        const int32_t many = ITERATIONS_PER_CREASE * K->C.N;
+        const int32_t most = many > ITERATIONS_AT_LEAST ? many : ITERATIONS_AT_LEAST;
+        rg_cg_solve(&K->C, rg_jacobi_apply, &P->jacobi, hold, P->b, P->y, x, relative, most, &P->cg,
+                    rep); /* eq. (15) */
         P->iterations += rep->iterations;
         P->products += 2 * rep->iterations + 5;
         return RG_OK;
@@ -178,7 +180,8 @@ static rg_status step(rg_project *P, const rg_constraint *K, const double *drho0
     if (feed)
         for (int32_t i = 0; i < 3 * M; i++) P->b[i] += K->r[i]; /* b = r + C drho0              eq. (14) */
     rg_status s = solve_any(P, K, hold, P->x, tol, 0, rep);      /* x = C^+ b                             */
-    for (int32_t i = 0; i < N; i++) drho[i] = (drho0 ? drho0[i] : 0) - P->x[i]; /* drho0 - C^+ (r + C drho0)   eqs. (9), (15) */
+    for (int32_t i = 0; i < N; i++)
+        drho[i] = (drho0 ? drho0[i] : 0) - P->x[i]; /* drho0 - C^+ (r + C drho0)   eqs. (9), (15) */
     return s;
 }
 

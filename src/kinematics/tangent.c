@@ -38,7 +38,7 @@ void rg_tangent_destroy(rg_tangent *t)
 
 const rg_tangent_info *rg_tangent_get_info(const rg_tangent *t) { return &t->info; }
 
-/* Blocks of three rows and one column become rows, columns rising.                                             eq. (8) */
+/* Blocks of three rows and one column become rows, columns rising.   eq. (8) */
 static void compress(rg_tangent *t)
 {
     const rg_sparse *C = &t->K.C;
@@ -89,7 +89,8 @@ static rg_status fill(rg_tangent *t, const rg_mesh *m, const rg_vec2 *X, const d
     return RG_OK;
 }
 
-rg_status rg_tangent_at(const rg_mesh *m, const rg_memory *mem, const rg_vec2 *X, const double *rho, rg_tangent **tangent)
+rg_status rg_tangent_at(const rg_mesh *m, const rg_memory *mem, const rg_vec2 *X, const double *rho,
+                        rg_tangent **tangent)
 {
     rg_tangent *t = rg_mem_array(mem, 1, sizeof *t);
     if (!t) return RG_ENOMEM;

@@ -7,6 +7,7 @@
 
 /* At fold angles rho[N] on the pattern X[nv], NULL: that of the mesh; both are copied. RG_ENOMEM. Owner: the caller,
  * rg_tangent_destroy. */
-rg_status rg_tangent_at(const rg_mesh *m, const rg_memory *mem, const rg_vec2 *X, const double *rho, rg_tangent **tangent);
+rg_status rg_tangent_at(const rg_mesh *m, const rg_memory *mem, const rg_vec2 *X, const double *rho,
+                        rg_tangent **tangent);
 
 #endif

@@ -4,7 +4,8 @@
 /* pi / 2 in three parts (Cody and Waite): the first two have so few bits that their product with a small integer is
  * exact. */
 static const double TWO_OVER_PI = 0.63661977236758134308;
-static const double PART1 = 1.57079632673412561417, PART2 = 6.07710050630396597660e-11, PART3 = 2.02226624879595063154e-21;
+static const double PART1 = 1.57079632673412561417, PART2 = 6.07710050630396597660e-11;
+static const double PART3 = 2.02226624879595063154e-21;
 /* Adding and taking away 3/2 2^52 rounds to an integer, which is then in the lowest bits. */
 static const double ROUND = 6755399441055744.0;
 

@@ -48,7 +48,8 @@ static int make_band(const rg_memory *mem, const rg_parting *p, flow *F)
     const size_t n = (size_t)F->n, e = (size_t)edges;
     if (RG_MEM_ARRAYS(mem, RG_ARRAY(F->from_a, n), RG_ARRAY(F->to_b, n), RG_ARRAY(F->start, n + 1),
                       RG_ARRAY(F->to, e), RG_ARRAY(F->back, e), RG_ARRAY(F->f, e), RG_ARRAY(F->through, n),
-                      RG_ARRAY(F->level, 2 * n), RG_ARRAY(F->next, 2 * n), RG_ARRAY(F->queue, 2 * n)) != RG_OK) return 0;
+                      RG_ARRAY(F->level, 2 * n), RG_ARRAY(F->next, 2 * n), RG_ARRAY(F->queue, 2 * n)) != RG_OK)
+        return 0;
     int32_t *at = F->next;
     for (int32_t i = 0; i < F->n; i++) {
         const int32_t v = F->node[i];

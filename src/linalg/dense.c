@@ -34,7 +34,8 @@ int rg_dense_factor(int32_t m, double *A, size_t room, double *update)
         if (first > 0) {
             updates(m, first, A, room, update);
             for (int32_t j = first; j < last; j++)
-                for (int32_t i = j; i < m; i++) A[(size_t)j * room + (size_t)i] -= update[(size_t)(j - first) * room + (size_t)i];
+                for (int32_t i = j; i < m; i++)
+                    A[(size_t)j * room + (size_t)i] -= update[(size_t)(j - first) * room + (size_t)i];
         }
         for (int32_t j = first; j < last; j++) {
             double *col = A + (size_t)j * room;

@@ -3,8 +3,8 @@
  * Paper    the backslash of eq. (15)        Uses  separator.h        Used by  symbolic.c
  *
  *   A. George: Nested dissection of a regular finite element mesh. SIAM J. Numer. Anal. 10 (1973).
- *   B. Hendrickson, E. Rothberg: Improving the run time and quality of nested dissection ordering. SIAM J. Sci. Comput. 20
- *     (1998): nodes that have the same neighbours as one. */
+ *   B. Hendrickson, E. Rothberg: Improving the run time and quality of nested dissection ordering. SIAM J. Sci. Comput.
+ *     20 (1998): nodes that have the same neighbours as one. */
 #ifndef RG_DISSECT_H
 #define RG_DISSECT_H
 

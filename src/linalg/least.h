@@ -1,5 +1,6 @@
 /* least.h -- the least step that does what it must: min ||x|| with A x = b, for a sparse A of any pattern.
- * Paper    the backslash of eqs. (15), (19): x = A^T {(A A^T) \ b}        Uses  supernodal.h        Used by  coupled.c rectify.c
+ * Paper    the backslash of eqs. (15), (19): x = A^T {(A A^T) \ b}
+ * Uses     supernodal.h        Used by  fold, kinematics, motion
  *
  * Conjugate gradients on A A^T, preconditioned by a factor of A A^T + beta I: a few iterations undo the beta. A A^T is
  * singular flat and folded flat; started from zero the iteration stays in its range, and stops where nothing is left to
@@ -17,7 +18,7 @@ typedef struct rg_least {
     rg_supernodal L;       /* of A A^T + beta I */
     double damping;        /* of what is renewed and solved from now on; 0: none */
     double beta;           /* at the last renewal */
-    double tolerance;      /* part of b, in the metric of the preconditioner, that is not chased further: 1e-12, or set by the owner */
+    double tolerance;      /* part of b, as the preconditioner measures it, that is left: 1e-12, or set by the owner */
     int32_t *to;           /* where each product of two entries of a column goes among the numbers of L */
     double *y, *r, *z, *p, *q; /* [rows] */
     double *t;             /* [columns] */

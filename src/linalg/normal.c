@@ -42,15 +42,16 @@ static rg_status transpose(const rg_normal *N, const rg_rows *const *lists, int3
 }
 
 /* The pattern by columns, both triangles and the diagonal. */
-static rg_status find_pattern(const rg_normal *N, const rg_rows *const *lists, int32_t count, const transposed *t, int32_t *start,
-                              int32_t **row)
+static rg_status find_pattern(const rg_normal *N, const rg_rows *const *lists, int32_t count, const transposed *t,
+                              int32_t *start, int32_t **row)
 {
     int32_t *seen = rg_mem_array(&N->mem, (size_t)N->n, sizeof *seen);
     size_t room = 0, at = 0;
     rg_status s = seen ? RG_OK : RG_ENOMEM;
     for (int32_t j = 0; s == RG_OK && j < N->n; j++) {
         start[j] = (int32_t)at;
-        s = at <= (size_t)(INT32_MAX - N->n) ? rg_mem_grow(&N->mem, (void **)row, &room, at + (size_t)N->n, sizeof **row) : RG_ENOMEM;
+        s = at <= (size_t)(INT32_MAX - N->n)
+            ? rg_mem_grow(&N->mem, (void **)row, &room, at + (size_t)N->n, sizeof **row) : RG_ENOMEM;
         if (s != RG_OK) break;
         (*row)[at++] = j;
         seen[j] = j + 1;

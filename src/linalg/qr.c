@@ -144,14 +144,17 @@ static rg_status gather(factor *f, int32_t s, front *F)
     const size_t tall = (size_t)F->rows;
     for (int32_t i = from; i < to; i++) {
         const int32_t row = f->order[i], at = F->below[f->place[f->first[row]]]++;
-        for (int32_t e = f->A.start[row]; e < f->A.start[row + 1]; e++) F->x[(size_t)f->place[S->place[f->A.col[e]]] * tall + (size_t)at] = f->A.x[e];
+        for (int32_t e = f->A.start[row]; e < f->A.start[row + 1]; e++)
+            F->x[(size_t)f->place[S->place[f->A.col[e]]] * tall + (size_t)at] = f->A.x[e];
     }
     for (int32_t c = f->child[s]; c >= 0; c = f->part[c].next) {
         const part *p = &f->part[c];
-        const int32_t own = S->column[c + 1] - S->column[c], wide = S->start[c + 1] - S->start[c] - own, *up = S->row + S->start[c] + own;
+        const int32_t own = S->column[c + 1] - S->column[c], wide = S->start[c + 1] - S->start[c] - own;
+        const int32_t *up = S->row + S->start[c] + own;
         for (int32_t i = 0; i < p->rows; i++) {
             const int32_t at = F->below[f->place[up[p->lead[i]]]]++;
-            for (int32_t k = p->lead[i]; k < wide; k++) F->x[(size_t)f->place[up[k]] * tall + (size_t)at] = p->x[(size_t)k * (size_t)p->rows + (size_t)i];
+            for (int32_t k = p->lead[i]; k < wide; k++)
+                F->x[(size_t)f->place[up[k]] * tall + (size_t)at] = p->x[(size_t)k * (size_t)p->rows + (size_t)i];
         }
         free_part(f, c);
     }

@@ -4,9 +4,10 @@
  * R has the pattern of the Cholesky factor of A^T A, whose supernodes are the fronts: each gathers the rows that begin
  * in its columns, eliminates those and hands the rest up the tree. Columns that depend on those before them are
  * dropped, and their rows go on.
- *   M. Heath: Some extensions of an algorithm for sparse linear least squares problems. SIAM J. Sci. Stat. Comput. 3 (1982).
- *   T. Davis: Algorithm 915, SuiteSparseQR: multifrontal multithreaded rank-revealing sparse QR factorization. ACM Trans. Math.
- *     Software 38 (2011). Tests compare with it; it is under the GPL. */
+ *   M. Heath: Some extensions of an algorithm for sparse linear least squares problems. SIAM J. Sci. Stat. Comput. 3
+ *     (1982).
+ *   T. Davis: Algorithm 915, SuiteSparseQR: multifrontal multithreaded rank-revealing sparse QR factorization. ACM
+ *     Trans. Math. Software 38 (2011). Tests compare with it; it is under the GPL. */
 #ifndef RG_QR_H
 #define RG_QR_H
 

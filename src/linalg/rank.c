@@ -66,7 +66,8 @@ rg_status rg_pinv_update(rg_pinv *P, const rg_sparse *C, const double *hold)
         for (size_t i = 0; i < (size_t)P->N; i++) along += a[i * across] * hold[i];
         for (size_t i = 0; i < (size_t)P->N; i++) a[i * across] -= along * hold[i];
     }
-    gsl_matrix_view U = gsl_matrix_view_array(d->u, d->tall, d->small), V = gsl_matrix_view_array(d->v, d->small, d->small);
+    gsl_matrix_view U = gsl_matrix_view_array(d->u, d->tall, d->small);
+    gsl_matrix_view V = gsl_matrix_view_array(d->v, d->small, d->small);
     gsl_matrix_view X = gsl_matrix_view_array(d->x, d->small, d->small);
     gsl_vector_view S = gsl_vector_view_array(d->s, d->small), work = gsl_vector_view_array(d->work, d->small);
     gsl_linalg_SV_decomp_mod(&U.matrix, &X.matrix, &V.matrix, &S.vector, &work.vector);

@@ -6,8 +6,8 @@
  *     Comput. 20 (1998): coarsening by heavy edges.
  *   C. Fiduccia, R. Mattheyses: A linear-time heuristic for improving network partitions. 19th Design Automation
  *     Conference (1982).
- *   B. Hendrickson, E. Rothberg: Improving the run time and quality of nested dissection ordering. SIAM J. Sci. Comput. 20
- *     (1998): refining the separator of nodes itself. */
+ *   B. Hendrickson, E. Rothberg: Improving the run time and quality of nested dissection ordering. SIAM J. Sci. Comput.
+ *     20 (1998): refining the separator of nodes itself. */
 #ifndef RG_SEPARATOR_H
 #define RG_SEPARATOR_H
 

@@ -12,7 +12,7 @@ RG_WIDE static void multiply(int32_t m, int32_t n, int32_t k, const double *a, c
 {
     for (int32_t j = 0; j < n; j += 4) {
         int32_t i = j & ~3;
-        for (; i + 4 < m; i += 8) { /* twice as many sums at once as below: an addition takes longer than its turn comes */
+        for (; i + 4 < m; i += 8) { /* twice as many sums at once as below: an addition takes longer than that */
             const double *p = a + i, *q = b + j;
             rg_quad c0 = {0}, c1 = {0}, c2 = {0}, c3 = {0}, d0 = {0}, d1 = {0}, d2 = {0}, d3 = {0};
             for (int32_t l = 0; l < k; l++, p += tall, q += tall) {
@@ -101,8 +101,8 @@ static void hang(rg_supernodal *L, int32_t d)
  * are columns of s. */
 static void take_from(rg_supernodal *L, int32_t s, int32_t d)
 {
-    const int32_t tall = L->S.start[d + 1] - L->S.start[d], wide = L->S.column[d + 1] - L->S.column[d], from = L->done[d];
-    const int32_t *row = L->S.row + L->S.start[d] + from, rows = tall - from;
+    const int32_t wide = L->S.column[d + 1] - L->S.column[d], from = L->done[d];
+    const int32_t *row = L->S.row + L->S.start[d] + from, rows = L->S.start[d + 1] - L->S.start[d] - from;
     const int32_t stride = rg_symbolic_stride(&L->S, d), s_stride = rg_symbolic_stride(&L->S, s);
     const double *x = L->x + L->S.panel[d] + from;
     int32_t n = 0;
@@ -150,17 +150,20 @@ RG_WITHIN void subtract_columns(const double *x, int32_t tall, int32_t m, int32_
     if (n == 4) {
         const double *x1 = x + tall, *x2 = x1 + tall, *x3 = x2 + tall, b1 = b[1], b2 = b[2], b3 = b[3];
         for (int32_t i = 0; i < m; i += 4)
-            *(rg_quad_anywhere *)(u + i) -= (*(const rg_quad_anywhere *)(x + i) * b0 + *(const rg_quad_anywhere *)(x1 + i) * b1) +
-                                            (*(const rg_quad_anywhere *)(x2 + i) * b2 + *(const rg_quad_anywhere *)(x3 + i) * b3);
+            *(rg_quad_anywhere *)(u + i) -=
+                (*(const rg_quad_anywhere *)(x + i) * b0 + *(const rg_quad_anywhere *)(x1 + i) * b1) +
+                (*(const rg_quad_anywhere *)(x2 + i) * b2 + *(const rg_quad_anywhere *)(x3 + i) * b3);
     } else if (n == 3) {
         const double *x1 = x + tall, *x2 = x1 + tall, b1 = b[1], b2 = b[2];
         for (int32_t i = 0; i < m; i += 4)
-            *(rg_quad_anywhere *)(u + i) -= (*(const rg_quad_anywhere *)(x + i) * b0 + *(const rg_quad_anywhere *)(x1 + i) * b1) +
-                                            *(const rg_quad_anywhere *)(x2 + i) * b2;
+            *(rg_quad_anywhere *)(u + i) -=
+                (*(const rg_quad_anywhere *)(x + i) * b0 + *(const rg_quad_anywhere *)(x1 + i) * b1) +
+                *(const rg_quad_anywhere *)(x2 + i) * b2;
     } else if (n == 2) {
         const double *x1 = x + tall, b1 = b[1];
         for (int32_t i = 0; i < m; i += 4)
-            *(rg_quad_anywhere *)(u + i) -= *(const rg_quad_anywhere *)(x + i) * b0 + *(const rg_quad_anywhere *)(x1 + i) * b1;
+            *(rg_quad_anywhere *)(u + i) -=
+                *(const rg_quad_anywhere *)(x + i) * b0 + *(const rg_quad_anywhere *)(x1 + i) * b1;
     } else
         for (int32_t i = 0; i < m; i += 4) *(rg_quad_anywhere *)(u + i) -= *(const rg_quad_anywhere *)(x + i) * b0;
 }
@@ -197,7 +200,8 @@ RG_WITHIN void subtract_products(const double *x, int32_t tall, int32_t m, int32
             s1 += *(const rg_quad_anywhere *)(x1 + i) * v;
         }
     } else
-        for (int32_t i = 0; i < m; i += 4) s0 += *(const rg_quad_anywhere *)(x + i) * *(const rg_quad_anywhere *)(u + i);
+        for (int32_t i = 0; i < m; i += 4)
+            s0 += *(const rg_quad_anywhere *)(x + i) * *(const rg_quad_anywhere *)(u + i);
     b[0] -= sum_of(&s0);
     if (n > 1) b[1] -= sum_of(&s1);
     if (n > 2) b[2] -= sum_of(&s2);
@@ -282,7 +286,8 @@ static int32_t stands(const rg_symbolic *S, int32_t s, int32_t low, int32_t r)
 }
 
 /* Columns of one supernode have their rows in common: each row is looked for once in each. */
-int rg_supernodal_find(const rg_supernodal *L, int32_t n, const int32_t *column, int32_t *order, int32_t *at, int32_t *slot)
+int rg_supernodal_find(const rg_supernodal *L, int32_t n, const int32_t *column, int32_t *order, int32_t *at,
+                       int32_t *slot)
 {
     const rg_symbolic *S = &L->S;
     for (int32_t i = 0; i < n; i++) {
@@ -309,7 +314,7 @@ int rg_supernodal_find(const rg_supernodal *L, int32_t n, const int32_t *column,
 int32_t rg_supernodal_slot(const rg_supernodal *L, int32_t i, int32_t j)
 {
     const rg_symbolic *S = &L->S;
-    const int32_t r = S->place[i] > S->place[j] ? S->place[i] : S->place[j], c = S->place[i] > S->place[j] ? S->place[j] : S->place[i];
+    const int32_t a = S->place[i], b = S->place[j], r = a > b ? a : b, c = a > b ? b : a;
     const int32_t s = S->of[c], at = stands(S, s, S->start[s], r);
     assert(at >= 0);
     return S->panel[s] + (c - S->column[s]) * rg_symbolic_stride(S, s) + at - S->start[s];
@@ -331,7 +336,8 @@ static size_t room_for_updates(const rg_symbolic *S)
     return most;
 }
 
-rg_status rg_supernodal_init(rg_supernodal *L, const rg_memory *mem, int32_t n, const int32_t *start, const int32_t *row)
+rg_status rg_supernodal_init(rg_supernodal *L, const rg_memory *mem, int32_t n, const int32_t *start,
+                             const int32_t *row)
 {
     memset(L, 0, sizeof *L);
     rg_status s = rg_symbolic_init(&L->S, mem, n, start, row);

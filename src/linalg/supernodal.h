@@ -19,14 +19,16 @@ typedef struct rg_supernodal {
 
 /* The pattern of A as in rg_symbolic_init, the diagonal in it.
  * RG_ENOMEM. Owner: the caller, rg_supernodal_free. */
-rg_status rg_supernodal_init(rg_supernodal *L, const rg_memory *mem, int32_t n, const int32_t *start, const int32_t *row);
+rg_status rg_supernodal_init(rg_supernodal *L, const rg_memory *mem, int32_t n, const int32_t *start,
+                             const int32_t *row);
 void rg_supernodal_free(rg_supernodal *L);
 
 /* Where A's number at (i, j), which is that at (j, i), belongs in x. */
 int32_t rg_supernodal_slot(const rg_supernodal *L, int32_t i, int32_t j);
 /* The same for all i, j <= i of n columns, one after the other. Zero: L has no number at one of them, neither of A nor
  * filled in. order, at: [n] scratch. */
-int rg_supernodal_find(const rg_supernodal *L, int32_t n, const int32_t *column, int32_t *order, int32_t *at, int32_t *slot);
+int rg_supernodal_find(const rg_supernodal *L, int32_t n, const int32_t *column, int32_t *order, int32_t *at,
+                       int32_t *slot);
 /* Makes x zero, to be filled with A. */
 void rg_supernodal_clear(rg_supernodal *L);
 /* Non-zero: done; zero: a pivot is not positive (or NaN), x is spoilt. */

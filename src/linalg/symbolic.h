@@ -3,7 +3,8 @@
  *
  * Minimum degree, and on large sheets nested dissection finished by minimum degree, whichever takes fewer operations.
  * Columns of L of (nearly) the same pattern are put together, a supernode.
- *   P. Amestoy, T. Davis, I. Duff: An approximate minimum degree ordering algorithm. SIAM J. Matrix Anal. Appl. 17 (1996).
+ *   P. Amestoy, T. Davis, I. Duff: An approximate minimum degree ordering algorithm. SIAM J. Matrix Anal. Appl. 17
+ *     (1996).
  *   J. Liu: The role of elimination trees in sparse factorization. SIAM J. Matrix Anal. Appl. 11 (1990).
  *   J. Gilbert, E. Ng, B. Peyton: An efficient algorithm to compute row and column counts for sparse Cholesky
  *     factorization. SIAM J. Matrix Anal. Appl. 15 (1994). */
@@ -23,7 +24,7 @@ typedef struct rg_symbolic {
     int32_t *column;        /* [count + 1] first column of each supernode */
     int32_t *start;         /* [count + 1] into row: its rows, its own columns first */
     int32_t *row;           /* rising */
-    int32_t *panel;         /* [count + 1] where its numbers start, column by column, rg_symbolic_stride apart, in one array */
+    int32_t *panel;         /* [count + 1] where its numbers start, columns rg_symbolic_stride apart */
     int32_t *of;            /* [n] supernode of a column */
 } rg_symbolic;
 

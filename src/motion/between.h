@@ -1,5 +1,5 @@
 /* between.h -- a state between two of a track: on their chord, closed, with one crease where it is asked for.
- * Paper    eqs. (14), (19) as one system        Uses  steer.h coupled.h motion.h        Used by  fold.h stepping.c, write
+ * Paper    eqs. (14), (19) as one system        Uses  steer.h coupled.h motion.h        Used by  fold.h, write
  *
  * Where both have the pattern given, fold angles close it; else the pattern moves as well, as in fold/relax.h. */
 #ifndef RG_BETWEEN_H

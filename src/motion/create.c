@@ -205,7 +205,8 @@ static void tell_lost(rg_report *r)
                 "no crease is left to fold: the only one drawn ends short of the next line, or lies on the border");
     else
         rg_text(r->reason, sizeof r->reason,
-                "no crease is left to fold: all %d that are drawn end short of the next line, or lie on the border", lost);
+                "no crease is left to fold: all %d that are drawn end short of the next line, or lie on the border",
+                lost);
 }
 
 rg_status rg_motion_with_path(const rg_pattern *p, const rg_settings *given, rg_progress progress, void *ctx,

@@ -13,7 +13,7 @@ typedef struct rg_cuts {
     int32_t *piece_of;    /* [corners] scratch: facet that a facet of an attempt's mesh is a piece of */
     unsigned char *which; /* [none->nf] those to cut */
     int32_t cut;          /* how many they are */
-    double *bend;         /* [none->nf] the most that the facet bent when last measured, radians; negative: it is whole */
+    double *bend;         /* [none->nf] radians, the most that it bends, as last measured; negative: it is whole */
     int32_t bends;        /* how many can bend */
 } rg_cuts;
 

@@ -7,7 +7,7 @@
 #include "fold/straight.h"
 
 /* At the state f->rho:
- *   vertex[M]  out  vertex numbers that resist the wish most, the strongest first, component by component: y of eq. (15) is
+ *   vertex[M]  out  vertex numbers that resist the wish most, strongest first, component by component: y of eq. (15) is
  *                   the reaction with which each vertex turns the wish into the allowed step
  *   crease[N]  out  crease numbers that are short of their target and not let any nearer
  * Returns RG_ENOMEM, or RG_OK with the counts. */

@@ -1,5 +1,5 @@
 /* fold.h -- the handle behind rigami.h's rg_fold: a track of states, and the one that it stands on.
- * Uses  attempt.h between.h steer.h        Used by  create.c and those of rg_fold: keeping, standing, steering, stepping, tangents; write
+ * Uses  attempt.h between.h steer.h        Used by  create.c and the files of rg_fold, such as stepping.c; write
  *
  * The track is the motion's frames until somebody steers. Then the states that were passed are kept in a list of its
  * own, whose last leg grows step by step. Motions never change, so clones and snapshots share one. */

@@ -49,7 +49,7 @@ rg_status rg_fold_own_track(rg_fold *f, int32_t states)
     if (s != RG_OK || f->steered) return s;
     const rg_motion *m = f->shared->motion;
     for (int32_t k = 0; k <= f->at; k++)
-        append(f, rg_motion_angles(m, k), rg_motion_pattern(m, k), rg_fold_progress(f, k), m->frame[k].closure_residual);
+        append(f, rg_fold_state(f, k), rg_fold_pattern(f, k), rg_fold_progress(f, k), m->frame[k].closure_residual);
     f->steered = 1;
     f->ending.outcome = RG_RUNNING;
     f->ending.reason = "";
