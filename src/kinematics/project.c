@@ -156,8 +156,8 @@ static rg_status solve_any(rg_project *P, const rg_constraint *K, const double *
     if (P->solver == RG_SOLVER_CG) {
         const int32_t many = ITERATIONS_PER_CREASE * K->C.N;
         const int32_t most = many > ITERATIONS_AT_LEAST ? many : ITERATIONS_AT_LEAST;
-        rg_cg_solve(&K->C, rg_jacobi_apply, &P->jacobi, hold, P->b, P->y, x, relative, most, &P->cg,
-                    rep); /* eq. (15) */
+        rg_cg_solve(&K->C, rg_jacobi_apply, &P->jacobi, hold, P->b, P->y, x, relative, most, /* eq. (15) */
+                    &P->cg, rep);
         P->iterations += rep->iterations;
         P->products += 2 * rep->iterations + 5;
         return RG_OK;
