@@ -212,6 +212,8 @@ static const double LEFT_FLAT = 1e-6;
 /* Work of one try, about seconds of a slow machine, by effort. Of 97 real patterns that fold none needs more than 3.9
  * for it. */
 static const double MOST_WORK[] = {4, 8, 300};
+/* Where no try folds, those that were ended early share so many times that; one that comes back from the folded end if it has come so far. */
+static const double MORE_WORK = 2, HALF_WAY = 0.5;
 /* What folds straight on, triangulated, takes a hundred steps or so. */
 static const int32_t MOST_STEPS_TRIANGULATED = 250;
 /* Retraction: how often half the compliance is tried, and fewer cuts, of a relaxation and straight on. A facet that

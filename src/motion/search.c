@@ -114,17 +114,33 @@ static void keep(rg_search *q, rg_ladder *l, const rg_rung *r, const rg_symmetry
     snprintf(q->strategy, sizeof q->strategy, "%s%s", r->name, r->backwards ? ", unfolded from its end" : "");
 }
 
-/* Where no try folds, the best of those that were ended early may show how far it comes after all. */
-static rg_status go_on(climb *c)
+/* Of the tries that were ended early and may still go on, the one that is farthest on its way; -1: there is none.
+ * Backwards only what comes all the way is a motion: one that is not yet half way there is left. */
+static int32_t farthest_that_waits(const climb *c)
 {
     int32_t best = -1;
     for (int32_t k = 0; k < c->jobs; k++) {
-        const rg_attempt *t = &c->t[k];
-        if (!t->mem.resize || !t->relax || !t->relax->waits) continue;
-        if (best < 0 || rg_ladder_is_better(t, &c->t[best])) best = k;
+        const rg_relax *F = c->t[k].relax;
+        if (!F || !F->waits || (c->t[k].backwards && F->s < HALF_WAY)) continue;
+        if (best < 0 || F->s > c->t[best].relax->s) best = k;
     }
+    return best;
+}
+
+/* Where no try folds, what was ended early goes on, the farthest first: it may fold after all, or show how far it
+ * comes. */
+static rg_status go_on(climb *c)
+{
+    double work = MORE_WORK * MOST_WORK[c->l->settings->effort];
     rg_watch watch = {.progress = rg_ladder_tell, .ctx = c->l};
-    return best >= 0 ? rg_attempt_go_on(&c->t[best], MOST_WORK[c->l->settings->effort], &watch, &c->why) : RG_OK;
+    for (int32_t k; work > 0 && !watch.cancelled && (k = farthest_that_waits(c)) >= 0;) {
+        rg_attempt *t = &c->t[k];
+        const double before = t->relax->work;
+        const rg_status s = rg_attempt_go_on(t, work, &watch, &c->why);
+        if (s != RG_OK || rg_ladder_rank(t) == RG_WELL) return s;
+        work -= t->relax->work - before;
+    }
+    return RG_OK;
 }
 
 /* Tells of the first `count` tries; the winner is kept, or where there is none (-1) what is best. */
