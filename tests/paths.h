@@ -64,6 +64,7 @@ static const path_of paths[] = {
     {"rafflesia", "of the corpus, creases roll", NULL, "foldability/121-komatsuoripa-rafflesia.fold"},
     {"kirby", "of the corpus, creases roll", NULL, "foldability/114-kei-kirby.fold"},
     {"turkey", "of the corpus, chords do not close", NULL, "foldability/101-ku-turkey-2-1.fold"},
+    {"Miura-ori, drawn by hand", "of the corpus, straight on, stops and cuts", NULL, "svg/miura-ori.svg"},
     {"pinwheel", "of the corpus, with freedoms", NULL, "foldability/058-ku-color-change-pinwheel-1.fold"},
 };
 enum { PATHS = sizeof paths / sizeof *paths };

@@ -251,6 +251,36 @@ static void between_nodes_where_chords_do_not_close(void **state)
     rg_motion_destroy(m);
 }
 
+/* A straight way that ends in steps of a fixed kind, past half a turn or short of its end, comes to the same place by the same rung whatever the
+ * number of frames: what is read off is no step, and what is cut is told by nodes. */
+static void frames_decide_nothing(void **state)
+{
+    (void)state;
+    static const char *const files[] = {"opx/waterbomb_base_collapse.opx", "svg/miura-ori.svg"};
+    static const int32_t frames[] = {2, 60, 301, 601, 2401};
+    for (int k = 0; k < 2; k++) {
+        rg_report first = {0};
+        for (int n = 0; n < 5; n++) {
+            char path[4096];
+            rg_pattern *p;
+            rg_settings s = with(RG_ADJUST_AUTO, RG_TRIANGULATE_AUTO);
+            s.contact = RG_CONTACT_IGNORE;
+            s.frames = frames[n];
+            assert_int_equal(rg_pattern_read(corpus(files[k], path, sizeof path), NULL, &p, NULL), RG_OK);
+            rg_motion *m = motion_of(p, &s);
+            const rg_report r = *rg_motion_report(m);
+            if (n == 0) first = r;
+            assert_true(r.folded_percent > 50);
+            assert_int_equal(r.outcome, first.outcome);
+            assert_int_equal(r.tries, first.tries);
+            assert_int_equal(r.steps, first.steps);
+            near(r.folded_percent, first.folded_percent, 0);
+            near(r.max_adjustment > 0, first.max_adjustment > 0, 0);
+            rg_motion_destroy(m);
+        }
+    }
+}
+
 static void closed_vertices_that_adjusting_frees(void **state)
 {
     (void)state;
@@ -624,6 +654,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plain_ways_come_first), cmocka_unit_test(closed_vertices_that_splitting_frees),
         cmocka_unit_test(between_nodes_where_chords_do_not_close),
+        cmocka_unit_test(frames_decide_nothing),
         cmocka_unit_test(closed_vertices_that_adjusting_frees), cmocka_unit_test(more_that_fold_adjusted),
         cmocka_unit_test(switched_off_nothing_moves), cmocka_unit_test(what_cannot_fold_is_told), cmocka_unit_test(the_other_way),
         cmocka_unit_test(interrupted), cmocka_unit_test(no_more_cuts_than_have_to_be), cmocka_unit_test(straight_on_with_fewer_cuts), cmocka_unit_test(a_part_of_the_way), cmocka_unit_test(a_part_too_far),

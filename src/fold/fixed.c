@@ -88,6 +88,10 @@ void rg_fixed_newton(rg_straight *f)
         }
         if (strayed <= FARTHEST_CORRECTION * way + LITTLE_STRAIGHT) break;
     }
+    if (!(rg_lanes_largest(N, f->trial) <= RG_PI + MOST_OVER)) {
+        rg_straight_stop(f, "from there on creases go past half a turn");
+        return;
+    }
     const double s = ds >= left ? f->s_end : f->s + ds;
     f->ds = 2 * ds;
     const int has_t = s < 1 && rg_integrate_tangent(f, f->trial, s, 0, f->t) > 0;

@@ -275,13 +275,11 @@ int rg_integrate_advance(rg_straight *f)
     }
 }
 
-int rg_integrate_read_off(rg_straight *f, double s)
+/* The state at s by the polynomial through n nodes, closed. */
+static int read_through(rg_straight *f, int32_t first, int32_t n, double s)
 {
     const rg_path *p = &f->path;
     const int is_euler = f->settings.method == RG_METHOD_EULER;
-    int32_t first, n;
-    if (f->smooth) rg_path_window(p, s, &first, &n);
-    else rg_path_around(p, s, &first, &n);
     rg_path_evaluate(p, first, n, s, f->trial, f->t);
     /* so near flat what closes is homogeneous: a ray */
     if (!is_euler && p->count > 1 && p->node[0].s == 0 && s < p->node[1].s)
@@ -294,4 +292,33 @@ int rg_integrate_read_off(rg_straight *f, double s)
     const int free = f->smooth && !f->one_way && f->mesh.N > 3 * f->mesh.M && p->node[first].has_t;
     if (free && rg_newton_close(f, s, 1, 0, f->t)) return 1;
     return rg_newton_close(f, s, CORRECTIONS, 0, NULL);
+}
+
+/* Is f->trial between the nodes on either side of s, as far as a smooth way strays from its chord? */
+static int is_between(const rg_straight *f, double s)
+{
+    int32_t first, n;
+    rg_path_around(&f->path, s, &first, &n);
+    if (n < 2) return 1;
+    const rg_node *a = &f->path.node[first], *b = a + 1;
+    const double part = (s - a->s) / (b->s - a->s);
+    double off = 0, size = 0;
+    for (int32_t i = 0; i < f->path.N; i++) {
+        const double way = b->rho[i] - a->rho[i], d = fabs(f->trial[i] - a->rho[i] - part * way);
+        if (!(d <= off)) off = d;
+        if (fabs(way) > size) size = fabs(way);
+    }
+    return off <= FARTHEST_CORRECTION * size + LITTLE;
+}
+
+int rg_integrate_read_off(rg_straight *f, double s)
+{
+    int32_t first, n;
+    if (f->smooth) {
+        rg_path_window(&f->path, s, &first, &n);
+        if (read_through(f, first, n, s) && is_between(f, s)) return 1;
+    }
+    /* Where nodes lie unevenly, as before a place that steps cannot pass, a polynomial through many is led astray. */
+    rg_path_around(&f->path, s, &first, &n);
+    return read_through(f, first, n, s) && (f->settings.method == RG_METHOD_EULER || is_between(f, s));
 }

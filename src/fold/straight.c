@@ -17,8 +17,9 @@ static rg_status make_system(rg_straight *f, rg_diag *why)
     rg_status s = rg_project_init(&f->P, mem, &f->K, f->settings.solver);
     if (s == RG_EABSENT) return rg_fail(s, why, 0, "this build has no such solver: it was made with GPL=0");
     if (s == RG_OK) s = rg_path_init(&f->path, mem, f->mesh.N);
-    double **array[] = {&f->trial, &f->wish, &f->t, &f->pull, &f->best, &f->end, &f->k[0], &f->k[1], &f->k[2]};
-    for (int i = 0; i < 9; i++)
+    double **array[] = {&f->trial, &f->wish, &f->t, &f->pull, &f->best, &f->end, &f->largest,
+                        &f->k[0], &f->k[1], &f->k[2]};
+    for (int i = 0; i < 10; i++)
         if (!(*array[i] = rg_mem_array(mem, (size_t)f->mesh.N, sizeof(double))) && s == RG_OK) s = RG_ENOMEM;
     if (s != RG_OK) return s;
     if (f->mesh.N <= 3 * f->mesh.M) f->settings.tol = fmin(f->settings.tol, LOOSEST_OVERCONSTRAINED);
@@ -103,8 +104,9 @@ void rg_straight_destroy(rg_straight *f)
     rg_limit_free(&f->limit);
     rg_apart_free(&f->apart);
     rg_path_free(&f->path);
-    double *array[] = {f->rho, f->trial, f->wish, f->t, f->pull, f->best, f->end, f->k[0], f->k[1], f->k[2]};
-    for (int i = 0; i < 10; i++) rg_mem_free(&mem, array[i]);
+    double *array[] = {f->rho, f->trial, f->wish, f->t, f->pull, f->best, f->end, f->largest,
+                       f->k[0], f->k[1], f->k[2]};
+    for (int i = 0; i < 11; i++) rg_mem_free(&mem, array[i]);
     rg_mem_free(&mem, f);
 }
 
@@ -127,6 +129,14 @@ rg_cost rg_straight_cost(const rg_straight *f)
         sum.assemblies += g->assemblies;
     }
     return sum;
+}
+
+void rg_straight_largest(const rg_straight *f, double *largest)
+{
+    rg_straight *const *system;
+    for (int32_t p = rg_straight_systems(f, &system); p-- > 0;)
+        for (int32_t i = 0; i < system[p]->mesh.N; i++)
+            largest[f->apart.parts ? f->apart.crease[f->apart.start[p] + i] : i] = system[p]->largest[i];
 }
 
 rg_solver rg_straight_solver(const rg_straight *f)
@@ -176,6 +186,21 @@ static void leave_flat(rg_straight *f)
     rg_straight_accept(f, f->path.node[0].rho, 0); /* frames may lie before that node */
 }
 
+/* Another node: is it to be made? What is read off between nodes is no step: the way does not depend on frames. */
+static int may_step(rg_straight *f)
+{
+    const double s = f->path.node[f->path.count - 1].s;
+    const double could = MOST_CREEPING * f->settings.step / RG_PI;
+    const double part = LEAST_WAY_PART * (f->graded ? fmin(could, fmin(s, 1 - s)) : could);
+    if (s - f->idle_s >= fmin(LEAST_WAY, part)) f->idle = 0, f->idle_s = s;
+    if (f->idle++ >= MOST_CREEPING) {
+        rg_straight_stop(f, "the facets leave hardly any way on: it goes on in steps too small to get anywhere");
+        return 0;
+    }
+    f->steps++;
+    return 1;
+}
+
 /* The next frame off the nodes, or another node where they do not reach it yet. */
 static void go_on(rg_straight *f)
 {
@@ -192,13 +217,11 @@ static void go_on(rg_straight *f)
         const rg_node *a = &p->node[first], *b = a + n - 1;
         rg_straight_accept(f, (goal - a->s < b->s - goal ? a : b)->rho, goal);
     } else if (!reached && f->smooth && !ended) {
-        f->steps++;
-        f->path_ended = !rg_integrate_advance(f);
+        if (may_step(f)) f->path_ended = !rg_integrate_advance(f);
     } else if (f->smooth) { /* from the last node that can be read off on, step by step */
         f->smooth = 0;
         rg_path_cut(p, goal);
-    } else {
-        f->steps++;
+    } else if (may_step(f)) {
         rg_straight_accept(f, p->node[p->count - 1].rho, last);
         if (f->settings.method == RG_METHOD_EULER) rg_fixed_euler(f);
         else rg_fixed_newton(f);
@@ -213,13 +236,12 @@ int rg_straight_between(rg_straight *f, double s, double *rho)
     return at != NULL;
 }
 
-static int creeps(rg_straight *f)
+/* The newest node counts for what creases turn at the most. */
+static void note_node(rg_straight *f)
 {
-    const double s = f->path.count > 0 ? f->path.node[f->path.count - 1].s : f->s;
-    const double could = MOST_CREEPING * f->settings.step / RG_PI;
-    const double part = LEAST_WAY_PART * (f->graded ? fmin(could, fmin(s, 1 - s)) : could);
-    if (s - f->idle_s >= fmin(LEAST_WAY, part)) f->idle = 0, f->idle_s = s;
-    return f->idle++ >= MOST_CREEPING;
+    const double *rho = f->path.node[f->path.count - 1].rho;
+    for (int32_t i = 0; i < f->mesh.N; i++)
+        if (fabs(rho[i]) > f->largest[i]) f->largest[i] = fabs(rho[i]);
 }
 
 /* One step of one system. Returns the frame that it ends on, -1: none. */
@@ -233,11 +255,11 @@ static int32_t step(rg_straight *f)
     const double most = fmax(MOST_STRAIGHT_STEPS, MOST_STRAIGHT_WAYS * RG_PI / f->settings.step);
     if (f->steps > (f->most_steps ? f->most_steps : most)) {
         rg_straight_stop(f, "the number of steps ran out");
-    } else if (creeps(f)) {
-        rg_straight_stop(f, "the facets leave hardly any way on: it goes on in steps too small to get anywhere");
     } else {
+        const int32_t before = f->steps;
         if (f->path.count == 0) leave_flat(f);
         else go_on(f);
+        if (f->steps > before) note_node(f);
         if (f->outcome == RG_RUNNING && f->s >= rg_straight_frame_progress(f, f->frame)) return f->frame;
     }
     return -1;
@@ -262,7 +284,7 @@ rg_status rg_straight_step(rg_straight *f, rg_step_info *info)
     double from = rg_seconds();
     if (f->outcome == RG_RUNNING) {
         frame = f->apart.parts ? step_apart(f) : step(f);
-        if (frame >= 0) f->frame = frame + 1, f->idle = 0;
+        if (frame >= 0) f->frame = frame + 1;
         if (f->outcome == RG_RUNNING && f->frame == f->settings.frames) {
             f->outcome = RG_FOLDED;
             if (f->s_end >= 1) rg_straight_stop(f, "all frames are made");

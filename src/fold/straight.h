@@ -23,6 +23,8 @@ rg_status rg_straight_from_mesh_together(rg_mesh *m, const rg_settings *s, rg_st
 int32_t rg_straight_systems(const rg_straight *f, rg_straight *const **system);
 /* Of all systems. */
 rg_cost rg_straight_cost(const rg_straight *f);
+/* largest[N]: out, the most that each crease has turned at a node of the path, radians. */
+void rg_straight_largest(const rg_straight *f, double *largest);
 /* That of the system with most creases; never RG_SOLVER_AUTO. */
 rg_solver rg_straight_solver(const rg_straight *f);
 

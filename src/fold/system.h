@@ -44,6 +44,7 @@ struct rg_straight {
     double *trial, *wish, *t;     /* [N] */
     double *pull, *best;          /* [N] */
     double *end;                  /* [N] the folded state that is aimed at */
+    double *largest;              /* [N] the most that each has turned at a node, radians */
     double *k[3];                 /* [N] stages of heun and rk4; scratch of adaptive */
     rg_path path;                 /* adaptive: the nodes; the state lags behind the last one */
     double h;                     /* and the next step from there */
@@ -56,7 +57,7 @@ struct rg_straight {
     int32_t frame;                /* the next frame to reach */
     int32_t steps;
     int graded;                   /* the caller keeps ds below a part of what lies behind and before the state */
-    int32_t idle;                 /* steps since a frame was reached or ... */
+    int32_t idle;                 /* steps since ... */
     double idle_s;                /* ... progress was made, from there */
     int64_t assemblies;
     double moved;                 /* the farthest that a crease may have gone since the last factorisation */

@@ -110,8 +110,8 @@ static const int32_t MOST_PULLS = 12;
 static const double PAST = 1e-9;
 /* Steps at the most, whatever they are; and so many times what half a turn takes by the largest. */
 static const double MOST_STRAIGHT_STEPS = 20000, MOST_STRAIGHT_WAYS = 8;
-/* So many steps must reach a frame, or gain this much of the way, or, with steps that are small by order, this part of
- * what they could or, graded, of what lies behind or before them: a motion that only creeps is over. */
+/* So many steps must gain this much of the way or, where they are small by order, this part of what they could or, graded,
+ * of what lies behind or before them: a motion that only creeps is over. */
 static const int32_t MOST_CREEPING = 60;
 static const double LEAST_WAY = 1e-3, LEAST_WAY_PART = 0.01;
 
@@ -212,7 +212,8 @@ static const double LEFT_FLAT = 1e-6;
 /* Work of one try, about seconds of a slow machine, by effort. Of 97 real patterns that fold none needs more than 3.9
  * for it. */
 static const double MOST_WORK[] = {4, 8, 300};
-/* Where no try folds, those that were ended early share so many times that; one that comes back from the folded end if it has come so far. */
+/* Where no try folds, those that were ended early share so many times that; one that comes back from the folded end
+ * if it has come so far. */
 static const double MORE_WORK = 2, HALF_WAY = 0.5;
 /* What folds straight on, triangulated, takes a hundred steps or so. */
 static const int32_t MOST_STEPS_TRIANGULATED = 250;

@@ -18,8 +18,8 @@ void rg_attempt_free(rg_attempt *t)
     if (t->symmetry) rg_symmetry_free(t->symmetry);
     if (t->trace) rg_trace_free(t->trace);
     rg_mesh_free(&t->mesh);
-    RG_MEM_FREE(&t->mem, t->relax, t->trace, t->symmetry, t->target, t->from, t->rho, t->flat, t->due, t->vertex,
-                t->crease);
+    RG_MEM_FREE(&t->mem, t->relax, t->trace, t->symmetry, t->target, t->from, t->largest, t->rho, t->flat, t->due,
+                t->vertex, t->crease);
     rg_gaps_free(&t->gaps, &t->mem);
     memset(t, 0, sizeof *t);
 }
@@ -125,20 +125,17 @@ static void measure(rg_attempt *t)
     cut_back(t);
     t->score = score(t, last_state(t));
     t->moved_at_end = displacement(t, last_state(t));
-    for (int32_t k = 0; k < rg_attempt_states(t); k++) {
-        const double *z = rg_attempt_state(t, k);
-        double part;
-        t->overfold = fmax(t->overfold, beyond(t, z));
-        t->moved = fmax(t->moved, displacement(t, z));
-        for (int32_t i = 0; i < t->mesh.N; i++)
-            if (has_way(t, i, z, &part) && part < 0) t->wrong = fmax(t->wrong, fabs(z[i] - t->from[i]));
+    if (t->largest) t->overfold = beyond(t, t->largest);
+    for (int32_t k = 0; !t->largest && k < rg_attempt_states(t); k++) {
+        t->overfold = fmax(t->overfold, beyond(t, rg_attempt_state(t, k)));
+        t->moved = fmax(t->moved, displacement(t, rg_attempt_state(t, k)));
     }
 }
 
 double rg_attempt_largest_angle(const rg_attempt *t, int32_t i)
 {
-    double most = 0;
-    for (int32_t k = 0; k < rg_attempt_states(t); k++) most = fmax(most, fabs(rg_attempt_state(t, k)[i]));
+    double most = t->largest ? t->largest[i] : 0;
+    for (int32_t k = 0; !t->largest && k < rg_attempt_states(t); k++) most = fmax(most, fabs(rg_attempt_state(t, k)[i]));
     return most;
 }
 
@@ -195,6 +192,7 @@ static rg_status end_straight(rg_attempt *t, rg_straight *f, int cancelled)
     t->method = methods[f->settings.method];
     t->solver = solvers[rg_straight_solver(f)];
     t->cost = rg_straight_cost(f);
+    rg_straight_largest(f, t->largest);
     t->mesh = f->mesh;
     memset(&f->mesh, 0, sizeof f->mesh);
     measure(t);
@@ -222,7 +220,8 @@ rg_status rg_attempt_straight(rg_attempt *t, rg_mesh *m, const rg_settings *sett
     if (s != RG_OK) return s;
     s = make_room(t, &f->mesh);
     t->rho = rg_mem_array(&t->mem, ((size_t)settings->frames + 1) * (size_t)f->mesh.N, sizeof *t->rho);
-    if (!t->rho) s = RG_ENOMEM;
+    t->largest = rg_mem_array(&t->mem, (size_t)f->mesh.N, sizeof *t->largest);
+    if (!t->rho || !t->largest) s = RG_ENOMEM;
     if (s == RG_OK) rg_straight_set_most_steps(f, most_steps);
     if (s == RG_OK && keeps) s = keep_path(t, f, settings->frames);
     if (s == RG_OK) s = rg_attempt_run(t, f, parts, t->trace, watch);

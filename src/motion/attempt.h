@@ -18,6 +18,7 @@ typedef struct rg_attempt {
     double *target;           /* [mesh.N] what was aimed at, radians; NAN: nothing */
     double *from;             /* [mesh.N] where it began */
     rg_relax *relax;          /* owned; NULL: straight on */
+    double *largest;          /* [mesh.N] of what went straight on: the most that each turned at a node; else NULL */
     rg_trace *trace;          /* owned: the path of what went straight on; NULL: it was not kept */
     rg_symmetry *symmetry;    /* owned: what the relaxation keeps; NULL: none */
     int backwards;            /* found from its end: its path runs the other way round */
@@ -33,7 +34,6 @@ typedef struct rg_attempt {
     char reason[200];
     double score;             /* to compare attempts by: how far it came, 0 ... 1 */
     double overfold;          /* the most that a crease was beyond half a turn, radians */
-    double wrong;             /* the most that a driven crease was on its wrong side, radians */
     double moved;             /* the farthest that a vertex of the pattern went, lengths */
     double moved_at_end;
     int32_t strays;           /* driven creases flat or on their wrong side at the end of a part of the way which is not
