@@ -31,7 +31,7 @@ void rg_points_free(rg_points *p)
     memset(p, 0, sizeof *p);
 }
 
-static size_t slot(const rg_points *p, int64_t i, int64_t j)
+static inline size_t slot(const rg_points *p, int64_t i, int64_t j)
 {
     uint64_t h = (uint64_t)i * UINT64_C(0x9E3779B97F4A7C15) ^ (uint64_t)j * UINT64_C(0xC2B2AE3D27D4EB4F);
     h ^= h >> 29;
@@ -39,8 +39,23 @@ static size_t slot(const rg_points *p, int64_t i, int64_t j)
     return (size_t)(h >> 32) & (p->heads - 1);
 }
 
-static int64_t column(const rg_points *p, double x) { return (int64_t)floor((x - p->origin.x) / p->cell); }
-static int64_t row(const rg_points *p, double y) { return (int64_t)floor((y - p->origin.y) / p->cell); }
+/* The whole number below: a call of floor takes longer. */
+static inline int64_t below(double x)
+{
+    const int64_t i = (int64_t)x;
+    return i - (x < (double)i);
+}
+
+static inline int64_t column(const rg_points *p, double x) { return below((x - p->origin.x) / p->cell); }
+static inline int64_t row(const rg_points *p, double y) { return below((y - p->origin.y) / p->cell); }
+
+/* Cells that may have points within the tolerance of x: columns i[0] to i[1], rows j[0] to j[1]. */
+static inline void cells_about(const rg_points *p, rg_vec2 x, int64_t i[2], int64_t j[2])
+{
+    const double reach = p->tol + ROUNDING * p->cell;
+    i[0] = column(p, x.x - reach), i[1] = column(p, x.x + reach);
+    j[0] = row(p, x.y - reach), j[1] = row(p, x.y + reach);
+}
 
 static void link(rg_points *p, int32_t v)
 {
@@ -63,13 +78,12 @@ static rg_status rehash(rg_points *p, size_t heads)
 
 rg_status rg_points_add(rg_points *p, rg_vec2 x, int32_t *vertex)
 {
-    const double reach = p->tol + ROUNDING * p->cell;
-    const int64_t left = column(p, x.x - reach), right = column(p, x.x + reach);
-    const int64_t low = row(p, x.y - reach), high = row(p, x.y + reach);
+    int64_t columns[2], rows[2];
     double best = INFINITY;
     int32_t found = -1;
-    for (int64_t i = left; i <= right; i++)
-        for (int64_t j = low; j <= high; j++)
+    cells_about(p, x, columns, rows);
+    for (int64_t i = columns[0]; i <= columns[1]; i++)
+        for (int64_t j = rows[0]; j <= rows[1]; j++)
             for (int32_t v = p->head[slot(p, i, j)]; v >= 0; v = p->next[v]) {
                 const rg_vec2 off = rg_vec2_sub(p->X[v], x);
                 if (!(fabs(off.x) <= p->tol && fabs(off.y) <= p->tol)) continue;
@@ -80,23 +94,32 @@ rg_status rg_points_add(rg_points *p, rg_vec2 x, int32_t *vertex)
             }
     if (found >= 0) {
         p->merged_max = fmax(p->merged_max, best);
+        *vertex = found;
+        if (p->is_settled) return RG_OK;
         p->spread[found].sum.x += x.x - p->X[found].x;
         p->spread[found].sum.y += x.y - p->X[found].y;
         p->spread[found].count++;
-        *vertex = found;
         return RG_OK;
     }
     const size_t need = (size_t)p->count + 1;
     rg_status s = RG_MEM_GROW(&p->mem, p->X, p->room, need);
     if (s == RG_OK) s = RG_MEM_GROW(&p->mem, p->next, p->next_room, need);
-    if (s == RG_OK) s = RG_MEM_GROW(&p->mem, p->spread, p->spread_room, need);
-    if (s == RG_OK && need > p->heads) s = rehash(p, 2 * p->heads);
+    if (s == RG_OK && !p->is_settled) s = RG_MEM_GROW(&p->mem, p->spread, p->spread_room, need);
+    if (s == RG_OK && need > p->heads) s = rehash(p, 4 * p->heads);
     if (s != RG_OK) return s;
     p->X[p->count] = x;
-    p->spread[p->count] = (rg_spread){{0, 0}, 1};
+    if (!p->is_settled) p->spread[p->count] = (rg_spread){{0, 0}, 1};
     link(p, p->count);
     *vertex = p->count++;
     return RG_OK;
+}
+
+void rg_points_expect(const rg_points *p, rg_vec2 x)
+{
+    int64_t columns[2], rows[2];
+    cells_about(p, x, columns, rows);
+    for (int64_t i = columns[0]; i <= columns[1]; i++)
+        for (int64_t j = rows[0]; j <= rows[1]; j++) __builtin_prefetch(&p->head[slot(p, i, j)]);
 }
 
 void rg_points_forget(rg_points *p)
@@ -114,6 +137,9 @@ rg_status rg_points_settle(rg_points *p, int32_t *now)
         const rg_spread *d = &p->spread[v];
         p->X[v] = (rg_vec2){p->X[v].x + d->sum.x / d->count, p->X[v].y + d->sum.y / d->count};
     }
+    rg_mem_free(&p->mem, p->spread);
+    p->spread = NULL;
+    p->is_settled = 1;
     p->count = 0;
     memset(p->head, -1, p->heads * sizeof *p->head);
     rg_status s = RG_OK;

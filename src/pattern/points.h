@@ -17,7 +17,8 @@ typedef struct rg_points {
     double cell;
     rg_vec2 origin;
     int32_t *next, *head; /* chains of a hash table over square cells */
-    rg_spread *spread;
+    rg_spread *spread;    /* until the points have settled; later ones are not moved */
+    int is_settled;
     size_t room, next_room, spread_room, heads;
 } rg_points;
 
@@ -27,6 +28,8 @@ rg_status rg_points_init(rg_points *p, const rg_memory *mem, rg_vec2 origin, dou
 void rg_points_free(rg_points *p);
 /* The vertex within the tolerance of x, the nearest if there are several, or a new one. RG_ENOMEM. */
 rg_status rg_points_add(rg_points *p, rg_vec2 x, int32_t *vertex);
+/* That x will be added soon: memory is on its way then. Changes nothing. */
+void rg_points_expect(const rg_points *p, rg_vec2 x);
 /* Takes the newest vertex out again. */
 void rg_points_forget(rg_points *p);
 /* Moves every vertex to the mean of the points that it was made of, and merges those that are within the tolerance
