@@ -17,33 +17,70 @@ static const double HARDLY_FARTHER = 2;
  * nearest vertex that is no end of its own: INFINITY where that is more than can be sensible. */
 typedef struct loose { int32_t e, v; double line, vertex; int is_end; } loose;
 
-static void find_nearest_lines(const rg_graph *g, loose *told, int n)
+/* Those that are told, by x: a strip of the drawing knows the first of them that is in it or to the right of it. */
+enum { STRIPS = 64 };
+typedef struct strips {
+    loose *by_x[MOST_WARNINGS];
+    int n, first[STRIPS];
+    double left, per_strip;
+} strips;
+
+static void fill(const rg_graph *g, loose *told, int n, strips *s)
+{
+    s->n = 0;
+    for (int i = 0; i < n; i++) {
+        int k = s->n;
+        if (!told[i].is_end) continue;
+        for (; k > 0 && g->X[s->by_x[k - 1]->v].x > g->X[told[i].v].x; k--) s->by_x[k] = s->by_x[k - 1];
+        s->by_x[k] = &told[i];
+        s->n++;
+    }
+    if (s->n == 0) return;
+    s->left = g->X[s->by_x[0]->v].x;
+    s->per_strip = STRIPS / (g->X[s->by_x[s->n - 1]->v].x - s->left + SENSIBLE * g->size);
+    for (int i = 0, k = 0; i < STRIPS; i++) {
+        while (k < s->n && (g->X[s->by_x[k]->v].x - s->left) * s->per_strip < i) k++;
+        s->first[i] = k;
+    }
+}
+
+/* All that are told and not to the left of x are this one and those after it. */
+static int first_from(const strips *s, double x)
+{
+    const double strip = (x - s->left) * s->per_strip;
+    return strip < 1 ? 0 : strip >= STRIPS ? s->first[STRIPS - 1] : s->first[(int)strip];
+}
+
+static void find_nearest_lines(const rg_graph *g, const strips *s)
 {
     const double most = SENSIBLE * g->size;
-    for (int32_t e = 0; n > 0 && e < g->ne; e++) {
+    for (int32_t e = 0; s->n > 0 && e < g->ne; e++) {
         const rg_vec2 a = g->X[g->E[e].v[0]], b = g->X[g->E[e].v[1]], d = rg_vec2_sub(b, a);
         const rg_vec2 low = {(a.x < b.x ? a.x : b.x) - most, (a.y < b.y ? a.y : b.y) - most};
         const rg_vec2 high = {(a.x < b.x ? b.x : a.x) + most, (a.y < b.y ? b.y : a.y) + most};
-        for (int i = 0; i < n; i++) {
-            const rg_vec2 x = g->X[told[i].v], r = rg_vec2_sub(x, a);
-            if (!told[i].is_end || e == told[i].e) continue;
-            if (x.x < low.x || x.x > high.x || x.y < low.y || x.y > high.y) continue;
+        for (int i = first_from(s, low.x); i < s->n && g->X[s->by_x[i]->v].x <= high.x; i++) {
+            loose *l = s->by_x[i];
+            const rg_vec2 x = g->X[l->v], r = rg_vec2_sub(x, a);
+            if (e == l->e || x.x < low.x || x.y < low.y || x.y > high.y) continue;
             const double part = fmin(1, fmax(0, rg_vec2_dot(r, d) / rg_vec2_dot(d, d)));
-            told[i].line = fmin(told[i].line, hypot(r.x - part * d.x, r.y - part * d.y));
+            l->line = fmin(l->line, hypot(r.x - part * d.x, r.y - part * d.y));
         }
     }
 }
 
-static void find_nearest_vertices(const rg_graph *g, loose *told, int n)
+static void find_nearest_vertices(const rg_graph *g, const strips *s)
 {
-    const double most = HARDLY_FARTHER * SENSIBLE * g->size;
-    for (int32_t v = 0; n > 0 && v < g->nv; v++)
-        for (int i = 0; i < n; i++) {
-            const rg_vec2 r = rg_vec2_sub(g->X[told[i].v], g->X[v]);
-            const int32_t *own = g->E[told[i].e].v;
-            if (!told[i].is_end || fabs(r.x) > most || fabs(r.y) > most || v == own[0] || v == own[1]) continue;
-            told[i].vertex = fmin(told[i].vertex, hypot(r.x, r.y));
+    const double most = HARDLY_FARTHER * SENSIBLE * g->size, wide = 2 * most; /* rounding leaves none out */
+    for (int32_t v = 0; s->n > 0 && v < g->nv; v++) {
+        const rg_vec2 x = g->X[v];
+        for (int i = first_from(s, x.x - wide); i < s->n && g->X[s->by_x[i]->v].x <= x.x + wide; i++) {
+            loose *l = s->by_x[i];
+            const rg_vec2 r = rg_vec2_sub(g->X[l->v], x);
+            const int32_t *own = g->E[l->e].v;
+            if (fabs(r.x) > most || fabs(r.y) > most || v == own[0] || v == own[1]) continue;
+            l->vertex = fmin(l->vertex, hypot(r.x, r.y));
         }
+    }
 }
 
 static rg_status warn_loose(const rg_graph *g, rg_lines *lines, const loose *l)
@@ -68,8 +105,10 @@ static rg_status warn_of_all_loose(const rg_graph *g, rg_lines *lines, loose *to
 {
     const int n = count < MOST_WARNINGS ? (int)count : MOST_WARNINGS;
     rg_status s = RG_OK;
-    find_nearest_lines(g, told, n);
-    find_nearest_vertices(g, told, n);
+    strips by_x;
+    fill(g, told, n, &by_x);
+    find_nearest_lines(g, &by_x);
+    find_nearest_vertices(g, &by_x);
     for (int i = 0; s == RG_OK && i < n; i++) s = warn_loose(g, lines, &told[i]);
     if (s == RG_OK && count > n) s = rg_lines_warn(lines, 0, "%d more loose ends are left out", (int)(count - n));
     return s;

@@ -1,4 +1,5 @@
 #include "pattern/maps.h"
+#include "base/order.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +12,6 @@ enum { TRIES_UNSORTED = 8 };
 /* Vertices are sorted along a direction in which few are side by side. */
 static const double ACROSS_X = 0.3302, ACROSS_Y = 0.9439;
 
-typedef struct spot { double along; int32_t v; } spot;
 typedef struct ends { int32_t low, high, e; } ends;
 
 typedef struct search {
@@ -20,21 +20,16 @@ typedef struct search {
     const rg_edge *E;
     rg_vec2 middle;
     double tol;
-    spot *spots;                  /* [nv] sorted */
-    ends *edges;                  /* [ne] sorted */
+    const rg_memory *mem;
+    rg_keyed *spots;              /* [nv] vertices by how far along they are; NULL until one is looked for */
+    ends *edges;                  /* [ne] sorted; NULL until one is looked for */
     int32_t *vertex_to, *edge_to; /* [nv], [ne] where each of them goes */
     int32_t *taken;               /* [nv] the last try in which a vertex went there */
     int32_t tries;
-    int sorted; /* what is searched in is put in order when something is first looked for there */
+    rg_status status;             /* RG_ENOMEM: there was no room to sort */
 } search;
 
 static double along(rg_vec2 x) { return ACROSS_X * x.x + ACROSS_Y * x.y; }
-
-static int by_along(const void *a, const void *b)
-{
-    const spot *p = a, *q = b;
-    return p->along != q->along ? (p->along < q->along ? -1 : 1) : (p->v > q->v) - (p->v < q->v);
-}
 
 static int by_ends(const void *a, const void *b)
 {
@@ -50,7 +45,7 @@ static rg_vec2 from_middle(const search *s, int32_t v) { return rg_vec2_sub(s->X
 /* Non-zero while spot i may be nearer to x than `nearest`; *v, *nearest: updated. */
 static int nearer(const search *s, int32_t i, rg_vec2 x, double *nearest, int32_t *v)
 {
-    if (!(fabs(s->spots[i].along - along(x)) <= *nearest)) return 0;
+    if (!(fabs(s->spots[i].key - along(x)) <= *nearest)) return 0;
     const rg_vec2 off = rg_vec2_sub(from_middle(s, s->spots[i].v), x);
     if (!(fabs(off.x) <= *nearest && fabs(off.y) <= *nearest)) return 1;
     const double distance = rg_vec2_length(off);
@@ -65,7 +60,7 @@ static int32_t vertex_at(const search *s, rg_vec2 x)
     int32_t low = 0, high = s->nv, v = -1;
     while (low < high) {
         const int32_t half = low + (high - low) / 2;
-        if (s->spots[half].along < at) low = half + 1;
+        if (s->spots[half].key < at) low = half + 1;
         else high = half;
     }
     double nearest = s->tol;
@@ -81,14 +76,27 @@ static char exchanged(char assignment)
     return assignment == RG_MOUNTAIN ? RG_VALLEY : assignment == RG_VALLEY ? RG_MOUNTAIN : assignment;
 }
 
-static void sort(search *s)
+static rg_status sort_vertices(search *s)
 {
-    if (s->sorted) return;
-    for (int32_t v = 0; v < s->nv; v++) s->spots[v] = (spot){along(from_middle(s, v)), v};
+    const size_t nv = (size_t)s->nv;
+    rg_keyed *room;
+    int32_t *count;
+    if (s->spots) return RG_OK;
+    if (RG_MEM_ARRAYS(s->mem, RG_ARRAY(s->spots, nv), RG_ARRAY(room, nv), RG_ARRAY(count, nv)) != RG_OK) return RG_ENOMEM;
+    for (int32_t v = 0; v < s->nv; v++) s->spots[v] = (rg_keyed){along(from_middle(s, v)), v, 0};
+    rg_order_keyed(s->spots, s->nv, room, count);
+    RG_MEM_FREE(s->mem, room, count);
+    return RG_OK;
+}
+
+static rg_status sort_edges(search *s)
+{
+    if (s->edges) return RG_OK;
+    s->edges = rg_mem_array(s->mem, (size_t)s->ne, sizeof *s->edges);
+    if (!s->edges) return RG_ENOMEM;
     for (int32_t e = 0; e < s->ne; e++) s->edges[e] = ends_of(s->E[e].v[0], s->E[e].v[1], e);
-    qsort(s->spots, (size_t)s->nv, sizeof *s->spots, by_along);
     qsort(s->edges, (size_t)s->ne, sizeof *s->edges, by_ends);
-    s->sorted = 1;
+    return RG_OK;
 }
 
 static rg_vec2 image(const search *s, const rg_map *g, int32_t v)
@@ -112,9 +120,10 @@ static int move_vertices(search *s, const rg_map *g)
 {
     s->tries++;
     /* Most drawings have no symmetry, and do not have to be put in order to see it. */
-    const int few = !s->sorted && s->tries <= TRIES_UNSORTED;
+    const int few = !s->spots && s->tries <= TRIES_UNSORTED;
     if (few && !(is_there(s, image(s, g, s->nv / 2)) && is_there(s, image(s, g, s->nv / 3)))) return 0;
-    sort(s);
+    s->status = sort_vertices(s);
+    if (s->status != RG_OK) return 0;
     for (int32_t v = 0; v < s->nv; v++) {
         const int32_t to = vertex_at(s, image(s, g, v));
         if (to < 0 || s->taken[to] == s->tries) return 0;
@@ -128,6 +137,8 @@ static int move_vertices(search *s, const rg_map *g)
 static int applies(search *s, rg_map *g)
 {
     if (!move_vertices(s, g)) return 0;
+    s->status = sort_edges(s);
+    if (s->status != RG_OK) return 0;
     int same = 1, other = 1;
     for (int32_t e = 0; e < s->ne && (same || other); e++) {
         const ends key = ends_of(s->vertex_to[s->E[e].v[0]], s->vertex_to[s->E[e].v[1]], e);
@@ -195,8 +206,9 @@ static rg_status try_all(rg_maps *g, search *s)
                 continue;
             }
             rg_map map = {(x.x * y.x + xy * y.y) / both, (x.x * y.y - xy * y.x) / both, mirror, 0};
-            if (!applies(s, &map) || s->vertex_to[furthest] != v) continue;
-            const rg_status status = keep(g, &r, s, &map);
+            const int fits = applies(s, &map) && s->vertex_to[furthest] == v;
+            if (!fits && s->status == RG_OK) continue;
+            const rg_status status = fits ? keep(g, &r, s, &map) : s->status;
             if (status != RG_OK) return status;
         }
     }
@@ -214,12 +226,11 @@ static void fill(search *s)
 rg_status rg_maps_find(rg_maps *g, const rg_memory *mem, int32_t nv, const rg_vec2 *X, int32_t ne, const rg_edge *E,
                        double tol)
 {
-    search s = {.nv = nv, .ne = ne, .X = X, .E = E, .tol = tol};
+    search s = {.mem = mem, .nv = nv, .ne = ne, .X = X, .E = E, .tol = tol};
     memset(g, 0, sizeof *g);
     g->mem = *mem;
     g->nv = nv, g->ne = ne;
-    rg_status status = RG_MEM_ARRAYS(mem, RG_ARRAY(s.spots, (size_t)nv), RG_ARRAY(s.edges, (size_t)ne),
-                                     RG_ARRAY(s.vertex_to, (size_t)nv), RG_ARRAY(s.edge_to, (size_t)ne),
+    rg_status status = RG_MEM_ARRAYS(mem, RG_ARRAY(s.vertex_to, (size_t)nv), RG_ARRAY(s.edge_to, (size_t)ne),
                                      RG_ARRAY(s.taken, (size_t)nv));
     if (status == RG_OK && nv > 0) {
         fill(&s);

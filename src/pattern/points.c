@@ -1,6 +1,6 @@
 #include "pattern/points.h"
+#include "base/order.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* Cells of a sheet's side where the tolerance asks for more: cell numbers stay whole in a double and in 64 bits. */
@@ -147,23 +147,16 @@ rg_status rg_points_settle(rg_points *p, int32_t *now)
     return s;
 }
 
-typedef struct swept { double key; int32_t v; } swept;
-
-static int by_key(const void *a, const void *b)
-{
-    const swept *p = a, *q = b;
-    if (p->key != q->key) return p->key < q->key ? -1 : 1;
-    return p->v < q->v ? -1 : p->v > q->v;
-}
-
 /* Swept along a direction that no drawing is aligned with, so that rows and columns of a grid do not fall together. */
 rg_status rg_points_nearest(const rg_memory *mem, const rg_vec2 *X, int32_t n, double *distance, int32_t *at)
 {
     static const rg_vec2 along = {0.8253356149096783, 0.5646424733950354}; /* (cos, sin) of 0.6 */
-    swept *line = rg_mem_array(mem, (size_t)n, sizeof *line);
-    if (!line) return RG_ENOMEM;
-    for (int32_t v = 0; v < n; v++) line[v] = (swept){rg_vec2_dot(along, X[v]), v};
-    qsort(line, (size_t)n, sizeof *line, by_key);
+    rg_keyed *line, *room;
+    int32_t *count;
+    const rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(line, (size_t)n), RG_ARRAY(room, (size_t)n), RG_ARRAY(count, (size_t)n));
+    if (s != RG_OK) return s;
+    for (int32_t v = 0; v < n; v++) line[v] = (rg_keyed){rg_vec2_dot(along, X[v]), v, 0};
+    rg_order_keyed(line, n, room, count);
     *distance = INFINITY;
     for (int32_t i = 0; i < n; i++)
         for (int32_t j = i + 1; j < n && line[j].key - line[i].key < *distance; j++) {
@@ -174,6 +167,6 @@ rg_status rg_points_nearest(const rg_memory *mem, const rg_vec2 *X, int32_t n, d
             *distance = d;
             if (at) *at = line[i].v;
         }
-    rg_mem_free(mem, line);
+    RG_MEM_FREE(mem, line, room, count);
     return RG_OK;
 }
