@@ -11,6 +11,11 @@ void rg_check_sectors(const struct rg_pattern *p, int32_t v, double *theta)
 {
     const int32_t *star = p->star + p->star_start[v], n = p->star_start[v + 1] - p->star_start[v];
     for (int32_t i = 0; i < n; i++) {
+        if (p->star_start[v] + i + 2 * RG_SOON < p->star_start[p->nv]) {
+            rg_mem_soon(&p->E[star[i + 2 * RG_SOON]]);
+            rg_mem_soon(&p->X[p->E[star[i + RG_SOON]].v[0]]);
+            rg_mem_soon(&p->X[p->E[star[i + RG_SOON]].v[1]]);
+        }
         const rg_edge *e = &p->E[star[i]], *f = &p->E[star[(i + 1) % n]];
         const rg_vec2 a = rg_vec2_sub(p->X[e->v[e->v[0] == v]], p->X[v]);
         const rg_vec2 b = rg_vec2_sub(p->X[f->v[f->v[0] == v]], p->X[v]);

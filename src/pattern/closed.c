@@ -41,6 +41,8 @@ rg_status rg_closed_find(struct rg_pattern *p)
     if (!theta) return RG_ENOMEM;
     for (int32_t v = 0; s == RG_OK && v < p->nv; v++) {
         const int32_t *star = p->star + p->star_start[v], n = p->star_start[v + 1] - p->star_start[v];
+        for (int32_t i = 0; i < n && p->star_start[v] + i + RG_SOON < p->star_start[p->nv]; i++)
+            rg_mem_soon(&p->E[star[i + RG_SOON]]);
         if (p->rim[v] || n < 3 || !may_close(p, star, n)) continue;
         rg_check_sectors(p, v, theta);
         int found = 0;

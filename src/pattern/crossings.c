@@ -191,6 +191,7 @@ static rg_status find_all(rg_splitter *s)
     size_t room = 0;
     rg_status status = RG_OK;
     for (int32_t e = 0; status == RG_OK && e < s->ne; e++) {
+        if (e + RG_SOON < s->ne) rg_mem_soon(&s->place[s->E[e + RG_SOON].v[1]]);
         if (visit_edge(s, e, COUNT)) {
             status = RG_MEM_GROW(&s->mem, near, room, (size_t)count + 1);
             if (status == RG_OK) near[count++] = e;
@@ -199,6 +200,7 @@ static rg_status find_all(rg_splitter *s)
     }
     if (status == RG_OK) status = make_starts(s, &s->all);
     for (int32_t k = 0; status == RG_OK && k < count; k++) {
+        if (k + RG_SOON < count) rg_mem_soon(&s->points.X[s->E[near[k + RG_SOON]].v[1]]);
         visit_edge(s, near[k], FILL);
         status = rg_splitter_done(s, 1);
     }
@@ -286,7 +288,8 @@ static rg_status find_crossings(rg_splitter *s, const rg_cell_edges *in)
     }
     if (pairs > MOST_PAIRS) return s->too_many = "lines in one place", RG_EFORMAT;
     const double from = s->progress, left = (ENDS - from) / 2; /* later rounds share the rest */
-    const double all = (double)(pairs + in->start[cells] + 1);
+    const int32_t entries = in->start[cells];
+    const double all = (double)(pairs + entries + 1);
     int64_t seen = 0;
     enum { BATCH = 256 };
     crossing batch[BATCH];
@@ -299,6 +302,8 @@ static rg_status find_crossings(rg_splitter *s, const rg_cell_edges *in)
             const rg_status asked = rg_splitter_done(s, in->start[c + 1] - i);
             if (asked != RG_OK) return asked;
             const int32_t e = in->edge[i], is_fresh = s->fresh[e];
+            if (i + 2 * RG_SOON < entries) rg_mem_soon(&s->E[in->edge[i + 2 * RG_SOON]]);
+            if (i + RG_SOON < entries) rg_mem_soon(&s->points.X[s->E[in->edge[i + RG_SOON]].v[1]]);
             for (int32_t j = i + 1; j < in->start[c + 1]; j++) {
                 const int32_t f = in->edge[j];
                 rg_vec2 x;

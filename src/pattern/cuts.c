@@ -37,8 +37,10 @@ static double square_of(const rg_splitter *s, int32_t u, int32_t v)
 static int32_t cuts_to_make(const rg_splitter *s, const rg_edge *e, const rg_keyed *cuts, int32_t n)
 {
     const double whole = n > 1 ? square_of(s, e->v[0], e->v[1]) : 0;
-    for (int32_t i = 1; i < n; i++)
+    for (int32_t i = 1; i < n; i++) {
+        if (i + RG_SOON < n) rg_mem_soon(&s->points.X[cuts[i + RG_SOON].v]);
         if (!(square_of(s, cuts[i - 1].v, cuts[i].v) < whole)) return 1;
+    }
     return n;
 }
 
@@ -74,6 +76,7 @@ static void cut(rg_splitter *s, int32_t e, const rg_keyed *cuts, int32_t n, int 
     const rg_edge whole = rest;
     int bent = left; /* from the last cut on; what is still to be cut has to be looked at */
     for (int32_t i = 0; i < n; i++) {
+        if (i + RG_SOON < n) rg_mem_soon(&s->points.X[cuts[i + RG_SOON].v]);
         const int bends = left || !stays(s, &whole, cuts[i].v);
         s->fresh_count += s->fresh[to] = (unsigned char)(bent || bends);
         bent = bends;

@@ -44,18 +44,21 @@ rg_status rg_star_init(rg_star *s, const rg_memory *mem, int32_t nv, int32_t ne,
 {
     memset(s, 0, sizeof *s);
     s->mem = *mem;
-    spoke *spokes;
-    if (RG_MEM_ARRAYS(mem, RG_ARRAY(s->start, (size_t)nv + 2), RG_ARRAY(s->edge, 2 * (size_t)ne),
-                      RG_ARRAY(spokes, 2 * (size_t)ne)) != RG_OK) {
-        rg_mem_free(mem, spokes);
-        return RG_ENOMEM;
-    }
+    spoke *spokes = NULL;
+    size_t room = 0;
+    if (RG_MEM_ARRAYS(mem, RG_ARRAY(s->start, (size_t)nv + 2), RG_ARRAY(s->edge, 2 * (size_t)ne)) != RG_OK ||
+        RG_MEM_GROW(mem, spokes, room, 2 * (size_t)ne) != RG_OK) return RG_ENOMEM;
     int32_t *cursor = s->start + 1;
     for (int32_t e = 0; e < ne; e++)
         for (int i = 0; i < 2; i++) s->start[E[e].v[i] + 2]++;
     for (int32_t v = 2; v <= nv; v++) s->start[v] += s->start[v - 1];
     for (int32_t e = 0; e < ne; e++)
         for (int i = 0; i < 2; i++) {
+            if (e + 2 * RG_SOON < ne) {
+                rg_mem_soon(&cursor[E[e + 2 * RG_SOON].v[i]]);
+                rg_mem_soon(&X[E[e + 2 * RG_SOON].v[i]]);
+                rg_mem_soon(&spokes[cursor[E[e + RG_SOON].v[i]]]);
+            }
             rg_vec2 d = rg_vec2_sub(X[E[e].v[!i]], X[E[e].v[i]]);
             spokes[cursor[E[e].v[i]]++] = (spoke){turn_of(d), e};
         }
@@ -85,6 +88,7 @@ rg_status rg_faces_init(rg_faces *f, const rg_memory *mem, int32_t nv, int32_t n
     for (int32_t v = 0; v < nv; v++)
         for (int32_t j = star_start[v]; j < star_start[v + 1]; j++) {
             const int32_t e = star[j], before = star[j > star_start[v] ? j - 1 : star_start[v + 1] - 1];
+            if (j + RG_SOON < star_start[nv]) rg_mem_soon(&E[star[j + RG_SOON]]);
             const int32_t arriving = 2 * e + (E[e].v[0] == v), leaving = 2 * before + (E[before].v[1] == v);
             f->next[arriving] = leaving;
         }

@@ -11,7 +11,10 @@ rg_status rg_graph_compact(rg_graph *g, const unsigned char *drop)
     for (int32_t e = 0; e < g->ne; e++)
         if (!drop[e]) g->E[n++] = g->E[e];
     g->ne = n;
-    for (int32_t e = 0; e < n; e++) number[g->E[e].v[0]] = number[g->E[e].v[1]] = 1;
+    for (int32_t e = 0; e < n; e++) {
+        if (e + RG_SOON < n) rg_mem_soon(&number[g->E[e + RG_SOON].v[1]]);
+        number[g->E[e].v[0]] = number[g->E[e].v[1]] = 1;
+    }
     n = 0;
     for (int32_t v = 0; v < g->nv; v++) {
         if (!number[v]) continue;
@@ -20,7 +23,10 @@ rg_status rg_graph_compact(rg_graph *g, const unsigned char *drop)
     }
     g->nv = n;
     for (int32_t e = 0; e < g->ne; e++)
-        for (int i = 0; i < 2; i++) g->E[e].v[i] = number[g->E[e].v[i]];
+        for (int i = 0; i < 2; i++) {
+            if (e + RG_SOON < g->ne) rg_mem_soon(&number[g->E[e + RG_SOON].v[i]]);
+            g->E[e].v[i] = number[g->E[e].v[i]];
+        }
     rg_mem_free(&g->mem, number);
     return RG_OK;
 }

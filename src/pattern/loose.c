@@ -114,29 +114,28 @@ static rg_status warn_of_all_loose(const rg_graph *g, rg_lines *lines, loose *to
     return s;
 }
 
-/* Edges that end in the middle of a facet, or outside the sheet, from their free ends inwards. `sum[v]` adds up the
- * edges at v, so that the last one of a vertex is known without a list. */
+/* Edges that end in the middle of a facet, or outside the sheet, from their free ends inwards. `sum` adds up the
+ * edges at a vertex, so that the last one of a vertex is known without a list. */
 rg_status rg_loose_drop(rg_graph *g, rg_lines *lines)
 {
-    int32_t *degree;
-    int64_t *sum;
+    struct { int64_t sum; int32_t degree; } *at;
     unsigned char *drop;
-    rg_status s = RG_MEM_ARRAYS(&g->mem, RG_ARRAY(degree, (size_t)g->nv), RG_ARRAY(sum, (size_t)g->nv),
-                                RG_ARRAY(drop, (size_t)g->ne));
+    rg_status s = RG_MEM_ARRAYS(&g->mem, RG_ARRAY(at, (size_t)g->nv), RG_ARRAY(drop, (size_t)g->ne));
     for (int32_t e = 0; s == RG_OK && e < g->ne; e++)
         for (int i = 0; i < 2; i++) {
-            degree[g->E[e].v[i]]++;
-            sum[g->E[e].v[i]] += e;
+            if (e + RG_SOON < g->ne) rg_mem_soon(&at[g->E[e + RG_SOON].v[i]]);
+            at[g->E[e].v[i]].degree++;
+            at[g->E[e].v[i]].sum += e;
         }
     loose told[MOST_WARNINGS];
     int32_t count = 0, lone = 0; /* lone: vertices without an edge */
-    for (int32_t v = 0; s == RG_OK && v < g->nv; v++) lone += degree[v] == 0;
+    for (int32_t v = 0; s == RG_OK && v < g->nv; v++) lone += at[v].degree == 0;
     for (int32_t start = 0; s == RG_OK && start < g->nv; start++)
-        for (int32_t v = start; degree[v] == 1;) {
-            const int32_t e = (int32_t)sum[v], w = g->E[e].v[0] == v ? g->E[e].v[1] : g->E[e].v[0];
+        for (int32_t v = start; at[v].degree == 1;) {
+            const int32_t e = (int32_t)at[v].sum, w = g->E[e].v[0] == v ? g->E[e].v[1] : g->E[e].v[0];
             drop[e] = 1;
-            degree[v]--, degree[w]--;
-            sum[w] -= e;
+            at[v].degree--, at[w].degree--;
+            at[w].sum -= e;
             g->loose += g->E[e].assignment != RG_BORDER;
             if (count < MOST_WARNINGS) told[count] = (loose){e, v, INFINITY, INFINITY, v == start};
             count++;
@@ -144,6 +143,6 @@ rg_status rg_loose_drop(rg_graph *g, rg_lines *lines)
         }
     if (s == RG_OK) s = warn_of_all_loose(g, lines, told, count);
     if (s == RG_OK && count + lone > 0) s = rg_graph_compact(g, drop);
-    RG_MEM_FREE(&g->mem, degree, sum, drop);
+    RG_MEM_FREE(&g->mem, at, drop);
     return s;
 }

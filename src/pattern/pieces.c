@@ -38,7 +38,10 @@ static void find_parts(drawing *d)
 {
     const rg_graph *g = d->g;
     for (int32_t v = 0; v < g->nv; v++) d->of[v] = v, d->part[v] = (part){-1, -1, g->X[v], g->X[v], 0};
-    for (int32_t e = 0; e < g->ne; e++) rg_class_join(d->of, g->E[e].v[0], g->E[e].v[1]);
+    for (int32_t e = 0; e < g->ne; e++) {
+        if (e + RG_SOON < g->ne) rg_mem_soon(&d->of[g->E[e + RG_SOON].v[1]]);
+        rg_class_join(d->of, g->E[e].v[0], g->E[e].v[1]);
+    }
     for (int32_t v = 0; v < g->nv; v++) {
         part *p = &d->part[d->of[v] = rg_class_of(d->of, v)];
         p->low = (rg_vec2){fmin(p->low.x, g->X[v].x), fmin(p->low.y, g->X[v].y)};

@@ -66,6 +66,7 @@ static rg_status sort_edges(const rg_splitter *s, int32_t *start, keyed **key)
     rg_status status = RG_OK;
     for (int32_t e = 0; status == RG_OK && e < s->ne; e++) {
         if (!may_be_double(s, &s->E[e])) continue;
+        if (e + RG_SOON < s->ne) rg_mem_soon(&start[lower(&s->E[e + RG_SOON]) + 2]);
         status = RG_MEM_GROW(&s->mem, list, room, (size_t)n + 1);
         if (status != RG_OK) break;
         list[n++] = e;
@@ -76,6 +77,7 @@ static rg_status sort_edges(const rg_splitter *s, int32_t *start, keyed **key)
     for (int32_t i = 0; status == RG_OK && i < n; i++) {
         const rg_edge *edge = &s->E[list[i]];
         const int32_t low = lower(edge);
+        if (i + RG_SOON < n) rg_mem_soon(&start[lower(&s->E[list[i + RG_SOON]]) + 1]);
         (*key)[start[low + 1]++] = (keyed){edge->v[0] + edge->v[1] - low, list[i], rg_overlap_rank(edge->assignment)};
     }
     for (int32_t v = 0; status == RG_OK && v < nv; v++)

@@ -119,7 +119,7 @@ void rg_points_expect(const rg_points *p, rg_vec2 x)
     int64_t columns[2], rows[2];
     cells_about(p, x, columns, rows);
     for (int64_t i = columns[0]; i <= columns[1]; i++)
-        for (int64_t j = rows[0]; j <= rows[1]; j++) __builtin_prefetch(&p->head[slot(p, i, j)]);
+        for (int64_t j = rows[0]; j <= rows[1]; j++) rg_mem_soon(&p->head[slot(p, i, j)]);
 }
 
 void rg_points_forget(rg_points *p)

@@ -80,6 +80,7 @@ static void find_rim(const rg_graph *g, const rg_faces *f, unsigned char *rim, u
 static rg_status check_inside(const rg_graph *g, const rg_faces *f, const unsigned char *outer, const rg_lines *lines,
                               rg_pattern_info *info)
 {
+    if (!info->is_disk) return RG_OK; /* the reason is told already */
     int32_t *seen = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *seen);
     if (!seen) return RG_ENOMEM;
     for (int32_t k = 0; k < f->count; k++) {
