@@ -12,6 +12,8 @@ static const int64_t MOST_PAIRS = (int64_t)1 << 34;
 static const int64_t MOST_ENTRIES = (int64_t)1 << 28;
 /* Cells of the search grid, side by side: memory, and what one long line crosses, stay small. */
 static const double MOST_SIDE = 1024;
+/* Less than one edge of so many is fresh: then most are far from all that are. */
+enum { FEW = 100 };
 /* What comes after this part of the time is as good as nothing. */
 static const double ENDS = 0.95;
 
@@ -187,11 +189,19 @@ static rg_status find_news(rg_splitter *s)
 /* All edges in cells where something is to be looked at. */
 static rg_status find_all(rg_splitter *s)
 {
+    const int many = s->fresh_count > s->ne / FEW;
     int32_t *near = NULL, count = 0; /* those that are in any of these cells */
     size_t room = 0;
     rg_status status = RG_OK;
     for (int32_t e = 0; status == RG_OK && e < s->ne; e++) {
-        if (e + RG_SOON < s->ne) rg_mem_soon(&s->place[s->E[e + RG_SOON].v[1]]);
+        if (e + 2 * RG_SOON < s->ne) {
+            const int32_t v = s->E[e + RG_SOON].v[1];
+            rg_mem_soon(&s->place[s->E[e + 2 * RG_SOON].v[1]]);
+            if (many) {
+                rg_mem_soon(&s->points.X[v]);
+                if (s->place[v].column >= 0) rg_mem_soon(&s->all.start[cell_at(s, s->place[v].column >> 1, s->place[v].row >> 1)]);
+            }
+        }
         if (visit_edge(s, e, COUNT)) {
             status = RG_MEM_GROW(&s->mem, near, room, (size_t)count + 1);
             if (status == RG_OK) near[count++] = e;
@@ -256,10 +266,11 @@ static rg_status cut_crossing(rg_splitter *s, const crossing *k)
 /* Some of one cell. Where a vertex may be nearby is asked of memory some crossings before it is needed. */
 static rg_status cut_crossings(rg_splitter *s, const crossing *k, int32_t n)
 {
-    enum { AHEAD = 8 };
     rg_status status = RG_OK;
-    for (int32_t i = -AHEAD; status == RG_OK && i < n; i++) {
-        if (i + AHEAD < n) rg_points_expect(&s->points, k[i + AHEAD].x);
+    for (int32_t i = -RG_SOON; status == RG_OK && i < n; i++) {
+        const int32_t later = i + RG_SOON, soon = i + RG_SOON / 2;
+        if (later < n) rg_points_expect(&s->points, k[later].x, 0);
+        if (soon >= 0 && soon < n) rg_points_expect(&s->points, k[soon].x, 1);
         if (i >= 0) status = cut_crossing(s, &k[i]);
     }
     return status;

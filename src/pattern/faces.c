@@ -94,6 +94,11 @@ rg_status rg_faces_init(rg_faces *f, const rg_memory *mem, int32_t nv, int32_t n
         }
     for (int32_t h = 0; h < halves; h++) f->face[h] = -1;
     for (int32_t h = 0; h < halves; h++) {
+        if (h + 2 * RG_SOON < halves) {
+            const int32_t second = f->next[h + 2 * RG_SOON], third = f->next[f->next[h + RG_SOON]];
+            rg_mem_soon(&f->next[second]), rg_mem_soon(&f->face[second]), rg_mem_soon(&E[second >> 1]);
+            rg_mem_soon(&f->next[third]), rg_mem_soon(&f->face[third]), rg_mem_soon(&E[third >> 1]);
+        }
         if (f->face[h] >= 0) continue;
         const rg_vec2 from = X[rg_tail(E, h)]; /* sums of small numbers round less */
         double twice = 0;

@@ -114,12 +114,16 @@ rg_status rg_points_add(rg_points *p, rg_vec2 x, int32_t *vertex)
     return RG_OK;
 }
 
-void rg_points_expect(const rg_points *p, rg_vec2 x)
+void rg_points_expect(const rg_points *p, rg_vec2 x, int soon)
 {
     int64_t columns[2], rows[2];
     cells_about(p, x, columns, rows);
     for (int64_t i = columns[0]; i <= columns[1]; i++)
-        for (int64_t j = rows[0]; j <= rows[1]; j++) rg_mem_soon(&p->head[slot(p, i, j)]);
+        for (int64_t j = rows[0]; j <= rows[1]; j++) {
+            const int32_t *head = &p->head[slot(p, i, j)];
+            if (!soon) rg_mem_soon(head);
+            else if (*head >= 0) rg_mem_soon(&p->X[*head]), rg_mem_soon(&p->next[*head]);
+        }
 }
 
 void rg_points_forget(rg_points *p)
