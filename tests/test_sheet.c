@@ -51,6 +51,24 @@ static void is_disk(const rg_pattern *p)
     assert_string_equal(info.not_disk, "");
 }
 
+/* Whatever was dissolved, each vertex knows all edges that end at it, once around by their directions. */
+static void stars_are_whole(const rg_pattern *p)
+{
+    int32_t ends = 0;
+    for (int32_t v = 0; v < p->nv; v++) {
+        double before = -INFINITY;
+        for (int32_t j = p->star_start[v]; j < p->star_start[v + 1]; j++, ends++) {
+            const int32_t *end = p->E[p->star[j]].v;
+            assert_true(end[0] == v || end[1] == v);
+            const rg_vec2 d = rg_vec2_sub(p->X[end[end[0] == v]], p->X[v]);
+            const double angle = atan2(d.y, d.x);
+            assert_true(angle > before);
+            before = angle;
+        }
+    }
+    assert_int_equal(ends, 2 * p->ne);
+}
+
 /* Refused as a sheet, in those words, and so by what would fold it. */
 static void no_disk(const rg_pattern *p, const char *words)
 {
@@ -234,6 +252,7 @@ static void chains(void **state)
         rg_pattern *p = turned(&l, (int)round % 8);
         is_disk(p);
         counts(p, 4 + 2 + 2 * (PARTS - 1), 6 + 2 * (PARTS - 1) + 1, 2, 1, 0, 6);
+        stars_are_whole(p);
         rg_pattern_destroy(p);
     }
 }
@@ -263,6 +282,7 @@ static void nothing_drifts_beyond_the_tolerance(void **state)
             below(off, 2 * 2e-5 * (1 + 1e-9));
         }
         if (n >= 1000) assert_true(p->nv < n);
+        stars_are_whole(p);
         rg_pattern_destroy(p);
         free(x);
     }
@@ -280,6 +300,7 @@ static void patchworks(void **state)
         draw_patchwork(&l, 2 + round % 6, 0.1 + 0.08 * (round % 9), &seed);
         rg_pattern *p = pattern_of(&l);
         const rg_pattern_info info = info_of(p);
+        stars_are_whole(p);
         if (info.is_disk) {
             assert_int_equal(info.vertices - info.edges + info.facets, 1);
             assert_int_equal(p->nv - p->ne + info.facets, 1);

@@ -90,7 +90,6 @@ static rg_status go_on(const rg_reading *r, int step, rg_diag *why)
 static rg_status build(struct rg_pattern *p, const rg_reading *settings, rg_diag *why)
 {
     rg_graph g = {.mem = p->mem};
-    rg_star star = {.mem = p->mem};
     rg_walk walk = {.there = 0};
     rg_status s = rg_planar_from_lines(&p->lines, settings, &g, why);
     if (s == RG_OK) s = go_on(settings, 0, why);
@@ -105,21 +104,21 @@ static rg_status build(struct rg_pattern *p, const rg_reading *settings, rg_diag
     if (s == RG_OK) s = rg_points_nearest(&p->mem, g.X, g.nv, &p->info.kept_min, NULL);
     if (s == RG_OK) s = go_on(settings, 1, why);
     if (s == RG_OK) s = rg_sheet_from_graph(&g, &walk, settings->merge * g.size, &p->lines, &p->info, &p->rim);
-    rg_walk_free(&walk);
     if (s == RG_OK) s = go_on(settings, 2, why);
     if (s == RG_OK) s = rg_source_init(&p->source, &g, &p->lines);
-    if (s == RG_OK) s = rg_star_init(&star, &p->mem, g.nv, g.ne, g.X, g.E);
     if (s != RG_OK) {
         rg_graph_free(&g);
-        rg_star_free(&star);
+        rg_walk_free(&walk);
         return s;
     }
     p->nv = g.nv;
     p->ne = g.ne;
     p->X = g.X;
     p->E = g.E;
-    p->star_start = star.start;
-    p->star = star.edge;
+    p->star_start = walk.star.start;
+    p->star = walk.star.edge;
+    walk.star = (rg_star){.mem = p->mem};
+    rg_walk_free(&walk);
     count(p);
     s = go_on(settings, 3, why);
     if (s == RG_OK) s = rg_check_vertices(p);

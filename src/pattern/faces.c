@@ -69,6 +69,27 @@ rg_status rg_star_init(rg_star *s, const rg_memory *mem, int32_t nv, int32_t ne,
     return RG_OK;
 }
 
+rg_status rg_star_sort(rg_star *s, int32_t nv, const rg_vec2 *X, const rg_edge *E, const unsigned char *which)
+{
+    spoke *spokes = NULL;
+    size_t room = 0;
+    rg_status status = RG_OK;
+    for (int32_t v = 0; status == RG_OK && v < nv; v++) {
+        const int32_t n = s->start[v + 1] - s->start[v];
+        int32_t *edge = s->edge + s->start[v];
+        if (!which[v]) continue;
+        status = RG_MEM_GROW(&s->mem, spokes, room, (size_t)n);
+        for (int32_t i = 0; status == RG_OK && i < n; i++) {
+            const int32_t *end = E[edge[i]].v;
+            spokes[i] = (spoke){turn_of(rg_vec2_sub(X[end[end[0] == v]], X[v])), edge[i]};
+        }
+        if (status == RG_OK) sort(spokes, n);
+        for (int32_t i = 0; status == RG_OK && i < n; i++) edge[i] = spokes[i].e;
+    }
+    rg_mem_free(&s->mem, spokes);
+    return status;
+}
+
 void rg_star_free(rg_star *s)
 {
     if (!s->mem.resize) return;

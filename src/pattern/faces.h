@@ -15,6 +15,8 @@ typedef struct rg_star {
 /* RG_ENOMEM. Owner of both: the caller, rg_star_free, rg_faces_free, also after a failure. */
 rg_status rg_star_init(rg_star *s, const rg_memory *mem, int32_t nv, int32_t ne, const rg_vec2 *X, const rg_edge *E);
 void rg_star_free(rg_star *s);
+/* Puts the edges of those vertices in order where which[v] != 0, whose edges have changed. RG_ENOMEM. */
+rg_status rg_star_sort(rg_star *s, int32_t nv, const rg_vec2 *X, const rg_edge *E, const unsigned char *which);
 
 typedef struct rg_faces {
     rg_memory mem;

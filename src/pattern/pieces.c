@@ -7,6 +7,7 @@
 
 /* What hangs together, by the lowest of its vertices. */
 typedef struct part {
+    int32_t lowest;
     int32_t outside; /* a half-edge of its outer border; -1: it has none */
     int32_t sheet;   /* the piece that it belongs to, from 0; -1: none */
     rg_vec2 low, high;
@@ -17,7 +18,8 @@ typedef struct drawing {
     const rg_graph *g;
     const rg_faces *faces;
     int32_t *of;   /* [nv] the part of a vertex */
-    part *part;    /* [nv] those at the lowest vertex of a part are */
+    part *part;    /* [parts] by their lowest vertices */
+    int32_t parts;
 } drawing;
 
 /* Does a ray from x cross the outer border of a part an odd number of times? */
@@ -34,16 +36,23 @@ static int encloses(const drawing *d, const part *p, rg_vec2 x)
     return odd;
 }
 
-static void find_parts(drawing *d)
+static rg_status find_parts(drawing *d)
 {
     const rg_graph *g = d->g;
-    for (int32_t v = 0; v < g->nv; v++) d->of[v] = v, d->part[v] = (part){-1, -1, g->X[v], g->X[v], 0};
+    for (int32_t v = 0; v < g->nv; v++) d->of[v] = v;
     for (int32_t e = 0; e < g->ne; e++) {
         if (e + RG_SOON < g->ne) rg_mem_soon(&d->of[g->E[e + RG_SOON].v[1]]);
         rg_class_join(d->of, g->E[e].v[0], g->E[e].v[1]);
     }
-    for (int32_t v = 0; v < g->nv; v++) {
-        part *p = &d->part[d->of[v] = rg_class_of(d->of, v)];
+    for (int32_t v = 0; v < g->nv; v++) d->parts += (d->of[v] = rg_class_of(d->of, v)) == v;
+    d->part = rg_mem_array(&g->mem, (size_t)d->parts, sizeof *d->part);
+    if (!d->part) return RG_ENOMEM;
+    int32_t parts = 0;
+    for (int32_t v = 0; v < g->nv; v++) { /* the lowest of a part comes before the others */
+        const int is_first = d->of[v] == v;
+        d->of[v] = is_first ? parts++ : d->of[d->of[v]];
+        part *p = &d->part[d->of[v]];
+        if (is_first) *p = (part){v, -1, -1, g->X[v], g->X[v], 0};
         p->low = (rg_vec2){fmin(p->low.x, g->X[v].x), fmin(p->low.y, g->X[v].y)};
         p->high = (rg_vec2){fmax(p->high.x, g->X[v].x), fmax(p->high.y, g->X[v].y)};
     }
@@ -52,22 +61,24 @@ static void find_parts(drawing *d)
         part *p = &d->part[d->of[rg_tail(g->E, d->faces->first[k])]];
         if (d->faces->area[k] < p->area) p->area = d->faces->area[k], p->outside = d->faces->first[k];
     }
+    return RG_OK;
 }
 
-/* The part around this one that lies in no other; itself: there is none. */
-static int32_t outmost(const drawing *d, const int32_t *parts, int32_t count, int32_t v)
+/* The part around part k that lies in no other; itself: there is none. */
+static int32_t outmost(const drawing *d, const int32_t *parts, int32_t count, int32_t k)
 {
     for (int32_t i = 0; i < count; i++) {
         const part *q = &d->part[parts[i]];
-        if (parts[i] == v || !(q->area < d->part[v].area) || !encloses(d, q, d->g->X[v])) continue;
+        const part *own = &d->part[k];
+        if (parts[i] == k || !(q->area < own->area) || !encloses(d, q, d->g->X[own->lowest])) continue;
         int inside = 0;
         for (int32_t j = 0; j < count && !inside; j++) {
             const part *other = &d->part[parts[j]];
-            inside = parts[j] != parts[i] && other->area < q->area && encloses(d, other, d->g->X[parts[i]]);
+            inside = parts[j] != parts[i] && other->area < q->area && encloses(d, other, d->g->X[q->lowest]);
         }
         if (!inside) return parts[i];
     }
-    return v;
+    return k;
 }
 
 /* Sheets are numbered as their first lines come in the file. */
@@ -76,15 +87,15 @@ static rg_status number(drawing *d, const rg_lines *lines, rg_piece **piece, int
     const rg_graph *g = d->g;
     int32_t count = 0;
     size_t room = 0;
-    int32_t *parts = rg_mem_array(&g->mem, (size_t)g->nv, sizeof *parts);
+    int32_t *parts = rg_mem_array(&g->mem, (size_t)d->parts, sizeof *parts);
     rg_status s = parts ? RG_OK : RG_ENOMEM;
-    for (int32_t v = 0; s == RG_OK && v < g->nv; v++)
-        if (d->of[v] == v && d->part[v].outside >= 0) parts[count++] = v;
+    for (int32_t k = 0; s == RG_OK && k < d->parts; k++)
+        if (d->part[k].outside >= 0) parts[count++] = k;
     for (int32_t e = 0; s == RG_OK && e < g->ne; e++) {
-        const int32_t v = d->of[g->E[e].v[0]];
-        part *own = &d->part[v];
+        const int32_t k = d->of[g->E[e].v[0]];
+        part *own = &d->part[k];
         if (own->sheet < 0) {
-            part *p = &d->part[outmost(d, parts, count, v)];
+            part *p = &d->part[outmost(d, parts, count, k)];
             if (p->outside >= 0 && p->sheet < 0) {
                 s = RG_MEM_GROW(&g->mem, *piece, room, (size_t)*pieces + 1);
                 if (s != RG_OK) break;
@@ -123,12 +134,10 @@ rg_status rg_pieces_find(rg_graph *g, const rg_lines *lines, int32_t take, rg_wa
     drawing d = {.g = g, .faces = &walk->faces};
     *piece = NULL;
     *pieces = 0;
-    rg_status s = RG_MEM_ARRAYS(&g->mem, RG_ARRAY(d.of, (size_t)g->nv), RG_ARRAY(d.part, (size_t)g->nv));
+    rg_status s = RG_MEM_ARRAYS(&g->mem, RG_ARRAY(d.of, (size_t)g->nv));
     if (s == RG_OK) s = rg_walk_make(walk, &g->mem, g->nv, g->ne, g->X, g->E);
-    if (s == RG_OK) {
-        find_parts(&d);
-        s = number(&d, lines, piece, pieces);
-    }
+    if (s == RG_OK) s = find_parts(&d);
+    if (s == RG_OK) s = number(&d, lines, piece, pieces);
     if (s == RG_OK && take > *pieces)
         s = rg_fail(RG_EARG, why, 0, "there is no sheet %d: the drawing has %d", (int)take, (int)*pieces);
     if (s == RG_OK && take > 0) {

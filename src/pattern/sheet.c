@@ -131,36 +131,90 @@ static int join(const rg_graph *g, int32_t v, const rg_edge *e, const rg_edge *f
     return 1;
 }
 
-/* swell[e]: at most how far what was dissolved before is off edge e. It adds up, so that the many vertices of an arc,
- * each hardly off its neighbours' line, do not become one chord. */
-static rg_status dissolve(rg_graph *g, double tol)
+/* What is dissolved: number[e] < 0: edge e is a part of edge ~number[e] then; else its new number, once all are dissolved. */
+typedef struct melt {
+    double *swell; /* [ne] at most how far what was dissolved before is off an edge */
+    int32_t *number;
+    unsigned char *drop, *joined, *changed; /* [ne] dropped, of several; [nv] its edges have changed */
+} melt;
+
+/* Every vertex with two edges only that can go. swell adds up, so that the many vertices of an arc, each hardly off its
+ * neighbours' line, do not become one chord. */
+static void dissolve_all(rg_graph *g, rg_star *star, double tol, melt *m)
 {
-    double *swell;
-    int32_t *at, *degree;
-    unsigned char *drop;
-    rg_status s = RG_MEM_ARRAYS(&g->mem, RG_ARRAY(swell, (size_t)g->ne), RG_ARRAY(at, 2 * (size_t)g->nv),
-                                RG_ARRAY(degree, (size_t)g->nv), RG_ARRAY(drop, (size_t)g->ne));
-    for (int32_t e = 0; s == RG_OK && e < g->ne; e++)
-        for (int i = 0; i < 2; i++) {
-            const int32_t v = g->E[e].v[i];
-            if (degree[v] < 2) at[2 * v + degree[v]] = e;
-            degree[v]++;
-        }
-    for (int32_t v = 0; s == RG_OK && v < g->nv; v++) {
-        if (degree[v] != 2 || at[2 * v] == at[2 * v + 1]) continue;
-        const int32_t e = at[2 * v], f = at[2 * v + 1];
-        rg_edge joined;
-        const double before = fmax(swell[e], swell[f]);
-        if (!join(g, v, &g->E[e], &g->E[f], tol - before, &joined) || joined.v[0] == joined.v[1]) continue;
-        swell[e] = before + off_line(g, v, &g->E[e], &g->E[f]);
-        g->E[e] = joined;
-        drop[f] = 1;
-        const int32_t w = joined.v[1];
-        for (int i = 0; i < 2; i++)
-            if (at[2 * w + i] == f && degree[w] == 2) at[2 * w + i] = e;
+    for (int32_t v = 0; v < g->nv; v++) {
+        int32_t *at = star->edge + star->start[v];
+        m->changed[v] = star->start[v + 1] - star->start[v] == 2;
+        if (m->changed[v] && at[0] > at[1]) at[0] ^= at[1], at[1] ^= at[0], at[0] ^= at[1]; /* by number, not by angle */
     }
-    if (s == RG_OK) s = rg_graph_compact(g, drop);
-    RG_MEM_FREE(&g->mem, at, degree, drop, swell);
+    for (int32_t v = 0; v < g->nv; v++) {
+        const int32_t *at = star->edge + star->start[v];
+        if (!m->changed[v] || at[0] == at[1]) continue;
+        const int32_t e = at[0], f = at[1];
+        rg_edge joined;
+        const double before = fmax(m->swell[e], m->swell[f]);
+        if (!join(g, v, &g->E[e], &g->E[f], tol - before, &joined) || joined.v[0] == joined.v[1]) continue;
+        m->swell[e] = before + off_line(g, v, &g->E[e], &g->E[f]);
+        g->E[e] = joined;
+        m->drop[f] = m->joined[e] = 1;
+        m->number[f] = ~e;
+        const int32_t w = joined.v[1];
+        int32_t *there = star->edge + star->start[w];
+        for (int i = 0; m->changed[w] && i < 2; i++)
+            if (there[i] == f) there[i] = e;
+    }
+}
+
+/* The edge that e is a part of, with the way there made short. */
+static int32_t stands_for(int32_t *number, int32_t e)
+{
+    int32_t last = e;
+    while (number[last] < 0) last = ~number[last];
+    while (number[e] < 0) {
+        const int32_t next = ~number[e];
+        number[e] = ~last;
+        e = next;
+    }
+    return last;
+}
+
+/* The star follows, by the numbers that vertices and edges will have. A vertex is left out that no edge ends at any more. */
+static void follow(const rg_graph *g, rg_star *star, melt *m)
+{
+    const int32_t all = star->start[g->nv];
+    int32_t n = 0, edges = 0, vertices = 0;
+    for (int32_t e = 0; e < g->ne; e++) {
+        if (!m->drop[e]) m->number[e] = edges++;
+        for (int i = 0; m->joined[e] && !m->drop[e] && i < 2; i++) m->changed[g->E[e].v[i]] = 1;
+    }
+    for (int32_t v = 0, from = 0; v < g->nv; v++) {
+        const int32_t to = star->start[v + 1], first = n;
+        for (int32_t j = from; j < to; j++) {
+            if (j + RG_SOON < all) rg_mem_soon(&m->number[star->edge[j + RG_SOON]]);
+            const int32_t e = stands_for(m->number, star->edge[j]);
+            if (m->changed[v] && g->E[e].v[0] != v && g->E[e].v[1] != v) continue; /* it was dissolved */
+            star->edge[n++] = m->number[e];
+        }
+        from = to;
+        if (n == first) continue;
+        m->changed[vertices] = m->changed[v];
+        star->start[++vertices] = n;
+    }
+}
+
+static rg_status dissolve(rg_graph *g, rg_star *star, double tol)
+{
+    melt m;
+    const size_t ne = (size_t)g->ne, nv = (size_t)g->nv;
+    rg_status s = RG_MEM_ARRAYS(&g->mem, RG_ARRAY(m.swell, ne), RG_ARRAY(m.number, ne), RG_ARRAY(m.drop, ne),
+                                RG_ARRAY(m.joined, ne), RG_ARRAY(m.changed, nv));
+    if (s == RG_OK) {
+        dissolve_all(g, star, tol, &m);
+        follow(g, star, &m);
+        s = rg_graph_compact(g, m.drop);
+    }
+    if (s == RG_OK) s = rg_star_sort(star, g->nv, g->X, g->E, m.changed);
+    RG_MEM_FREE(&g->mem, m.swell, m.number, m.drop, m.joined, m.changed);
     return s;
 }
 
@@ -209,7 +263,7 @@ rg_status rg_sheet_from_graph(rg_graph *g, rg_walk *walk, double tol, rg_lines *
     }
     if (s == RG_OK) s = check_inside(g, faces, outer, lines, info);
     if (s == RG_OK) s = assign_border(g, outer, lines, info);
-    if (s == RG_OK) s = dissolve(g, tol);
+    if (s == RG_OK) s = dissolve(g, &walk->star, tol);
     RG_MEM_FREE(&g->mem, rim, outer);
     if (s != RG_OK) return s;
     *rim_out = rim = rg_mem_array(&g->mem, (size_t)g->nv, 1);

@@ -8,7 +8,7 @@
 
 /* Counts of the graph as it is go to `info`, with whether it is a disk. Then exactly the edges of the outer border have
  * 'B', and vertices of two edges of one assignment in a straight line are dissolved: `tol` is how far off it they may
- * be. walk: of the graph, made here where it is none yet.
+ * be. walk: of the graph, made here where it is none yet; its star follows, its faces do not.
  * rim[g->nv]: out, whether a vertex is on the border; the caller's, also after a failure. RG_ENOMEM. */
 rg_status rg_sheet_from_graph(rg_graph *g, rg_walk *walk, double tol, rg_lines *lines, rg_pattern_info *info,
                               unsigned char **rim);
