@@ -50,7 +50,8 @@ static void everything_in_order(void **state)
             }
             rg_order_keyed(list, n, room, count);
             for (int i = 0; i < n; i++) {
-                if (i > 0) assert_true(list[i - 1].key < list[i].key || (list[i - 1].key == list[i].key && list[i - 1].v < list[i].v));
+                const rg_keyed *p = i > 0 ? &list[i - 1] : NULL, *q = &list[i];
+                assert_true(!p || p->key < q->key || (p->key == q->key && p->v < q->v));
                 assert_false(seen[list[i].v]++);
                 assert_true(list[i].key == was[list[i].v].key && list[i].w == was[list[i].v].w);
             }

@@ -31,8 +31,8 @@ static void insert(rg_keyed *list, int32_t n)
 /* Grows with the key, rounding or not, and is less than the number of keys. */
 static int32_t bucket(const rg_keyed *one, double low, double scale) { return (int32_t)((one->key - low) * scale); }
 
-/* As many buckets as numbers, each for a part of the range as long as the others': one number in each, more or less. Where many fall
- * into one, they are compared. */
+/* As many buckets as numbers, each for a part of the range as long as the others': one number in each, more or less.
+ * Where many fall into one, they are compared. */
 void rg_order_keyed(rg_keyed *list, int32_t n, rg_keyed *room, int32_t *count)
 {
     if (n <= A_FEW) {

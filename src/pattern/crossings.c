@@ -20,8 +20,14 @@ static const double ENDS = 0.95;
 /* --------------------------------------------------------------------------------------------------- grid ---- */
 
 static inline int32_t clamp(double i, int32_t n) { return i < 0 ? 0 : i >= n ? n - 1 : (int32_t)i; }
-static inline int32_t column(const rg_splitter *s, double x) { return clamp((x - s->origin.x) * s->per_cell, s->side[0]); }
-static inline int32_t row(const rg_splitter *s, double y) { return clamp((y - s->origin.y) * s->per_cell, s->side[1]); }
+static inline int32_t column(const rg_splitter *s, double x)
+{
+    return clamp((x - s->origin.x) * s->per_cell, s->side[0]);
+}
+static inline int32_t row(const rg_splitter *s, double y)
+{
+    return clamp((y - s->origin.y) * s->per_cell, s->side[1]);
+}
 static inline int32_t cell_at(const rg_splitter *s, int32_t i, int32_t j) { return i * s->side[1] + j; }
 static inline int32_t cell_of(const rg_splitter *s, rg_vec2 x) { return cell_at(s, column(s, x.x), row(s, x.y)); }
 
@@ -33,8 +39,8 @@ static inline double padding(const rg_splitter *s) { return 2 * s->points.tol + 
 
 typedef enum visit { MARK, FILL_NEWS, COUNT, FILL } visit;
 
-/* At the cell of a fresh edge: marks it as wanted, or puts the edge in; of any edge: counts it where the cell is wanted, or puts it
- * in. Returns whether the cell is wanted. */
+/* At the cell of a fresh edge: marks it as wanted, or puts the edge in; of any edge: counts it where the cell is
+ * wanted, or puts it in. Returns whether the cell is wanted. */
 static inline int visit_cell(rg_splitter *s, int32_t e, int32_t c, visit what)
 {
     switch (what) {
@@ -104,8 +110,9 @@ static inline int visit_edge(rg_splitter *s, int32_t e, visit what)
     if (p.column < 0 || q.column < 0) return visit_along(s, e, what);
     span(p.column, q.column, columns);
     span(p.row, q.row, rows);
-    if (what == COUNT && columns[1] - columns[0] <= 1 && rows[1] - rows[0] <= 1) { /* most are nowhere near, in later rounds */
-        const unsigned char *left = s->wanted + cell_at(s, columns[0], 0), *right = s->wanted + cell_at(s, columns[1], 0);
+    if (what == COUNT && columns[1] - columns[0] <= 1 && rows[1] - rows[0] <= 1) { /* most are far off, later */
+        const unsigned char *left = s->wanted + cell_at(s, columns[0], 0);
+        const unsigned char *right = s->wanted + cell_at(s, columns[1], 0);
         if (!(left[rows[0]] | left[rows[1]] | right[rows[0]] | right[rows[1]])) return 0;
     }
     if (columns[0] == columns[1] || rows[0] == rows[1]) return visit_box(s, e, columns, rows, what);
@@ -121,7 +128,8 @@ static rg_status find_places(rg_splitter *s)
         const int32_t i = column(s, x.x - pad), j = row(s, x.y - pad);
         const int32_t more[2] = {column(s, x.x + pad) - i, row(s, x.y + pad) - j};
         const int is_near = more[0] <= 1 && more[1] <= 1;
-        s->place[v] = is_near ? (rg_cell_place){(int16_t)(2 * i + more[0]), (int16_t)(2 * j + more[1])} : (rg_cell_place){-1, -1};
+        s->place[v] = (rg_cell_place){-1, -1};
+        if (is_near) s->place[v] = (rg_cell_place){(int16_t)(2 * i + more[0]), (int16_t)(2 * j + more[1])};
     }
     if (status == RG_OK) s->placed = s->points.count;
     return status;
@@ -151,8 +159,8 @@ static rg_status lay_grid(rg_splitter *s, rg_vec2 low, rg_vec2 high)
     return find_places(s);
 }
 
-/* Edges were counted one cell to the right, so that the sums are the starts; filling moves each start to its end, so they are put one
- * further to the right before. */
+/* Edges were counted one cell to the right, so that the sums are the starts; filling moves each start to its end, so
+ * they are put one further to the right before. */
 static rg_status make_starts(rg_splitter *s, rg_cell_edges *l)
 {
     const size_t cells = (size_t)s->side[0] * (size_t)s->side[1];
@@ -177,7 +185,8 @@ static rg_status find_news(rg_splitter *s)
     }
     for (int32_t v = s->looked_at; v < s->points.count; v++) s->wanted[cell_of(s, s->points.X[v])] = 1;
     if (status == RG_OK) status = make_starts(s, &s->news);
-    const int64_t each = 1 + s->news.start[s->side[0] * s->side[1] + 1] / (s->fresh_count + 1); /* cells that one crosses, more or less */
+    const int64_t total = s->news.start[s->side[0] * s->side[1] + 1];
+    const int64_t each = 1 + total / (s->fresh_count + 1); /* cells that one crosses, more or less */
     for (int32_t e = 0; status == RG_OK && e < s->ne; e++) {
         if (!s->fresh[e]) continue;
         visit_edge(s, e, FILL_NEWS);
@@ -195,11 +204,11 @@ static rg_status find_all(rg_splitter *s)
     rg_status status = RG_OK;
     for (int32_t e = 0; status == RG_OK && e < s->ne; e++) {
         if (e + 2 * RG_SOON < s->ne) {
-            const int32_t v = s->E[e + RG_SOON].v[1];
+            const int32_t v = s->E[e + RG_SOON].v[1], i = s->place[v].column >> 1, j = s->place[v].row >> 1;
             rg_mem_soon(&s->place[s->E[e + 2 * RG_SOON].v[1]]);
             if (many) {
                 rg_mem_soon(&s->points.X[v]);
-                if (s->place[v].column >= 0) rg_mem_soon(&s->all.start[cell_at(s, s->place[v].column >> 1, s->place[v].row >> 1)]);
+                if (i >= 0) rg_mem_soon(&s->all.start[cell_at(s, i, j)]);
             }
         }
         if (visit_edge(s, e, COUNT)) {
@@ -399,7 +408,8 @@ static rg_status cut_at_junction(rg_splitter *s, int32_t v, int32_t e, int32_t k
     return add_cut(s, e, v);
 }
 
-/* Vertices on edges: new ones on any, old ones on fresh ones. `known`: those from here on are crossings of this round. */
+/* Vertices on edges: new ones on any, old ones on fresh ones. `known`: those from here on are crossings of this
+ * round. */
 static rg_status find_junctions(rg_splitter *s, const rg_cell_edges *all, int32_t known)
 {
     const int32_t cells = s->side[0] * s->side[1];
@@ -449,5 +459,6 @@ rg_status rg_crossings_find(rg_splitter *s, rg_vec2 low, rg_vec2 high)
 
 void rg_crossings_free(rg_splitter *s)
 {
-    RG_MEM_FREE(&s->mem, s->all.start, s->all.edge, s->news.start, s->news.edge, s->wanted, s->place, s->parent, s->cuts);
+    RG_MEM_FREE(&s->mem, s->all.start, s->all.edge, s->news.start, s->news.edge);
+    RG_MEM_FREE(&s->mem, s->wanted, s->place, s->parent, s->cuts);
 }

@@ -54,7 +54,8 @@ static int stays(const rg_splitter *s, const rg_edge *e, int32_t vertex)
     return off * off < s->exact * s->exact * rg_vec2_dot(d, d);
 }
 
-/* Of an edge's n cuts those that make a piece come first then; returns how many. *left: out, whether any is left for the next round. */
+/* Of an edge's n cuts those that make a piece come first then; returns how many. *left: out, whether any is left for
+ * the next round. */
 static int32_t choose(rg_splitter *s, int32_t e, rg_keyed *cuts, int32_t n, int *left)
 {
     const int32_t *v = s->E[e].v, made = cuts_to_make(s, &s->E[e], cuts, n);
@@ -87,8 +88,8 @@ static void cut(rg_splitter *s, int32_t e, const rg_keyed *cuts, int32_t n, int 
     s->E[to] = rest;
 }
 
-/* What each edge is cut at is put together; start[e]: in and out. Until they are moved, fresh[e] says whether something is left of an
- * edge. */
+/* What each edge is cut at is put together; start[e]: in and out. Until they are moved, fresh[e] says whether
+ * something is left of an edge. */
 static void choose_all(rg_splitter *s, int32_t *start)
 {
     int32_t n = 0;
@@ -104,7 +105,8 @@ static void choose_all(rg_splitter *s, int32_t *start)
     start[s->ne] = n;
 }
 
-/* From the last edge on, so that each is moved to where nothing is needed any more; those before the first that is cut stay. */
+/* From the last edge on, so that each is moved to where nothing is needed any more; those before the first that is cut
+ * stay. */
 static void cut_all(rg_splitter *s, const int32_t *start)
 {
     int32_t e = s->ne - 1;

@@ -82,7 +82,8 @@ static rg_status sort_vertices(search *s)
     rg_keyed *room;
     int32_t *count;
     if (s->spots) return RG_OK;
-    if (RG_MEM_ARRAYS(s->mem, RG_ARRAY(s->spots, nv), RG_ARRAY(room, nv), RG_ARRAY(count, nv)) != RG_OK) return RG_ENOMEM;
+    if (RG_MEM_ARRAYS(s->mem, RG_ARRAY(s->spots, nv), RG_ARRAY(room, nv), RG_ARRAY(count, nv)) != RG_OK)
+        return RG_ENOMEM;
     for (int32_t v = 0; v < s->nv; v++) s->spots[v] = (rg_keyed){along(from_middle(s, v)), v, 0};
     rg_order_keyed(s->spots, s->nv, room, count);
     RG_MEM_FREE(s->mem, room, count);

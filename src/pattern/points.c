@@ -157,7 +157,8 @@ rg_status rg_points_nearest(const rg_memory *mem, const rg_vec2 *X, int32_t n, d
     static const rg_vec2 along = {0.8253356149096783, 0.5646424733950354}; /* (cos, sin) of 0.6 */
     rg_keyed *line, *room;
     int32_t *count;
-    const rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(line, (size_t)n), RG_ARRAY(room, (size_t)n), RG_ARRAY(count, (size_t)n));
+    const rg_status s = RG_MEM_ARRAYS(mem, RG_ARRAY(line, (size_t)n), RG_ARRAY(room, (size_t)n),
+                                      RG_ARRAY(count, (size_t)n));
     if (s != RG_OK) return s;
     for (int32_t v = 0; v < n; v++) line[v] = (rg_keyed){rg_vec2_dot(along, X[v]), v, 0};
     rg_order_keyed(line, n, room, count);

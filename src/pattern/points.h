@@ -28,8 +28,8 @@ rg_status rg_points_init(rg_points *p, const rg_memory *mem, rg_vec2 origin, dou
 void rg_points_free(rg_points *p);
 /* The vertex within the tolerance of x, the nearest if there are several, or a new one. RG_ENOMEM. */
 rg_status rg_points_add(rg_points *p, rg_vec2 x, int32_t *vertex);
-/* That x will be added: memory is on its way then. First where it is to be looked for; and `soon`, before it is added, what is there.
- * Changes nothing. */
+/* That x will be added: memory is on its way then. First where it is to be looked for; and `soon`, before it is added,
+ * what is there. Changes nothing. */
 void rg_points_expect(const rg_points *p, rg_vec2 x, int soon);
 /* Takes the newest vertex out again. */
 void rg_points_forget(rg_points *p);

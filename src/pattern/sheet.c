@@ -131,7 +131,8 @@ static int join(const rg_graph *g, int32_t v, const rg_edge *e, const rg_edge *f
     return 1;
 }
 
-/* What is dissolved: number[e] < 0: edge e is a part of edge ~number[e] then; else its new number, once all are dissolved. */
+/* What is dissolved: number[e] < 0: edge e is a part of edge ~number[e] then; else its new number, once all are
+ * dissolved. */
 typedef struct melt {
     double *swell; /* [ne] at most how far what was dissolved before is off an edge */
     int32_t *number;
@@ -145,7 +146,10 @@ static void dissolve_all(rg_graph *g, rg_star *star, double tol, melt *m)
     for (int32_t v = 0; v < g->nv; v++) {
         int32_t *at = star->edge + star->start[v];
         m->changed[v] = star->start[v + 1] - star->start[v] == 2;
-        if (m->changed[v] && at[0] > at[1]) at[0] ^= at[1], at[1] ^= at[0], at[0] ^= at[1]; /* by number, not by angle */
+        if (!m->changed[v] || at[0] < at[1]) continue;
+        const int32_t first = at[1]; /* by number, not by angle */
+        at[1] = at[0];
+        at[0] = first;
     }
     for (int32_t v = 0; v < g->nv; v++) {
         const int32_t *at = star->edge + star->start[v];
@@ -178,7 +182,8 @@ static int32_t stands_for(int32_t *number, int32_t e)
     return last;
 }
 
-/* The star follows, by the numbers that vertices and edges will have. A vertex is left out that no edge ends at any more. */
+/* The star follows, by the numbers that vertices and edges will have. A vertex is left out that no edge ends at any
+ * more. */
 static void follow(const rg_graph *g, rg_star *star, melt *m)
 {
     const int32_t all = star->start[g->nv];

@@ -7,8 +7,8 @@
 #include "pattern/graph.h"
 #include "pattern/points.h"
 
-/* A vertex's cell, by its column and row, and whether it is so near the next one that its edges are looked for there as well:
- * twice the first column or row that they are in, and one more if it is in two. column < 0: it is in more. */
+/* A vertex's cell, by its column and row, and whether it is so near the next one that its edges are looked for there
+ * as well: twice the first column or row that they are in, and one more if it is in two. column < 0: it is in more. */
 typedef struct rg_cell_place { int16_t column, row; } rg_cell_place;
 
 /* The edges of cell c are edge[start[c]] ... edge[start[c + 1] - 1], in ascending order. */
