@@ -123,6 +123,22 @@ static void blocks_that_do_not_end(void **state)
     }
 }
 
+/* Nor is a line drawn ninety thousand times whose layer has a name of a hundred thousand letters. */
+static void repeats_of_what_is_long(void **state)
+{
+    (void)state;
+    enum { ROOM = 120000, LETTERS = 100000 };
+    char *text = malloc(ROOM), *name = malloc(LETTERS + 1);
+    assert_true(text && name);
+    memset(name, 'x', LETTERS);
+    name[LETTERS] = 0;
+    snprintf(text, ROOM, "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nb\n0\nLINE\n8\n%s\n10\n0\n20\n0\n11\n1\n21\n0\n0\nENDBLK\n0\nENDSEC\n"
+             "0\nSECTION\n2\nENTITIES\n0\nINSERT\n2\nb\n70\n300\n71\n300\n44\n1\n45\n1\n0\nENDSEC\n0\nEOF\n", name);
+    refused(text, RG_FORMAT_DXF, NULL, -1, "too large with all that it repeats");
+    free(text);
+    free(name);
+}
+
 #define LAYERS(entities) "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n0\nLAYER\n2\noff\n70\n0\n62\n-3\n0\nLAYER\n2\ncold\n70\n1\n62\n3\n" \
     "0\nLAYER\n2\ndashes\n70\n0\n62\n7\n6\nDASHED\n0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nBLOCKS\n" \
     BLOCK("b", "", LINE("0", "") LINE("seen", "")) "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" entities "0\nENDSEC\n0\nEOF\n"
@@ -271,7 +287,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(entities), cmocka_unit_test(layers_and_colours),
                                        cmocka_unit_test(ends_of_lines_and_blanks), cmocka_unit_test(refusals),
-                                       cmocka_unit_test(blocks), cmocka_unit_test(blocks_that_do_not_end),
+                                       cmocka_unit_test(blocks), cmocka_unit_test(blocks_that_do_not_end), cmocka_unit_test(repeats_of_what_is_long),
                                        cmocka_unit_test(hidden_layers), cmocka_unit_test(planes_of_space),
                                        cmocka_unit_test(facets_and_what_is_left_out), cmocka_unit_test(curves_that_do_no_harm),
                                        cmocka_unit_test(kinds), cmocka_unit_test(units)};

@@ -128,6 +128,29 @@ static void repeats_that_do_not_end(void **state)
     refused(text, RG_FORMAT_SVG, NULL, 1, "nested too deep");
 }
 
+/* Nor does what says little by much: a line is not drawn a hundred thousand times with a style of a hundred thousand bytes, or by as many rules
+ * as there may be. */
+static void repeats_of_what_is_long(void **state)
+{
+    (void)state;
+    enum { ROOM = 300000 };
+    char *text = malloc(ROOM);
+    assert_non_null(text);
+    for (int rules = 0; rules < 2; rules++) {
+        size_t n = (size_t)sprintf(text, "<svg><style>");
+        for (int i = 0; rules && i < 2000; i++) n += (size_t)sprintf(text + n, "line.c%d{stroke:red} ", i);
+        n += (size_t)sprintf(text + n, "</style><defs><g id='a0'><line x2='9' style='");
+        for (int i = 0; !rules && i < 20000; i++) n += (size_t)sprintf(text + n, "fill:none;");
+        n += (size_t)sprintf(text + n, "stroke:red'/></g>");
+        for (int i = 0; i < 17; i++)
+            n += (size_t)sprintf(text + n, "<g id='a%d'><use href='#a%d'/><use href='#a%d' y='%d'/></g>", i + 1, i, i, i);
+        n += (size_t)sprintf(text + n, "</defs><use href='#a17'/></svg>");
+        assert_true(n < ROOM);
+        refused(text, RG_FORMAT_SVG, NULL, -1, "too large with all that it repeats");
+    }
+    free(text);
+}
+
 static void styles(void **state)
 {
     (void)state;
@@ -370,7 +393,7 @@ static void nesting_and_rules_end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shapes), cmocka_unit_test(paths), cmocka_unit_test(transforms), cmocka_unit_test(repeats), cmocka_unit_test(repeats_that_do_not_end), cmocka_unit_test(styles),
+        cmocka_unit_test(shapes), cmocka_unit_test(paths), cmocka_unit_test(transforms), cmocka_unit_test(repeats), cmocka_unit_test(repeats_that_do_not_end), cmocka_unit_test(repeats_of_what_is_long), cmocka_unit_test(styles),
         cmocka_unit_test(colours), cmocka_unit_test(selectors), cmocka_unit_test(paints), cmocka_unit_test(names_dashes_data), cmocka_unit_test(sizes),
                                        cmocka_unit_test(refusals), cmocka_unit_test(marks_and_numbers_too_large),
         cmocka_unit_test(texts), cmocka_unit_test(entities_stay_closed), cmocka_unit_test(nesting_and_rules_end)};

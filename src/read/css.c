@@ -58,6 +58,28 @@ static rg_status untold(const source *q, const char *at, size_t n)
     return rg_lines_warn(q->out, line_of(q, at), "style: \"%s\" is not understood and passed over", shown);
 }
 
+/* One of 64 for a property's name: others may have it as well. */
+static uint64_t bit_of(const char *name, size_t n)
+{
+    uint32_t sum = 0;
+    for (size_t i = 0; i < n; i++) sum = 31 * sum + (unsigned char)name[i];
+    return (uint64_t)1 << (sum ^ sum >> 6) % 64;
+}
+
+/* Those of all properties in a body. */
+static uint64_t names_in(const char *s, size_t n)
+{
+    uint64_t names = 0;
+    for (size_t from = 0, to; from < n; from = to + 1) {
+        for (to = from; to < n && s[to] != ';';) to++;
+        const char *colon = memchr(s + from, ':', to - from);
+        size_t length = colon ? (size_t)(colon - (s + from)) : 0;
+        const char *name = trim(s + from, &length);
+        if (colon) names |= bit_of(name, length);
+    }
+    return names;
+}
+
 static rg_status add_rules(rg_css *css, const source *q, const char *selectors, size_t n, const char *body,
                            size_t body_n)
 {
@@ -77,7 +99,7 @@ static rg_status add_rules(rg_css *css, const source *q, const char *selectors, 
                            (int)RG_CSS_MOST_RULES);
         s = RG_MEM_GROW(&css->mem, css->rule, css->room, (size_t)css->rules + 1);
         if (s != RG_OK) return s;
-        css->rule[css->rules++] = (rg_rule){selector, body, length, body_n, weight};
+        css->rule[css->rules++] = (rg_rule){selector, body, length, body_n, weight, names_in(body, body_n)};
     }
     return RG_OK;
 }
@@ -189,9 +211,11 @@ int rg_css_get(const rg_css *css, const rg_xml_node *n, const char *property, ch
 {
     const char *style = rg_xml_attribute(n, "style"), *attribute = rg_xml_attribute(n, property);
     const int own = declared(style, strlen(style), property, value);
+    const uint64_t name = bit_of(property, strlen(property));
     int64_t best = own == 2 ? (int64_t)OF_IMPORTANT + OF_STYLE : own ? OF_STYLE : -1;
     for (int32_t i = 0; i < css->rules; i++) {
         const rg_rule *r = &css->rule[i];
+        if (!(r->names & name)) continue;
         char found[RG_CSS_VALUE];
         const int how = declared(r->body, r->body_n, property, found);
         const int64_t weight = r->weight + (how == 2 ? (int64_t)OF_IMPORTANT : 0);

@@ -8,7 +8,12 @@
 #include "lines/lines.h"
 #include "read/xml.h"
 
-typedef struct rg_rule { const char *selector, *body; size_t selector_n, body_n; int32_t weight; } rg_rule;
+typedef struct rg_rule {
+    const char *selector, *body;
+    size_t selector_n, body_n;
+    int32_t weight;
+    uint64_t names; /* a bit of each property that it says something of, by its name: most rules are told by it */
+} rg_rule;
 
 typedef struct rg_css {
     rg_memory mem;

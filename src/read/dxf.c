@@ -13,6 +13,7 @@
 enum { BY_BLOCK = 0, BY_LAYER = 256 };
 /* What INSERT repeats is bounded in sum, counted in pairs, and so is how deep blocks stand in each other. */
 enum { MOST_REPEATED = 1 << 22, OF_SEGMENT = 8, MOST_NESTED = 64 };
+enum { BYTES_A_PAIR = 8 }; /* longer values take longer */
 /* Kinds of entities that are told by name when they are left out. */
 enum { MOST_LEFT_OUT = 24 };
 
@@ -55,7 +56,7 @@ typedef struct reader {
 /* ------------------------------------------------------------------------------------------------- pairs ---- */
 
 /* What is repeated costs time and room that the size of the file does not bound. */
-static rg_status charge(reader *r, int cost)
+static rg_status charge(reader *r, int64_t cost)
 {
     if (!r->inserts || (r->repeated += cost) <= MOST_REPEATED) return RG_OK;
     return rg_fail(RG_EFORMAT, r->why, r->inserts->insert->where,
@@ -67,7 +68,7 @@ static rg_status next(reader *r)
 {
     const int is_again = r->in.pending;
     const rg_status s = rg_pairs_next(&r->in);
-    return s == RG_OK && !is_again ? charge(r, 1) : s;
+    return s == RG_OK && !is_again ? charge(r, 1 + (int64_t)(r->in.value.n / BYTES_A_PAIR)) : s;
 }
 
 static rg_status whole(const reader *r, long *x) { return rg_pairs_whole(&r->in, x); }

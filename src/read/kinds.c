@@ -7,6 +7,9 @@
 
 static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
 
+/* What a layer or a class is called is said at the beginning. */
+enum { LONGEST_NAME = 255 };
+
 static int same(const char *s, size_t n, const char *word, size_t word_n)
 {
     size_t i = 0;
@@ -144,6 +147,7 @@ char rg_kinds_of_name(const char *name, size_t n)
         {"facet", RG_FLAT}, {"flat", RG_FLAT}, {"construction", RG_FLAT}, {"guide", RG_FLAT}, {"annotation", RG_FLAT},
         {"dimension", RG_FLAT}, {"notes", RG_FLAT}, {"defpoints", RG_FLAT}, {"cut", RG_BORDER},
         {"border", RG_BORDER}, {"boundary", RG_BORDER}, {"contour", RG_BORDER}, {"outline", RG_BORDER}};
+    if (n > LONGEST_NAME) n = LONGEST_NAME;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         const size_t word = strlen(words[i].word);
         for (size_t at = 0; at + word <= n; at++)

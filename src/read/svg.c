@@ -16,6 +16,8 @@ static const double STRAIGHT = 1e-6;
 /* What <use> repeats is bounded in sum, counted about as its bytes, and so is how deep the elements stand in each
  * other. */
 enum { MOST_REPEATED = 1 << 24, OF_ELEMENT = 64, OF_SEGMENT = 16, MOST_NESTED = 512 };
+/* So many rules of style, or bytes of attributes, are looked through in the time of one byte of a path. */
+enum { RULES_A_BYTE = 1, OTHERS_A_BYTE = 8 };
 
 /* Strokes of no plain colour that are told by name. */
 enum { MOST_UNKNOWN = 16 };
@@ -484,7 +486,9 @@ static rg_status inside(reader *r, const rg_xml_node *n, const rg_paint *p)
 static rg_status element(reader *r, const rg_xml_node *n, rg_paint p, const rg_xml_node *user)
 {
     const char *name = rg_xml_name(n);
-    rg_status s = charge(r, n, OF_ELEMENT + strlen(rg_xml_attribute(n, "d")) + strlen(rg_xml_attribute(n, "points")));
+    const size_t path = strlen(rg_xml_attribute(n, "d")) + strlen(rg_xml_attribute(n, "points"));
+    const size_t style = rg_xml_attributes_size(n) / OTHERS_A_BYTE + (size_t)r->with.css.rules / RULES_A_BYTE;
+    rg_status s = charge(r, n, OF_ELEMENT + path + style);
     if (s != RG_OK) return s;
     if (!rg_paint_inherit(&r->with, n, &p)) return tell_hidden(r, n), RG_OK;
     if (r->depth == MOST_NESTED) return fail(r, n, "nested too deep:", name);

@@ -144,6 +144,14 @@ const char *rg_xml_name(const rg_xml_node *n) { return n->name ? (const char *)n
 int rg_xml_line(const rg_xml_node *n) { return (int)(intptr_t)n->_private; }
 
 /* Entities are not expanded, so that a value is one text node in all that is read here. */
+size_t rg_xml_attributes_size(const rg_xml_node *n)
+{
+    size_t size = 0;
+    for (const xmlAttr *a = n->type == XML_ELEMENT_NODE ? n->properties : NULL; a; a = a->next)
+        if (a->children && a->children->content) size += strlen((const char *)a->children->content);
+    return size;
+}
+
 const char *rg_xml_given(const rg_xml_node *n, const char *name)
 {
     for (const xmlAttr *a = n->type == XML_ELEMENT_NODE ? n->properties : NULL; a; a = a->next)

@@ -40,6 +40,8 @@ int rg_xml_line(const rg_xml_node *n);
 const char *rg_xml_attribute(const rg_xml_node *n, const char *name);
 /* The same; NULL: it is not there. */
 const char *rg_xml_given(const rg_xml_node *n, const char *name);
+/* Bytes of the values of all attributes. */
+size_t rg_xml_attributes_size(const rg_xml_node *n);
 /* The text of a piece, or NULL. */
 const char *rg_xml_piece(const rg_xml_node *n);
 /* The first text inside an element, or "". */
