@@ -149,6 +149,16 @@ void rg_constraint_set_theta(rg_constraint *K, const double *theta)
     deal_sectors(K, &K->all);
 }
 
+rg_status rg_constraint_set_pattern(rg_constraint *K, const rg_mesh *m, const rg_vec2 *X)
+{
+    double *theta = rg_mem_array(&K->mem, (size_t)m->loop_start[m->M], sizeof *theta);
+    if (!theta) return RG_ENOMEM;
+    rg_mesh_sectors(m, X, theta);
+    rg_constraint_set_theta(K, theta);
+    rg_mem_free(&K->mem, theta);
+    return RG_OK;
+}
+
 /* The cosines and sines between the directions from vertex k, on the pattern as it is moved, and how those turn. */
 static void look_round(rg_constraint *K, int32_t k)
 {

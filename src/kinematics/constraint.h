@@ -64,6 +64,8 @@ void rg_constraint_set_still(rg_constraint *K);
 void rg_constraint_forget_still(rg_constraint *K);
 /* Other sector angles, theta[], radians, in the order of the mesh's loop_theta. */
 void rg_constraint_set_theta(rg_constraint *K, const double *theta);
+/* Those of the pattern X[nv] of the mesh. RG_ENOMEM. */
+rg_status rg_constraint_set_pattern(rg_constraint *K, const rg_mesh *m, const rg_vec2 *X);
 
 /* Refills C and r for rho[N], radians. Returns the largest rotation angle of F over the vertices, radians (NaN if one
  * is NaN). Allocates nothing. */

@@ -116,22 +116,14 @@ void rg_freedom_mean(const rg_freedom *f, const rg_symmetry *G, double *u, rg_ve
     for (int32_t i = 0; i < f->U; i++) u[i] = rg_vec2_dot(d[f->vertex[i]], f->direction[i]);
 }
 
-static double area(const rg_mesh *m, int32_t facet, const rg_vec2 *X)
-{
-    const int32_t first = m->facet_start[facet];
-    double twice = 0;
-    for (int32_t j = first + 1; j + 1 < m->facet_start[facet + 1]; j++)
-        twice += rg_vec2_turn(X[m->facet_vertex[first]], X[m->facet_vertex[j]], X[m->facet_vertex[j + 1]]);
-    return twice / 2;
-}
-
 int rg_freedom_room(const rg_freedom *f, const rg_vec2 *X, double least, double *room)
 {
     const rg_mesh *m = f->mesh;
     int proper = 1;
     for (int32_t i = 0; room && i < f->U; i++) room[i] = 1;
     for (int32_t k = 0; f->U > 0 && k < m->nf; k++) {
-        const double now = area(m, k, X), given = area(m, k, m->X), part = (now / given - least) / (1 - least);
+        const double now = rg_mesh_twice_area(m, k, X), given = rg_mesh_twice_area(m, k, m->X);
+        const double part = (now / given - least) / (1 - least);
         if (!(now >= least * given)) proper = 0;
         for (int32_t j = 2 * m->facet_start[k]; room && part < 1 && j < 2 * m->facet_start[k + 1]; j++) {
             const int32_t way = f->way[m->facet_vertex[j / 2]][j % 2];

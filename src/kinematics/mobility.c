@@ -6,23 +6,13 @@
  * over the slowest mode; the slowest mode of a large sheet is some 1e-5. */
 static const double CUT = 1e-7;
 
-static rg_status set_pattern(rg_constraint *K, const rg_mesh *m, const rg_vec2 *X)
-{
-    double *theta = rg_mem_array(&m->mem, (size_t)m->loop_start[m->M], sizeof *theta);
-    if (!theta) return RG_ENOMEM;
-    rg_mesh_sectors(m, X, theta);
-    rg_constraint_set_theta(K, theta);
-    rg_mem_free(&m->mem, theta);
-    return RG_OK;
-}
-
 rg_status rg_mobility(const rg_mesh *m, const rg_vec2 *X, const double *rho, int32_t *ways)
 {
     rg_constraint K = {0};
     rg_scale S = {0};
     int32_t rank;
     rg_status s = rg_constraint_init(&K, &m->mem, m);
-    if (s == RG_OK && X) s = set_pattern(&K, m, X);
+    if (s == RG_OK && X) s = rg_constraint_set_pattern(&K, m, X);
     if (s == RG_OK) s = rg_scale_init(&S, &m->mem, &K.C);
     if (s == RG_OK) {
         rg_constraint_assemble(&K, rho);

@@ -71,7 +71,6 @@ static void pinv_held(void *project, const double *r, double *z)
     rg_project *P = project;
     const int32_t M = P->scale.B.M, N = P->scale.B.N;
     double *y = P->y;
-    P->products += by_columns(P) ? 1 : P->cholesky.shape == RG_SHAPE_COLUMNS ? 3 : 1;
     if (by_columns(P)) {
         rg_sparse_mul_t(&P->scale.B, r, z);
         rg_cholesky_solve(&P->cholesky, z);
@@ -138,14 +137,12 @@ static rg_status solve_direct(rg_project *P, const double *hold, const double *b
     rg_cg_refine(&P->scale.B, pinv_held, P, b, x, relative, absolute, P->stale ? STALE_ITERATIONS : DIRECT_ITERATIONS,
                  &P->cg, rep);
     P->iterations += rep->iterations;
-    P->products += rep->iterations;
     if (!P->stale || rep->stop == RG_CG_CONVERGED) return RG_OK;
     rg_status s = factor(P, hold);
     if (s != RG_OK) return s;
     hold_on(P, hold);
     rg_cg_refine(&P->scale.B, pinv_held, P, b, x, relative, absolute, DIRECT_ITERATIONS, &P->cg, rep);
     P->iterations += rep->iterations;
-    P->products += rep->iterations;
     return RG_OK;
 }
 
@@ -159,7 +156,6 @@ static rg_status solve_any(rg_project *P, const rg_constraint *K, const double *
         rg_cg_solve(&K->C, rg_jacobi_apply, &P->jacobi, hold, P->b, P->y, x, relative, most, /* eq. (15) */
                     &P->cg, rep);
         P->iterations += rep->iterations;
-        P->products += 2 * rep->iterations + 5;
         return RG_OK;
     }
     rg_scale_rows(&P->scale, P->b);
@@ -174,7 +170,6 @@ static rg_status step(rg_project *P, const rg_constraint *K, const double *drho0
                       double *drho, double tol, rg_cg_report *rep)
 {
     const int32_t M = K->C.M, N = K->C.N;
-    P->products += drho0 != NULL;
     if (drho0) rg_sparse_mul(&K->C, drho0, P->b);
     else memset(P->b, 0, 3 * (size_t)M * sizeof *P->b);
     if (feed)

@@ -28,7 +28,6 @@ typedef struct rg_project {
     int stale;         /* to numbers near them */
     const double *held; /* the n that steps keep to */
     int64_t solves, iterations, factorizations;
-    int64_t products; /* with C, B or their transposes: the passes that costs are counted in */
 } rg_project;
 
 /* RG_EABSENT: that solver is not in this build. RG_SOLVER_AUTO chooses by size. */

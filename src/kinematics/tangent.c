@@ -58,21 +58,11 @@ static void compress(rg_tangent *t)
     t->row_start[3 * C->M] = 3 * C->start[C->M];
 }
 
-static rg_status set_pattern(rg_tangent *t, const rg_mesh *m, const rg_vec2 *X)
-{
-    double *theta = rg_mem_array(&t->mem, (size_t)m->loop_start[m->M], sizeof *theta);
-    if (!theta) return RG_ENOMEM;
-    rg_mesh_sectors(m, X, theta);
-    rg_constraint_set_theta(&t->K, theta);
-    rg_mem_free(&t->mem, theta);
-    return RG_OK;
-}
-
 static rg_status fill(rg_tangent *t, const rg_mesh *m, const rg_vec2 *X, const double *rho)
 {
     const size_t rows = 3 * (size_t)m->M, entries = 3 * (size_t)m->loop_start[m->M];
     rg_status s = rg_constraint_init(&t->K, &t->mem, m);
-    if (s == RG_OK && X) s = set_pattern(t, m, X);
+    if (s == RG_OK && X) s = rg_constraint_set_pattern(&t->K, m, X);
     if (s == RG_OK) s = rg_project_init(&t->P, &t->mem, &t->K, RG_SOLVER_AUTO);
     if (s == RG_OK) s = RG_MEM_ARRAYS(&t->mem, RG_ARRAY(t->row_start, rows + 1), RG_ARRAY(t->column, entries),
                                       RG_ARRAY(t->value, entries), RG_ARRAY(t->residual, rows),

@@ -7,17 +7,6 @@
  * slow mode has a small C^T P r too, and must not be taken for one that is out of reach. */
 static const double LEAST_SQUARES_MARGIN = 1e-3;
 
-const char *rg_cg_stop_text(rg_cg_stop s)
-{
-    switch (s) {
-    case RG_CG_CONVERGED: return "converged";
-    case RG_CG_LEAST_SQUARES: return "least squares";
-    case RG_CG_MAX_ITERATIONS: return "maximum of iterations";
-    case RG_CG_BREAKDOWN: return "breakdown";
-    }
-    return "unknown";
-}
-
 rg_status rg_cg_work_init(rg_cg_work *w, const rg_memory *mem, int32_t M, int32_t N)
 {
     memset(w, 0, sizeof *w);

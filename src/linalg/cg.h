@@ -18,7 +18,6 @@ typedef enum rg_cg_stop {
     RG_CG_BREAKDOWN /* a curvature that is not positive: nothing left to move, or NaN */
 } rg_cg_stop;
 
-const char *rg_cg_stop_text(rg_cg_stop s);
 
 typedef struct rg_cg_report {
     rg_cg_stop stop;

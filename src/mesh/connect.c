@@ -60,6 +60,15 @@ void rg_mesh_sectors(const rg_mesh *m, const rg_vec2 *X, double *theta)
     for (int32_t k = 0; k < m->M; k++) rg_mesh_sectors_at(m, k, X, theta);
 }
 
+double rg_mesh_twice_area(const rg_mesh *m, int32_t f, const rg_vec2 *X)
+{
+    const int32_t *v = m->facet_vertex, first = m->facet_start[f];
+    double twice = 0;
+    for (int32_t j = first + 1; j + 1 < m->facet_start[f + 1]; j++)
+        twice += rg_vec2_turn(X[v[first]], X[v[j]], X[v[j + 1]]);
+    return twice;
+}
+
 static rg_status join_facets(rg_mesh *m)
 {
     if (RG_MEM_ARRAYS(&m->mem, RG_ARRAY(m->edge_facet, (size_t)m->ne), RG_ARRAY(m->edge_crease, (size_t)m->ne),

@@ -51,6 +51,8 @@ int32_t rg_mesh_opposite(const rg_mesh *m, int32_t triangle, int32_t e);
 void rg_mesh_sectors(const rg_mesh *m, const rg_vec2 *X, double *theta);
 /* Of interior vertex k only. */
 void rg_mesh_sectors_at(const rg_mesh *m, int32_t k, const rg_vec2 *X, double *theta);
+/* Twice the area of facet f on the pattern X[nv]; negative: it has turned over. */
+double rg_mesh_twice_area(const rg_mesh *m, int32_t f, const rg_vec2 *X);
 /* A copy, with an allocator of its own. RG_ENOMEM, *out is then zeroed. */
 rg_status rg_mesh_copy(const rg_mesh *m, rg_mesh *out);
 void rg_mesh_free(rg_mesh *m);

@@ -43,7 +43,6 @@ void rg_ladder_note(rg_search *q, const rg_ladder_try *one, const rg_attempt *t)
 {
     q->tries++;
     rg_cost_add(&q->cost, &t->cost);
-    q->work += t->work;
     if (q->tried_count == RG_MOST_TRIED) return;
     rg_try *told = &q->tried[q->tried_count++];
     *told = (rg_try){.rung = one->r->name, .direction = one->r->backwards ? "backward" : "forward",

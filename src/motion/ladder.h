@@ -26,7 +26,6 @@ typedef struct rg_search {
     const char *rung, *direction;
     double compliance;
     int32_t tries;        /* rungs up to the one that is kept, and retractions */
-    double work;          /* of all tries */
     rg_cost cost;         /* of all tries */
     rg_try tried[RG_MOST_TRIED]; /* the first of them */
     int32_t tried_count;

@@ -97,14 +97,6 @@ static double displacement(const rg_mesh *m, const rg_vec2 *X)
     return most;
 }
 
-static double area(const rg_mesh *m, int32_t f, const rg_vec2 *X)
-{
-    double twice = 0;
-    for (int32_t j = m->facet_start[f] + 1; j + 1 < m->facet_start[f + 1]; j++)
-        twice += rg_vec2_turn(X[m->facet_vertex[m->facet_start[f]]], X[m->facet_vertex[j]], X[m->facet_vertex[j + 1]]);
-    return twice;
-}
-
 /* Is the border of X the border given, and is every facet the right way up? Ends of a border edge stay on its line, a
  * corner on both of its lines. */
 static int is_same_sheet(const rg_mesh *m, const rg_vec2 *X)
@@ -117,7 +109,7 @@ static int is_same_sheet(const rg_mesh *m, const rg_vec2 *X)
             same &= fabs(rg_vec2_cross(d, rg_vec2_sub(X[m->edge[e][k]], a))) <= ISOMETRIC * m->size * rg_vec2_length(d);
         same &= rg_vec2_dot(d, rg_vec2_sub(X[m->edge[e][1]], X[m->edge[e][0]])) > 0;
     }
-    for (int32_t f = 0; f < m->nf; f++) same &= area(m, f, X) > 0;
+    for (int32_t f = 0; f < m->nf; f++) same &= rg_mesh_twice_area(m, f, X) > 0;
     return same;
 }
 

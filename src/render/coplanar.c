@@ -16,15 +16,6 @@ static rg_vec3 first_corner(const rg_mesh *m, int32_t f, const rg_vec3 *x)
     return x[m->facet_vertex[m->facet_start[f]]];
 }
 
-static double area(const rg_mesh *m, int32_t f)
-{
-    const int32_t *v = m->facet_vertex;
-    double sum = 0;
-    for (int32_t j = m->facet_start[f] + 1; j + 1 < m->facet_start[f + 1]; j++)
-        sum += rg_vec2_turn(m->X[v[m->facet_start[f]]], m->X[v[j]], m->X[v[j + 1]]);
-    return sum;
-}
-
 typedef struct sized { double area; int32_t f; } sized;
 
 static int larger_first(const void *a, const void *b)
@@ -39,7 +30,7 @@ static rg_status sort_by_area(rg_coplanar *c)
     const int32_t nf = c->mesh->nf;
     sized *key = rg_mem_array(&c->mem, (size_t)nf, sizeof *key);
     if (!key) return RG_ENOMEM;
-    for (int32_t f = 0; f < nf; f++) key[f] = (sized){area(c->mesh, f), f};
+    for (int32_t f = 0; f < nf; f++) key[f] = (sized){rg_mesh_twice_area(c->mesh, f, c->mesh->X), f};
     qsort(key, (size_t)nf, sizeof *key, larger_first);
     for (int32_t f = 0; f < nf; f++) c->by_area[f] = key[f].f;
     rg_mem_free(&c->mem, key);
