@@ -135,7 +135,8 @@ static void measure(rg_attempt *t)
 double rg_attempt_largest_angle(const rg_attempt *t, int32_t i)
 {
     double most = t->largest ? t->largest[i] : 0;
-    for (int32_t k = 0; !t->largest && k < rg_attempt_states(t); k++) most = fmax(most, fabs(rg_attempt_state(t, k)[i]));
+    for (int32_t k = 0; !t->largest && k < rg_attempt_states(t); k++)
+        most = fmax(most, fabs(rg_attempt_state(t, k)[i]));
     return most;
 }
 
