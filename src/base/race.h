@@ -1,5 +1,5 @@
 /* race.h -- several tries at one thing, some of them at the same time; the lowest that succeeds wins.
- * Used by  search.c
+ * Used by  ladder.h, and through it search.c retract.c
  *
  * Which tries are run to their end, and what comes of it, does not depend on timing: a try is only given up when a lower one
  * has succeeded, so every try up to the winner has been run to its end. */

@@ -1,5 +1,5 @@
 /* chord.h -- what lies between two nodes of a path: the points of their chord, closed at their part of the progress.
- * Uses  relaxation.h closing.h        Used by  relax.c attempt.c relaxed.c
+ * Uses  relaxation.h closing.h        Used by  relax.c attempt.c frames.c relaxed.c
  *
  * Closing changes the less the nearer a point is to a node, and creases may go as far past half a turn as at the nodes
  * and no farther. So the path is continuous, comes to every node, and depends on nothing but these two. */
