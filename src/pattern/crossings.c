@@ -174,24 +174,43 @@ static rg_status make_starts(rg_splitter *s, rg_cell_edges *l)
     return RG_MEM_GROW(&s->mem, l->edge, l->room, (size_t)total + 1);
 }
 
+/* Edge list[k] is visited next of n that lie here and there: what is read of later ones is asked for. */
+static inline int visit_listed(rg_splitter *s, const int32_t *list, int32_t k, int32_t n, visit what)
+{
+    if (k + 3 * RG_SOON < n) rg_mem_soon(&s->E[list[k + 3 * RG_SOON]]);
+    for (int i = 0; k + 2 * RG_SOON < n && i < 2; i++) {
+        const int32_t later = s->E[list[k + 2 * RG_SOON]].v[i], soon = s->E[list[k + RG_SOON]].v[i];
+        rg_mem_soon(&s->place[later]);
+        rg_mem_soon(&s->points.X[soon]);
+        if (s->place[soon].column < 0) continue;
+        const int32_t c = cell_at(s, s->place[soon].column >> 1, s->place[soon].row >> 1);
+        rg_mem_soon(&s->wanted[c]);
+        rg_mem_soon(what == FILL ? &s->all.start[c] : &s->news.start[c]);
+    }
+    return visit_edge(s, list[k], what);
+}
+
 /* Where fresh edges are, all in all that they are in; and the cells of new vertices. */
 static rg_status find_news(rg_splitter *s)
 {
-    rg_status status = RG_OK;
-    for (int32_t e = 0; status == RG_OK && e < s->ne; e++) {
-        if (!s->fresh[e]) continue;
-        visit_edge(s, e, MARK);
+    int32_t *list = NULL, n = 0;
+    size_t room = 0;
+    rg_status status = RG_MEM_GROW(&s->mem, list, room, (size_t)s->fresh_count);
+    for (int32_t e = 0; status == RG_OK && e < s->ne; e++)
+        if (s->fresh[e]) list[n++] = e;
+    for (int32_t k = 0; status == RG_OK && k < n; k++) {
+        visit_listed(s, list, k, n, MARK);
         status = rg_splitter_done(s, 1);
     }
     for (int32_t v = s->looked_at; v < s->points.count; v++) s->wanted[cell_of(s, s->points.X[v])] = 1;
     if (status == RG_OK) status = make_starts(s, &s->news);
     const int64_t total = s->news.start[s->side[0] * s->side[1] + 1];
     const int64_t each = 1 + total / (s->fresh_count + 1); /* cells that one crosses, more or less */
-    for (int32_t e = 0; status == RG_OK && e < s->ne; e++) {
-        if (!s->fresh[e]) continue;
-        visit_edge(s, e, FILL_NEWS);
+    for (int32_t k = 0; status == RG_OK && k < n; k++) {
+        visit_listed(s, list, k, n, FILL_NEWS);
         status = rg_splitter_done(s, each);
     }
+    rg_mem_free(&s->mem, list);
     return status;
 }
 
@@ -208,7 +227,7 @@ static rg_status find_all(rg_splitter *s)
             rg_mem_soon(&s->place[s->E[e + 2 * RG_SOON].v[1]]);
             if (many) {
                 rg_mem_soon(&s->points.X[v]);
-                if (i >= 0) rg_mem_soon(&s->all.start[cell_at(s, i, j)]);
+                if (i >= 0) rg_mem_soon(&s->wanted[cell_at(s, i, j)]), rg_mem_soon(&s->all.start[cell_at(s, i, j)]);
             }
         }
         if (visit_edge(s, e, COUNT)) {
@@ -219,8 +238,7 @@ static rg_status find_all(rg_splitter *s)
     }
     if (status == RG_OK) status = make_starts(s, &s->all);
     for (int32_t k = 0; status == RG_OK && k < count; k++) {
-        if (k + RG_SOON < count) rg_mem_soon(&s->points.X[s->E[near[k + RG_SOON]].v[1]]);
-        visit_edge(s, near[k], FILL);
+        visit_listed(s, near, k, count, FILL);
         status = rg_splitter_done(s, 1);
     }
     rg_mem_free(&s->mem, near);

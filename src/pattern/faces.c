@@ -109,7 +109,10 @@ rg_status rg_faces_init(rg_faces *f, const rg_memory *mem, int32_t nv, int32_t n
     for (int32_t v = 0; v < nv; v++)
         for (int32_t j = star_start[v]; j < star_start[v + 1]; j++) {
             const int32_t e = star[j], before = star[j > star_start[v] ? j - 1 : star_start[v + 1] - 1];
-            if (j + RG_SOON < star_start[nv]) rg_mem_soon(&E[star[j + RG_SOON]]);
+            if (j + RG_SOON < star_start[nv]) {
+                rg_mem_soon(&E[star[j + RG_SOON]]);
+                rg_mem_soon(&f->next[2 * star[j + RG_SOON]]);
+            }
             const int32_t arriving = 2 * e + (E[e].v[0] == v), leaving = 2 * before + (E[before].v[1] == v);
             f->next[arriving] = leaving;
         }

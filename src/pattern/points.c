@@ -163,7 +163,8 @@ rg_status rg_points_nearest(const rg_memory *mem, const rg_vec2 *X, int32_t n, d
     for (int32_t v = 0; v < n; v++) line[v] = (rg_keyed){rg_vec2_dot(along, X[v]), v, 0};
     rg_order_keyed(line, n, room, count);
     *distance = INFINITY;
-    for (int32_t i = 0; i < n; i++)
+    for (int32_t i = 0; i < n; i++) {
+        if (i + RG_SOON < n) rg_mem_soon(&X[line[i + RG_SOON].v]);
         for (int32_t j = i + 1; j < n && line[j].key - line[i].key < *distance; j++) {
             const rg_vec2 off = rg_vec2_sub(X[line[i].v], X[line[j].v]);
             if (!(fabs(off.x) < *distance && fabs(off.y) < *distance)) continue;
@@ -172,6 +173,7 @@ rg_status rg_points_nearest(const rg_memory *mem, const rg_vec2 *X, int32_t n, d
             *distance = d;
             if (at) *at = line[i].v;
         }
+    }
     RG_MEM_FREE(mem, line, room, count);
     return RG_OK;
 }
