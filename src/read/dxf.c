@@ -12,7 +12,7 @@
 
 enum { BY_BLOCK = 0, BY_LAYER = 256 };
 /* What INSERT repeats is bounded in sum, counted in pairs, and so is how deep blocks stand in each other. */
-enum { MOST_REPEATED = 1 << 22, OF_SEGMENT = 8, MOST_NESTED = 64 };
+enum { MOST_REPEATED = 1 << 21, OF_SEGMENT = 8, MOST_NESTED = 64 };
 enum { BYTES_A_PAIR = 8 }; /* longer values take longer */
 /* Kinds of entities that are told by name when they are left out. */
 enum { MOST_LEFT_OUT = 24 };
