@@ -186,19 +186,36 @@ static void leave_flat(rg_straight *f)
     rg_straight_accept(f, f->path.node[0].rho, 0); /* frames may lie before that node */
 }
 
-/* Another node: is it to be made? What is read off between nodes is no step: the way does not depend on frames. */
-static int may_step(rg_straight *f)
+/* Why no more nodes are to be made; NULL: they are. */
+static const char *is_over(rg_straight *f)
 {
     const double s = f->path.node[f->path.count - 1].s;
     const double could = MOST_CREEPING * f->settings.step / RG_PI;
     const double part = LEAST_WAY_PART * (f->graded ? fmin(could, fmin(s, 1 - s)) : could);
+    const double most = fmax(MOST_STRAIGHT_STEPS, MOST_STRAIGHT_WAYS * RG_PI / f->settings.step);
     if (s - f->idle_s >= fmin(LEAST_WAY, part)) f->idle = 0, f->idle_s = s;
-    if (f->idle++ >= MOST_CREEPING) {
-        rg_straight_stop(f, "the facets leave hardly any way on: it goes on in steps too small to get anywhere");
-        return 0;
+    if (f->steps > (f->most_steps ? f->most_steps : most)) return "the number of steps ran out";
+    if (f->idle++ < MOST_CREEPING) return NULL;
+    return "the facets leave hardly any way on: it goes on in steps too small to get anywhere";
+}
+
+/* Another node: is it to be made? What is read off between nodes is no step, so that the way does not depend on frames;
+ * and the frames up to the last node are read before it ends there. */
+static int may_step(rg_straight *f)
+{
+    const char *why = is_over(f);
+    if (!why) {
+        f->steps++;
+        return 1;
     }
-    f->steps++;
-    return 1;
+    if (f->smooth && !f->path_ended) {
+        f->path_ended = 1;
+    } else {
+        const rg_node *last = &f->path.node[f->path.count - 1];
+        rg_straight_accept(f, last->rho, last->s);
+        rg_straight_stop(f, why);
+    }
+    return 0;
 }
 
 /* The next frame off the nodes, or another node where they do not reach it yet. */
@@ -252,17 +269,11 @@ static int32_t step(rg_straight *f)
         f->s = rg_straight_frame_progress(f, f->frame);
         return f->frame;
     }
-    const double most = fmax(MOST_STRAIGHT_STEPS, MOST_STRAIGHT_WAYS * RG_PI / f->settings.step);
-    if (f->steps > (f->most_steps ? f->most_steps : most)) {
-        rg_straight_stop(f, "the number of steps ran out");
-    } else {
-        const int32_t before = f->steps;
-        if (f->path.count == 0) leave_flat(f);
-        else go_on(f);
-        if (f->steps > before) note_node(f);
-        if (f->outcome == RG_RUNNING && f->s >= rg_straight_frame_progress(f, f->frame)) return f->frame;
-    }
-    return -1;
+    const int32_t before = f->steps;
+    if (f->path.count == 0) leave_flat(f);
+    else go_on(f);
+    if (f->steps > before) note_node(f);
+    return f->outcome == RG_RUNNING && f->s >= rg_straight_frame_progress(f, f->frame) ? f->frame : -1;
 }
 
 /* The same for several. */

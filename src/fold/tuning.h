@@ -110,8 +110,8 @@ static const int32_t MOST_PULLS = 12;
 static const double PAST = 1e-9;
 /* Steps at the most, whatever they are; and so many times what half a turn takes by the largest. */
 static const double MOST_STRAIGHT_STEPS = 20000, MOST_STRAIGHT_WAYS = 8;
-/* So many steps must gain this much of the way or, where they are small by order, this part of what they could or, graded,
- * of what lies behind or before them: a motion that only creeps is over. */
+/* So many steps must gain this much of the way or, where they are small by order, this part of what they could or,
+ * graded, of what lies behind or before them: a motion that only creeps is over. */
 static const int32_t MOST_CREEPING = 60;
 static const double LEAST_WAY = 1e-3, LEAST_WAY_PART = 0.01;
 
