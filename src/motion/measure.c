@@ -1,6 +1,6 @@
 #include "motion/measure.h"
 #include "contact/course.h"
-#include "kinematics/loop.h"
+#include "kinematics/constraint.h"
 #include "mesh/components.h"
 #include "mesh/symmetry.h"
 
@@ -22,33 +22,23 @@ static double larger(double most, double value)
 
 /* Room for one frame. */
 typedef struct gauge {
-    rg_turn *rho, *theta; /* [N], [corners] of the pattern `of` */
-    double *sector;       /* [corners] */
+    rg_constraint K;   /* on the pattern `of` */
+    double *sector;    /* [corners] of it */
     const rg_vec2 *of;
-    rg_place *place;      /* [nf] */
-    rg_vec3 *x;           /* [nv] */
-    int32_t *part;        /* [N] */
+    rg_place *place;   /* [nf] */
+    rg_vec3 *x;        /* [nv] */
+    int32_t *part;     /* [N] */
 } gauge;
-
-static void set_sectors(gauge *g, const rg_mesh *m, const rg_vec2 *X)
-{
-    if (g->of == X) return;
-    g->of = X;
-    rg_mesh_sectors(m, X, g->sector);
-    for (int32_t j = 0; j < m->loop_start[m->M]; j++) g->theta[j] = (rg_turn){cos(g->sector[j]), sin(g->sector[j])};
-}
 
 /* Largest rotation angle of F over the interior vertices, for fold angles rho on the pattern X. */
 static double closure(gauge *g, const rg_mesh *m, const rg_vec2 *X, const double *rho)
 {
-    double worst = 0;
-    set_sectors(g, m, X);
-    for (int32_t i = 0; i < m->N; i++) g->rho[i] = (rg_turn){cos(rho[i]), sin(rho[i])};
-    for (int32_t k = 0; k < m->M; k++) {
-        const int32_t first = m->loop_start[k], n = m->loop_start[k + 1] - first;
-        worst = larger(worst, rg_loop_angle(rg_loop_walk(n, m->loop_crease + first, g->rho, g->theta + first, NULL)));
+    if (g->of != X) {
+        g->of = X;
+        rg_mesh_sectors(m, X, g->sector);
+        rg_constraint_set_theta(&g->K, g->sector);
     }
-    return worst;
+    return rg_constraint_closure(&g->K, rho, NULL);
 }
 
 double rg_measure_percent(const rg_motion *m, const double *rho, double none)
@@ -115,9 +105,10 @@ static int is_same_sheet(const rg_mesh *m, const rg_vec2 *X)
 
 static rg_status make_room(gauge *g, const rg_memory *mem, const rg_mesh *m)
 {
-    const size_t N = (size_t)m->N, corners = (size_t)m->loop_start[m->M];
-    return RG_MEM_ARRAYS(mem, RG_ARRAY(g->rho, N), RG_ARRAY(g->theta, corners), RG_ARRAY(g->sector, corners),
-                         RG_ARRAY(g->place, (size_t)m->nf), RG_ARRAY(g->x, (size_t)m->nv), RG_ARRAY(g->part, N));
+    const rg_status s = rg_constraint_init(&g->K, mem, m);
+    if (s != RG_OK) return s;
+    return RG_MEM_ARRAYS(mem, RG_ARRAY(g->sector, (size_t)m->loop_start[m->M]), RG_ARRAY(g->place, (size_t)m->nf),
+                         RG_ARRAY(g->x, (size_t)m->nv), RG_ARRAY(g->part, (size_t)m->N));
 }
 
 /* Where a state's facets and vertices are. */
@@ -268,7 +259,8 @@ rg_status rg_measure_frames(rg_motion *m, rg_watch *watch)
     if (s == RG_OK) measure_contact(m, looks ? &course : NULL);
     if (looks && s == RG_OK) s = keep_sides(m, &course);
     rg_course_free(&course);
-    RG_MEM_FREE(&m->mem, g.rho, g.theta, g.sector, g.place, g.x, g.part);
+    rg_constraint_free(&g.K);
+    RG_MEM_FREE(&m->mem, g.sector, g.place, g.x, g.part);
     if (s != RG_OK) return RG_ENOMEM;
     m->report.symmetry = 1;
     return watch && watch->cancelled ? RG_OK : measure_symmetry(m);
