@@ -227,9 +227,9 @@ static rg_status planarise(rg_splitter *s, rg_lines *lines, rg_vec2 low, rg_vec2
 {
     const double size = fmax(high.x - low.x, high.y - low.y);
     rg_status status = rg_overlap_resolve(lines, s->points.X, s->points.tol, size, &s->E, &s->ne, &s->room);
-    if (status == RG_OK) status = RG_MEM_GROW(&s->mem, s->fresh, s->fresh_room, (size_t)s->ne);
-    for (int32_t e = 0; status == RG_OK && e < s->ne; e++) s->fresh[e] = 1;
-    if (status == RG_OK) s->fresh_count = s->ne;
+    if (status != RG_OK || s->ne == 0) return status;
+    status = RG_MEM_GROW(&s->mem, s->fresh, s->fresh_room, (size_t)s->ne);
+    if (status == RG_OK) memset(s->fresh, 1, (size_t)s->ne), s->fresh_count = s->ne;
     if (status == RG_OK) status = merge_doubles(s, lines);
     if (status == RG_OK && crosses_too_often(s)) s->too_many = "crossings", status = RG_EFORMAT;
     for (int round = 0; status == RG_OK && s->ne > 0; round++) {
