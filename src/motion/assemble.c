@@ -115,8 +115,7 @@ static rg_status block(rg_motion *m, const rg_attempt *t, const rg_overlay *o)
     for (int32_t n = 0; n < t->vertices; n++)
         for (int32_t v = 0; v < m->mesh.nv && r->blocking_vertex_count < t->vertices; v++) {
             if (o->spot[v].n != 1 || o->spot[v].at[0] != t->vertex[n]) continue;
-            m->blocking_at[r->blocking_vertex_count][0] = m->mesh.X[v].x;
-            m->blocking_at[r->blocking_vertex_count][1] = m->mesh.X[v].y;
+            rg_motion_drawn(m, m->mesh.X[v], m->blocking_at[r->blocking_vertex_count]);
             m->blocking_vertex[r->blocking_vertex_count++] = v;
         }
     for (int32_t i = 0; i < m->mesh.N; i++)

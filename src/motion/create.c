@@ -128,13 +128,8 @@ static rg_status adopt(rg_motion *m, rg_search *c, rg_attempt *path)
     memcpy(m->tried, c->tried, (size_t)c->tried_count * sizeof *m->tried);
     r->tried = m->tried;
     r->tried_count = c->tried_count;
-    for (int32_t k = 0; k < r->blocking_vertex_count; k++) {
-        const rg_vec2 at = m->mesh.X[m->blocking_vertex[k]];
-        /* What rounding leaves of 0 is 0 for people. */
-        const double x = fabs(at.x) > 1e-9 * m->mesh.size ? at.x : 0, y = fabs(at.y) > 1e-9 * m->mesh.size ? at.y : 0;
-        m->blocking_at[k][0] = x;
-        m->blocking_at[k][1] = m->source.y_down ? 0 - y : y;
-    }
+    for (int32_t k = 0; k < r->blocking_vertex_count; k++)
+        rg_motion_drawn(m, m->mesh.X[m->blocking_vertex[k]], m->blocking_at[k]);
     r->blocking_vertices = m->blocking_vertex;
     r->blocking_creases = m->blocking_crease;
     r->blocking_at = (const double(*)[2])m->blocking_at;

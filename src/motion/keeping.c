@@ -188,11 +188,8 @@ static void set_report(rg_motion *m, const rg_fold *f)
     else tell_found(r, old);
     memcpy(m->blocking_vertex, vertex, (size_t)r->blocking_vertex_count * sizeof *vertex);
     memcpy(m->blocking_crease, crease, (size_t)r->blocking_crease_count * sizeof *crease);
-    for (int32_t k = 0; k < r->blocking_vertex_count; k++) {
-        const rg_vec2 at = m->mesh.X[m->blocking_vertex[k]];
-        m->blocking_at[k][0] = at.x;
-        m->blocking_at[k][1] = m->source.y_down ? 0 - at.y : at.y;
-    }
+    for (int32_t k = 0; k < r->blocking_vertex_count; k++)
+        rg_motion_drawn(m, m->mesh.X[m->blocking_vertex[k]], m->blocking_at[k]);
     r->blocking_vertices = m->blocking_vertex, r->blocking_creases = m->blocking_crease;
     r->blocking_at = (const double(*)[2])m->blocking_at;
 }

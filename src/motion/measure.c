@@ -168,9 +168,8 @@ static rg_status measure_symmetry(rg_motion *m)
 void rg_measure_place(rg_motion *m, const int32_t facet[2])
 {
     for (int k = 0; k < 2; k++) {
-        const rg_vec2 at = rg_plates_middle(&m->mesh, facet[k]);
         m->report.contact_facets[k] = facet[k];
-        m->report.contact_at[k][0] = at.x, m->report.contact_at[k][1] = m->source.y_down ? 0 - at.y : at.y;
+        rg_motion_drawn(m, rg_plates_middle(&m->mesh, facet[k]), m->report.contact_at[k]);
     }
 }
 

@@ -8,6 +8,8 @@
 
 /* A point that is meant to be on a crease is no farther from it than this part of the sheet's size. */
 static const double ON_CREASE = 0.01;
+/* Part of the sheet's size that is rounding. */
+static const double NEARLY_NOTHING = 1e-9;
 
 void rg_motion_free_stages(rg_stages *q)
 {
@@ -140,6 +142,13 @@ rg_status rg_motion_pose(const rg_motion *m, int32_t frame, double (*xyz)[3])
 {
     if (!rg_motion_angles(m, frame)) return RG_EARG;
     return rg_motion_place(m, frame, (rg_vec3 *)xyz);
+}
+
+void rg_motion_drawn(const rg_motion *m, rg_vec2 at, double drawn[2])
+{
+    const double nothing = NEARLY_NOTHING * m->mesh.size;
+    drawn[0] = fabs(at.x) > nothing ? at.x : 0;
+    drawn[1] = fabs(at.y) <= nothing ? 0 : m->source.y_down ? -at.y : at.y;
 }
 
 rg_status rg_motion_crease(const rg_motion *m, int32_t i, rg_crease *out)

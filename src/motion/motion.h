@@ -74,6 +74,8 @@ rg_status rg_motion_place(const rg_motion *m, int32_t f, rg_vec3 *x);
 void rg_motion_facets(const rg_motion *m, int32_t f, rg_place *place);
 /* The same about the sheet's middle: in single precision much would be lost far from the origin. */
 rg_status rg_motion_place_centred(const rg_motion *m, int32_t f, rg_vec3 *x);
+/* A place of the sheet as its drawing has it: y as it runs there. What rounding leaves of 0 is 0 for people. */
+void rg_motion_drawn(const rg_motion *m, rg_vec2 at, double drawn[2]);
 /* The middle of the box around the pattern given. */
 rg_vec3 rg_motion_middle(const rg_motion *m);
 
