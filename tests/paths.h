@@ -136,14 +136,13 @@ static inline double path_wrong(const rg_motion *m)
     return most / RG_DEG;
 }
 
-/* Every tenth frame of `many` against those of `few`. A motion that stops has its last state after them. */
+/* Every tenth frame of `many` against those of `few`, and the last state, which may come before a frame is reached. */
 static inline void path_compare(const rg_motion *few, const rg_motion *many, path_seen *x)
 {
     const int32_t a = rg_motion_report(few)->frame_count, b = rg_motion_report(many)->frame_count, N = few->mesh.N;
     x->same_bits = rg_motion_report(few)->outcome == rg_motion_report(many)->outcome && N == many->mesh.N;
-    const int32_t shared = rg_motion_report(few)->outcome == RG_STOPPED ? a - 1 : a;
-    for (int32_t k = 0; x->same_bits && k < shared; k++) {
-        const int32_t j = k * (MANY - 1) / (FEW - 1);
+    for (int32_t k = 0; x->same_bits && k < a; k++) {
+        const int32_t j = k + 1 == a ? b - 1 : k * (MANY - 1) / (FEW - 1);
         if (j >= b) {
             x->same_bits = 0;
             break;

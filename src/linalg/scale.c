@@ -36,7 +36,7 @@ RG_WITHIN void inverse_root(const rg_quad *pivot, rg_quad *root)
  * is e_x, so xx >= 1, and two neighbours are never in line: only the third pivot can go. */
 RG_WITHIN void invert(const rg_quad *d, rg_quad *w)
 {
-    rg_quad a, b, c;
+    rg_quad a = {0}, b = {0}, c = {0};
     inverse_root(&d[0], &a);
     const rg_quad l21 = d[3] * a, l31 = d[4] * a, second = d[1] - l21 * l21;
     inverse_root(&second, &b);
