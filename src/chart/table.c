@@ -60,7 +60,7 @@ void rg_chart_csv(const rg_chart *c, const char *title, FILE *out)
 /* ---------------------------------------------------------------------------------------------- in words ---- */
 
 /* Words with numbers: ~ is a double, as by `brief`, # an int, $ a string. */
-static void write_words(FILE *out, const char *words, ...)
+static void put(FILE *out, const char *words, ...)
 {
     va_list args;
     va_start(args, words);
@@ -78,7 +78,7 @@ static void reference(const rg_chart *c, FILE *out)
     const int known = (int)ref->frames.count, frames = (int)c->settings.frames;
     fputs("Reference: ", out);
     if (ref->exact) {
-        write_words(out, "closed form (every vertex flat-foldable, of degree 4); the sheet closes there to ~ rad.\n\n",
+        put(out, "closed form (every vertex flat-foldable, of degree 4); the sheet closes there to ~ rad.\n\n",
             ref->closure);
         return;
     }
@@ -88,9 +88,9 @@ static void reference(const rg_chart *c, FILE *out)
         return;
     }
     fputs("rk4 with graded steps, halved; the path changed by", out);
-    for (int32_t n = 1; n < ref->halvings; n++) write_words(out, n > 1 ? ", ~" : " ~", ref->change[n]);
-    write_words(out, " rad; its error is about ~ rad.\n\n", ref->error);
-    if (known < frames) write_words(out, "It is known for # of # frames: errors are those of these.\n\n", known, frames);
+    for (int32_t n = 1; n < ref->halvings; n++) put(out, n > 1 ? ", ~" : " ~", ref->change[n]);
+    put(out, " rad; its error is about ~ rad.\n\n", ref->error);
+    if (known < frames) put(out, "It is known for # of # frames: errors are those of these.\n\n", known, frames);
 }
 
 static const char *method(const rg_run *r) { return rg_run_method_name(r->method); }
@@ -101,14 +101,14 @@ static void verdict(const rg_chart *c, FILE *out)
     if (c->runs == 0) return;
     const rg_run *a = &c->run[0], *quick = rg_chart_best(c, 0), *lean = rg_chart_best(c, 1);
     if (!rg_chart_reached(c, a) || !quick || !lean) {
-        write_words(out, "The default, $ with $, stops short.\n\n", method(a), solver(a));
+        put(out, "The default, $ with $, stops short.\n\n", method(a), solver(a));
         return;
     }
-    write_words(out, "The default is $ with $: ~ rad off in ~ ms, ~ passes. ", method(a), solver(a), a->error,
+    put(out, "The default is $ with $: ~ rad off in ~ ms, ~ passes. ", method(a), solver(a), a->error,
         1000 * a->seconds, a->passes);
-    write_words(out, "As accurate, the quickest takes ~ ms ($, $), the default ~ times that; ", 1000 * quick->seconds,
+    put(out, "As accurate, the quickest takes ~ ms ($, $), the default ~ times that; ", 1000 * quick->seconds,
         method(quick), solver(quick), a->seconds / quick->seconds);
-    write_words(out, "the leanest ~ passes ($, $), the default ~ times that.\n\n", lean->passes, method(lean), solver(lean),
+    put(out, "the leanest ~ passes ($, $), the default ~ times that.\n\n", lean->passes, method(lean), solver(lean),
         a->passes / lean->passes);
 }
 
@@ -116,11 +116,11 @@ static void runs(const rg_chart *c, FILE *out)
 {
     int32_t stopped = 0;
     for (int32_t i = 1; i < c->runs; i++) stopped += !rg_chart_reached(c, &c->run[i]);
-    write_words(out, "Of # runs # stopped short", (int)c->runs, (int)stopped);
+    put(out, "Of # runs # stopped short", (int)c->runs, (int)stopped);
     for (int32_t i = 1, n = 0; i < c->runs; i++) {
         const rg_run *r = &c->run[i];
         if (rg_chart_reached(c, r)) continue;
-        write_words(out, "$$ with $ at ~ percent, step ~", n++ ? "; " : ": ", method(r), solver(r), r->percent,
+        put(out, "$$ with $ at ~ percent, step ~", n++ ? "; " : ": ", method(r), solver(r), r->percent,
             r->way.step / RG_DEG);
     }
     fputs(". The default, and those that none beats both in time and in error:\n\n"
@@ -130,7 +130,7 @@ static void runs(const rg_chart *c, FILE *out)
         const rg_run *r = &c->run[i];
         if (i > 0 && !rg_chart_on_front(c, i)) continue;
         const double step = r->method == RG_METHOD_ADAPTIVE ? NAN : r->way.step / RG_DEG;
-        write_words(out, "| $$ | $ | ~ | ~ | ~ | ~ | ~ | ~", i == 0 ? "**default** " : "", method(r), solver(r), step,
+        put(out, "| $$ | $ | ~ | ~ | ~ | ~ | ~ | ~", i == 0 ? "**default** " : "", method(r), solver(r), step,
             r->way.tol, r->error, r->closure, 1000 * r->seconds, r->passes);
         fprintf(out, " | %lld | %lld |\n", (long long)r->steps, (long long)r->solves);
     }
@@ -140,14 +140,14 @@ static void runs(const rg_chart *c, FILE *out)
 /* An order of convergence. */
 static double order(double x) { return isnan(x) ? NAN : round(100 * x) / 100; }
 
-static void slope(const rg_slope *s, FILE *out) { write_words(out, s->exact ? "exact" : "~", order(s->slope)); }
+static void slope(const rg_slope *s, FILE *out) { put(out, s->exact ? "exact" : "~", order(s->slope)); }
 
 static void orders(const rg_chart *c, FILE *out)
 {
-    write_words(out, "Observed order from ~ to ~ percent:\n\n", 100 * c->from, 100 * c->to);
+    put(out, "Observed order from ~ to ~ percent:\n\n", 100 * c->from, 100 * c->to);
     fputs("| method | of the formula alone | as it folds |\n|---|---|---|\n", out);
     for (int j = 0; j < RG_ORDERS; j++) {
-        write_words(out, "| $ | ", rg_run_method_name(c->order[j].method));
+        put(out, "| $ | ", rg_run_method_name(c->order[j].method));
         slope(&c->order[j].open, out);
         fputs(" | ", out);
         slope(&c->order[j].closed, out);
@@ -161,9 +161,9 @@ static void off_on_the_way(const rg_relaxed *R, FILE *out)
     fputs(" On the way:\n\n| percent |", out);
     for (int j = 0; j < RG_RELAXED_PERCENTS; j++) fprintf(out, " %d |", rg_relaxed_percent[j]);
     fputs("\n|---|---|---|---|---|---|---|\n| angles, rad |", out);
-    for (int j = 0; j < RG_RELAXED_PERCENTS; j++) write_words(out, " ~ |", R->off[j]);
+    for (int j = 0; j < RG_RELAXED_PERCENTS; j++) put(out, " ~ |", R->off[j]);
     fputs("\n| pattern, of the sheet |", out);
-    for (int j = 0; j < RG_RELAXED_PERCENTS; j++) write_words(out, " ~ |", R->pattern_off[j]);
+    for (int j = 0; j < RG_RELAXED_PERCENTS; j++) put(out, " ~ |", R->pattern_off[j]);
 }
 
 /* Of the relaxed stepper: its path by steps halved, what the default is off by, its order. */
@@ -171,31 +171,31 @@ static void relaxed(const rg_chart *c, FILE *out)
 {
     const rg_relaxed *R = &c->relaxed;
     const rg_run *d = &R->run[RG_RELAXED_DEFAULT], *last = &R->run[R->points - 1];
-    write_words(out, "Nothing folds straight on; what folds is $", R->strategy);
+    put(out, "Nothing folds straight on; what folds is $", R->strategy);
     if (R->best.relax->U > 0)
-        write_words(out, ", the pattern moving by up to ~ % of the sheet", 100 * R->best.moved / R->best.mesh.size);
-    write_words(out, ", # creases added, a symmetry of order # kept.\n", (int)R->best.mesh.added,
+        put(out, ", the pattern moving by up to ~ % of the sheet", 100 * R->best.moved / R->best.mesh.size);
+    put(out, ", # creases added, a symmetry of order # kept.\n", (int)R->best.mesh.added,
         R->best.symmetry ? (int)R->best.symmetry->order : 1);
-    write_words(out, "Reference: the same with steps of ~ degrees.", last->way.step / RG_DEG);
+    put(out, "Reference: the same with steps of ~ degrees.", last->way.step / RG_DEG);
     if (R->order > 0 && R->error <= d->error)
-        write_words(out, " Its own error, if changes go on to fall as they did, is ~ rad; observed order: ~ of the angles, "
+        put(out, " Its own error, if changes go on to fall as they did, is ~ rad; observed order: ~ of the angles, "
                  "~ of the pattern.", R->error, order(R->order), order(R->pattern_order));
     else
-        write_words(out, " The path has not converged there: changes hardly fall with the step (order ~ of the angles, "
+        put(out, " The path has not converged there: changes hardly fall with the step (order ~ of the angles, "
                  "~ of the pattern), and errors are differences from it, not from a limit.", order(R->order),
             order(R->pattern_order));
-    if (R->finer_stops) write_words(out, " Half that step stops at ~ percent: $.", R->run[R->points].percent, R->reason);
-    write_words(out, "\n\nThe default, relaxed with steps of ~ degrees, is ", d->way.step / RG_DEG);
+    if (R->finer_stops) put(out, " Half that step stops at ~ percent: $.", R->run[R->points].percent, R->reason);
+    put(out, "\n\nThe default, relaxed with steps of ~ degrees, is ", d->way.step / RG_DEG);
     if (d == last) fputs("itself the finest that folds: what it is off by is not known. It takes ", out);
-    else write_words(out, "off by ~ rad and ~ of the sheet, in ", d->error, d->pattern_error);
-    write_words(out, "~ ms, ~ passes.", 1000 * d->seconds, d->passes);
+    else put(out, "off by ~ rad and ~ of the sheet, in ", d->error, d->pattern_error);
+    put(out, "~ ms, ~ passes.", 1000 * d->seconds, d->passes);
     if (d != last) off_on_the_way(R, out);
     fputs("\n\n| step, deg | outcome | angles off, rad | changed by | pattern off | changed by | closure, rad | ms | "
           "passes | steps |\n|---|---|---|---|---|---|---|---|---|---|\n", out);
     for (int32_t k = 0; k < R->points; k++) {
         const rg_run *r = &R->run[k];
         const char *how = !rg_chart_reached(c, r) ? "stopped" : k + 1 == R->points ? "reference" : "reached";
-        write_words(out, "| ~ | $ | ~ | ~ | ~ | ~ | ~ | ~ | ~ |", r->way.step / RG_DEG, how, r->error, R->change[k],
+        put(out, "| ~ | $ | ~ | ~ | ~ | ~ | ~ | ~ | ~ |", r->way.step / RG_DEG, how, r->error, R->change[k],
             r->pattern_error, R->pattern_change[k], r->closure, 1000 * r->seconds, r->passes);
         fprintf(out, " %lld |\n", (long long)r->steps);
     }
@@ -212,14 +212,14 @@ static void straight_on(const rg_chart *c, FILE *out)
         reached += rg_chart_reached(c, &c->run[i]);
         farthest = fmax(farthest, c->run[i].percent);
     }
-    write_words(out, "Straight on, # of # runs stop short, the farthest at ~ percent.\n\n", (int)(tried - reached), (int)tried,
+    put(out, "Straight on, # of # runs stop short, the farthest at ~ percent.\n\n", (int)(tried - reached), (int)tried,
         farthest);
 }
 
 static void model(const char *name, const rg_model *o, FILE *out)
 {
     const rg_run *r = &o->run;
-    write_words(out, "| $ | # | # | ~ | $ | ~ | ~ | ~ | ~ | ~ |\n", name, (int)o->unknowns, (int)o->constraints,
+    put(out, "| $ | # | # | ~ | $ | ~ | ~ | ~ | ~ | ~ |\n", name, (int)o->unknowns, (int)o->constraints,
         o->ways < 0 ? NAN : o->ways, r->outcome == RG_FOLDED ? "reached" : "stopped", r->error, r->closure,
         o->bend / RG_DEG, 1000 * r->seconds, r->passes);
 }
@@ -230,9 +230,9 @@ static void models(const rg_chart *c, FILE *out)
           "| ms | passes |\n|---|---|---|---|---|---|---|---|---|---|\n", out);
     model("facets as drawn", &c->none, out);
     model("all triangles", &c->all, out);
-    write_words(out, "| bars and hinges | # | # bars, # hinges | | | | | | | |\n\n", 3 * (int)c->nodes, (int)c->edges_all,
+    put(out, "| bars and hinges | # | # bars, # hinges | | | | | | | |\n\n", 3 * (int)c->nodes, (int)c->edges_all,
         (int)c->all.unknowns);
-    write_words(out, "Symmetries: #; they leave # of # creases and # of # vertices to solve for.\n", (int)c->alike.order,
+    put(out, "Symmetries: #; they leave # of # creases and # of # vertices to solve for.\n", (int)c->alike.order,
         (int)c->alike.creases, (int)c->none.unknowns, (int)c->alike.vertices, (int)c->none.constraints / 3);
 }
 
@@ -246,7 +246,7 @@ static void contact(const rg_chart *c, FILE *out)
     for (int k = 0; k < RG_TOUCHES; k++) {
         const rg_touch *t = &c->touch[k];
         if (!(t->seconds > 0)) continue;
-        write_words(out, "| $ | ~ | ~", name[k], t->seconds, t->seconds / left->seconds);
+        put(out, "| $ | ~ | ~", name[k], t->seconds, t->seconds / left->seconds);
         fprintf(out, " | %.1f %% | ", t->percent);
         if (t->crosses) fprintf(out, "%.1f %% | %.2g | %d", t->from, t->depth, (int)t->frames);
         else fputs("nowhere | 0 | 0", out);
