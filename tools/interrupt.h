@@ -1,9 +1,9 @@
 /* interrupt.h -- signals and time limits: what ends the program does so within a second, and leaves nothing half done.
  * Uses  options.h say.h        Used by  rigami.c progress.c, the commands that fold
  *
- * SIGINT, SIGTERM, SIGHUP and what limits and batch systems send, unless the caller has them ignored, end the program with
- * status 1. A thread of its own sees to it: it removes what outputs have left of temporary files, says what was not done, and ends the process,
- * whatever the others are at. */
+ * SIGINT, SIGTERM, SIGHUP and what limits and batch systems send, unless the caller has them ignored, end the program
+ * with status 1. A thread of its own sees to it: it removes what outputs have left of temporary files, says what was
+ * not done, and ends the process, whatever the others are at. */
 #ifndef INTERRUPT_H
 #define INTERRUPT_H
 

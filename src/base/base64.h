@@ -5,7 +5,8 @@
 
 #include "base/memory.h"
 
-/* `prefix`, the n bytes in base64 with padding, and a final 0. NULL when memory is short. Owner: the caller, rg_mem_free. */
+/* `prefix`, the n bytes in base64 with padding, and a final 0. NULL when memory is short. Owner: the caller,
+ * rg_mem_free. */
 char *rg_base64_text(const rg_memory *mem, const char *prefix, const unsigned char *bytes, size_t n);
 
 #endif

@@ -77,8 +77,8 @@ static int open_nameless(const rg_file *f)
 #endif
 }
 
-/* On the target's file system, so that putting it in its place is one step; open() applies the user's mask. The lock says that
- * somebody is at it: rg_file_sweep. */
+/* On the target's file system, so that putting it in its place is one step; open() applies the user's mask. The lock
+ * says that somebody is at it: rg_file_sweep. */
 static rg_status open_temporary(rg_file *f, int named, rg_diag *why)
 {
     rg_status s = RG_OK;
@@ -136,8 +136,15 @@ rg_status rg_file_begin(rg_file *f, const rg_memory *mem, const char *path, rg_d
     return begin(f, mem, path, 0, why);
 }
 
-rg_status rg_file_begin_swept(rg_file *f, const rg_memory *mem, const char *path, rg_diag *why) { return begin(f, mem, path, 0, why); }
-rg_status rg_file_begin_named(rg_file *f, const rg_memory *mem, const char *path, rg_diag *why) { return begin(f, mem, path, 1, why); }
+rg_status rg_file_begin_swept(rg_file *f, const rg_memory *mem, const char *path, rg_diag *why)
+{
+    return begin(f, mem, path, 0, why);
+}
+
+rg_status rg_file_begin_named(rg_file *f, const rg_memory *mem, const char *path, rg_diag *why)
+{
+    return begin(f, mem, path, 1, why);
+}
 
 const char *rg_file_reach(const rg_file *f, char room[RG_FILE_REACH])
 {
@@ -190,7 +197,8 @@ static rg_status commit_sink(rg_file *f, rg_diag *why)
     rg_status s = RG_OK;
     f->stream = NULL;
     if (bad) s = rg_fail(RG_ENOMEM, why, 0, "out of memory");
-    else if (f->sink.write(f->sink.ctx, f->pile->byte, f->pile->count) != 0) s = rg_fail(RG_EWRITE, why, 0, "the output is not taken");
+    else if (f->sink.write(f->sink.ctx, f->pile->byte, f->pile->count) != 0)
+        s = rg_fail(RG_EWRITE, why, 0, "the output is not taken");
     rg_file_abandon(f);
     return s;
 }
@@ -207,7 +215,8 @@ rg_status rg_file_begin_to_swept(rg_file *f, const rg_memory *mem, const rg_dest
 
 /* ----------------------------------------------------------------------------------------------- commit ---- */
 
-/* Where an earlier write failed, its reason is lost by now; one byte more fails for the same. The file is spoilt anyway. */
+/* Where an earlier write failed, its reason is lost by now; one byte more fails for the same. The file is spoilt
+ * anyway. */
 static rg_status fail_again(rg_file *f, rg_diag *why, const char *path)
 {
     if (errno == 0 && fputc('\n', f->stream) != EOF) fflush(f->stream);
@@ -215,8 +224,8 @@ static rg_status fail_again(rg_file *f, rg_diag *why, const char *path)
     return rg_fail(RG_EWRITE, why, 0, "%s: not all of it could be written", path);
 }
 
-/* On the disk before it takes the place of anything. Non-zero: it is not, and errno says why; a file system that has no such thing
- * is none the worse. */
+/* On the disk before it takes the place of anything. Non-zero: it is not, and errno says why; a file system that has no
+ * such thing is none the worse. */
 static int bring_to_disk(int fd)
 {
     if (fsync(fd) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS) return 0;
@@ -316,7 +325,8 @@ static int is_left(int folder, const char *name)
 {
     const int fd = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     struct stat is;
-    const int left = fd >= 0 && fstat(fd, &is) == 0 && S_ISREG(is.st_mode) && is.st_uid == geteuid() && flock(fd, LOCK_EX | LOCK_NB) == 0;
+    const int left = fd >= 0 && fstat(fd, &is) == 0 && S_ISREG(is.st_mode) && is.st_uid == geteuid() &&
+        flock(fd, LOCK_EX | LOCK_NB) == 0;
     if (fd >= 0) close(fd);
     return left;
 }

@@ -25,13 +25,15 @@ typedef struct rg_file {
     FILE *stream;     /* write here; buffered, binary */
     rg_sink sink;     /* write NULL: a file */
     rg_pile_of_bytes *pile; /* owned; for the sink */
-    char *path, *temporary; /* temporary NULL: it has no name yet, or it is written in place (standard output, a device, a pipe) */
+    /* temporary NULL: it has no name yet, or it is written in place (standard output, a device, a pipe) */
+    char *path, *temporary;
     int nameless;     /* non-zero: of a regular file that gets its name when all of it is there */
 } rg_file;
 
-/* Opens a file beside `path` to write into; "-" is standard output. What is no regular file is written in place, a symbolic link is
- * followed. Where the file system can, the file has no name before it is committed, so that nothing is left of it whatever ends
- * the program; elsewhere it is called PATH.PID-N.part, and those that were left are swept away before. RG_EWRITE: why->text says what and why, why->line is 0; RG_ENOMEM. */
+/* Opens a file beside `path` to write into; "-" is standard output. What is no regular file is written in place, a
+ * symbolic link is followed. Where the file system can, the file has no name before it is committed, so that nothing is
+ * left of it whatever ends the program; elsewhere it is called PATH.PID-N.part, and those that were left are swept away
+ * before. RG_EWRITE: why->text says what and why, why->line is 0; RG_ENOMEM. */
 rg_status rg_file_begin(rg_file *f, const rg_memory *mem, const char *path, rg_diag *why);
 /* The same for any destination. What a sink gets is collected in the caller's memory. */
 rg_status rg_file_begin_to(rg_file *f, const rg_memory *mem, const rg_dest *to, rg_diag *why);
@@ -40,8 +42,8 @@ rg_status rg_file_begin_swept(rg_file *f, const rg_memory *mem, const char *path
 rg_status rg_file_begin_to_swept(rg_file *f, const rg_memory *mem, const rg_dest *to, rg_diag *why);
 /* The same, with a name from the beginning, as where the file system can do no better. */
 rg_status rg_file_begin_named(rg_file *f, const rg_memory *mem, const char *path, rg_diag *why);
-/* Brings it to the disk, and puts it in the place of `path`. RG_EWRITE: something could not be written, now or before; `path` is as
- * it was. */
+/* Brings it to the disk, and puts it in the place of `path`. RG_EWRITE: something could not be written, now or before;
+ * `path` is as it was. */
 rg_status rg_file_commit(rg_file *f, rg_diag *why);
 /* Throws it away; harmless after commit and on a zeroed struct. */
 void rg_file_abandon(rg_file *f);
@@ -50,8 +52,9 @@ void rg_file_abandon(rg_file *f);
 enum { RG_FILE_REACH = 64 };
 const char *rg_file_reach(const rg_file *f, char room[RG_FILE_REACH]);
 
-/* Removes the temporary files that a program which was killed has left: beside START NUMBER END, whatever the number, or none.
- * Only files of this user, and only what no living process holds. `mine` non-zero: those of this process instead, which is to end. */
+/* Removes the temporary files that a program which was killed has left: beside START NUMBER END, whatever the number,
+ * or none. Only files of this user, and only what no living process holds. `mine` non-zero: those of this process
+ * instead, which is to end. */
 void rg_file_sweep(const char *start, const char *end, int mine);
 
 #endif

@@ -13,7 +13,8 @@ typedef double rg_quad __attribute__((vector_size(32)));
 typedef double rg_quad_anywhere __attribute__((vector_size(32), aligned(8))); /* in an array of doubles */
 typedef int64_t rg_quad_int __attribute__((vector_size(32)));
 
-/* Not by clang: up to 17 it gives the chosen version a name of its own, so that other files do not find the function. */
+/* Not by clang: up to 17 it gives the chosen version a name of its own, so that other files do not find the
+ * function. */
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__) && \
     defined(__has_attribute)
@@ -63,7 +64,8 @@ static inline void rg_lanes_add(int32_t n, double a, const double *x, double *y)
 static inline void rg_lanes_add_to(int32_t n, double a, const double *x, double *y)
 {
     int32_t i = 0;
-    for (; i + 4 <= n; i += 4) *(rg_quad_anywhere *)(y + i) = *(const rg_quad_anywhere *)(x + i) + a * *(rg_quad_anywhere *)(y + i);
+    for (; i + 4 <= n; i += 4)
+        *(rg_quad_anywhere *)(y + i) = *(const rg_quad_anywhere *)(x + i) + a * *(rg_quad_anywhere *)(y + i);
     for (; i < n; i++) y[i] = x[i] + a * y[i];
 }
 

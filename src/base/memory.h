@@ -13,8 +13,8 @@ rg_memory rg_mem_default(const rg_memory *given);
  * Owner: the caller, who frees it with rg_mem_free and the same allocator. */
 void *rg_mem_array(const rg_memory *mem, size_t n, size_t size);
 
-/* Arrays that are made together, all or none: RG_MEM_ARRAYS(mem, RG_ARRAY(s->x, n), RG_ARRAY(s->y, m)) is RG_OK, or RG_ENOMEM, and
- * then all of them are NULL. Each as by rg_mem_array. */
+/* Arrays that are made together, all or none: RG_MEM_ARRAYS(mem, RG_ARRAY(s->x, n), RG_ARRAY(s->y, m)) is RG_OK, or
+ * RG_ENOMEM, and then all of them are NULL. Each as by rg_mem_array. */
 #define RG_MEM_ARRAYS(mem, ...) \
     rg_mem_arrays(mem, (const rg_array[]){__VA_ARGS__}, sizeof((const rg_array[]){__VA_ARGS__}) / sizeof(rg_array))
 #define RG_ARRAY(pointer, n) {&(pointer), n, sizeof *(pointer)}
@@ -24,8 +24,8 @@ typedef struct rg_array {
 } rg_array;
 rg_status rg_mem_arrays(const rg_memory *mem, const rg_array *array, size_t count);
 
-/* Another's arrays, to which the pointers point, are copied: RG_MEM_COPIES(mem, RG_ARRAY(s->x, n)) leaves copies there; NULL stays
- * NULL. RG_ENOMEM: all of them are NULL. */
+/* Another's arrays, to which the pointers point, are copied: RG_MEM_COPIES(mem, RG_ARRAY(s->x, n)) leaves copies there;
+ * NULL stays NULL. RG_ENOMEM: all of them are NULL. */
 #define RG_MEM_COPIES(mem, ...) \
     rg_mem_copies(mem, (const rg_array[]){__VA_ARGS__}, sizeof((const rg_array[]){__VA_ARGS__}) / sizeof(rg_array))
 rg_status rg_mem_copies(const rg_memory *mem, const rg_array *array, size_t count);
@@ -45,7 +45,8 @@ rg_status rg_mem_grow(const rg_memory *mem, void **block, size_t *room, size_t n
 /* A copy of a string (NULL gives NULL), or NULL when memory is short. */
 char *rg_mem_string(const rg_memory *mem, const char *text);
 
-/* What p points to will be needed soon: memory that is read here and there takes as long as all else on large drawings. */
+/* What p points to will be needed soon: memory that is read here and there takes as long as all else on large
+ * drawings. */
 static inline void rg_mem_soon(const void *p) { __builtin_prefetch(p); }
 enum { RG_SOON = 16 }; /* steps of a loop before */
 

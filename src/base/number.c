@@ -21,7 +21,8 @@ static size_t digits(const char *s, size_t n)
     return i;
 }
 
-/* As many digits tell every double from every other and from what lies half-way between two: the rest only says whether it is more. */
+/* As many digits tell every double from every other and from what lies half-way between two: the rest only says whether
+ * it is more. */
 enum { TELLING = 770 };
 static const long BEYOND = 1000000; /* exponents that are all the same to a double */
 
@@ -58,7 +59,8 @@ static size_t read_long(const char *s, size_t n, double *value)
     if (kept == 0) *to++ = '0';
     if (more) *to++ = '1', tens--;
     if (i < n) tens += (double)exponent_of(s + i + 1, n - i - 1);
-    snprintf(to, RG_NUMBER_ROOM, "e%ld", tens > (double)BEYOND ? BEYOND : tens < (double)-BEYOND ? -BEYOND : (long)tens);
+    const long shown = tens > (double)BEYOND ? BEYOND : tens < (double)-BEYOND ? -BEYOND : (long)tens;
+    snprintf(to, RG_NUMBER_ROOM, "e%ld", shown);
     *value = strtod(copy, NULL);
     return n;
 }
@@ -162,7 +164,8 @@ __extension__ typedef unsigned __int128 wide;
 static const uint64_t five[] = {
     1, 5, 25, 125, 625, 3125, 15625, 78125, 390625, 1953125, 9765625, 48828125, 244140625, 1220703125, 6103515625,
     30517578125, 152587890625, 762939453125, 3814697265625, 19073486328125, 95367431640625, 476837158203125,
-    2384185791015625, 11920928955078125, 59604644775390625, 298023223876953125, 1490116119384765625, 7450580596923828125};
+    2384185791015625, 11920928955078125, 59604644775390625, 298023223876953125, 1490116119384765625,
+    7450580596923828125};
 
 /* v = m 2^e is scaled to 17 digits before the point: v 10^q = whole + part / 2^s, without rounding. */
 typedef struct scaled { uint64_t m, whole; wide part, five; int q, s; } scaled;
@@ -208,7 +211,8 @@ static int comes_back(const scaled *x, uint64_t digits)
 {
     const uint64_t power_of_two = (uint64_t)1 << 52;
     const int above = digits > x->whole;
-    const wide off = above ? ((wide)(digits - x->whole) << x->s) - x->part : ((wide)(x->whole - digits) << x->s) + x->part;
+    const wide off = above ? ((wide)(digits - x->whole) << x->s) - x->part
+        : ((wide)(x->whole - digits) << x->s) + x->part;
     if (x->m == power_of_two && !above) return off << 2 <= x->five; /* the next one down is half as far */
     return off << 1 < x->five || (off << 1 == x->five && x->m % 2 == 0);
 }

@@ -13,7 +13,8 @@ int rg_number_parse(const char *s, size_t n, double *value);
 /* All of s, but for blanks around, is a whole number that fits. */
 int rg_number_whole(const char *s, size_t n, long *value);
 
-/* Degrees of an angle in radians: the round number where that is the one that was read, such as 60 and not 59.99999999999999. */
+/* Degrees of an angle in radians: the round number where that is the one that was read, such as 60 and not
+ * 59.99999999999999. */
 double rg_number_degrees(double radians);
 
 /* Degrees or percent for people to read: without the rounding of whatever computed them. */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* So few are put in order by inserting one after the other. */
+/* So few are put in order faster by inserting one after the other, without a function to compare them. */
 enum { A_FEW = 16 };
 
 static int by_key(const void *a, const void *b)
@@ -14,8 +14,12 @@ static int by_key(const void *a, const void *b)
     return p->v < q->v ? -1 : p->v > q->v;
 }
 
-static void insert(rg_keyed *list, int32_t n)
+void rg_order_few(rg_keyed *list, int32_t n)
 {
+    if (n > A_FEW) {
+        qsort(list, (size_t)n, sizeof *list, by_key);
+        return;
+    }
     for (int32_t i = 1; i < n; i++) {
         const rg_keyed one = list[i];
         int32_t k = i;
@@ -36,7 +40,7 @@ static int32_t bucket(const rg_keyed *one, double low, double scale) { return (i
 void rg_order_keyed(rg_keyed *list, int32_t n, rg_keyed *room, int32_t *count)
 {
     if (n <= A_FEW) {
-        insert(list, n);
+        rg_order_few(list, n);
         return;
     }
     double low = list[0].key, high = low;
@@ -59,7 +63,6 @@ void rg_order_keyed(rg_keyed *list, int32_t n, rg_keyed *room, int32_t *count)
     for (int32_t i = 0; i < n; i++) room[count[bucket(&list[i], low, scale)]++] = list[i];
     memcpy(list, room, (size_t)n * sizeof *list);
     for (int32_t i = 0, from = 0; i < n; from = count[i++]) { /* each is at its end now */
-        if (count[i] - from > A_FEW) qsort(list + from, (size_t)(count[i] - from), sizeof *list, by_key);
-        else insert(list + from, count[i] - from);
+        rg_order_few(list + from, count[i] - from);
     }
 }

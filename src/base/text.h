@@ -1,5 +1,6 @@
 /* text.h -- printf for people's eyes, the same whatever locale the caller has set.
- * Used by  every file that puts a number into a sentence.  Thread safety: changes the locale of the calling thread alone, while it prints. */
+ * Used by  every file that puts a number into a sentence.  Thread safety: changes the locale of the calling thread
+ * alone, while it prints. */
 #ifndef RG_TEXT_H
 #define RG_TEXT_H
 

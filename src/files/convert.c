@@ -25,8 +25,7 @@ static const double SAME_AREA = 1e-9;
 /* Lines are there: half of the work. */
 static const double LINES_READ = 0.5;
 
-/* --------------------------------------------------------------------------------------- what a format can't hold ----
- */
+/* ----------------------------------------------------------------------------------- what a format can't hold ---- */
 
 static rg_status lose(rg_lines *l, int32_t where, int32_t count, const char *format, const char *what)
 {
@@ -113,8 +112,7 @@ static rg_status find_faces(plane *p, const rg_memory *mem)
     return RG_OK;
 }
 
-/* -------------------------------------------------------------------------------------------- letters and angles ----
- */
+/* ---------------------------------------------------------------------------------------- letters and angles ---- */
 
 static rg_status letter_edges(plane *p, const rg_memory *mem)
 {

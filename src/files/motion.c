@@ -134,8 +134,7 @@ static rg_status read_frames(given *g)
     return s;
 }
 
-/* ------------------------------------------------------------------------------------------------------- plates ----
- */
+/* ---------------------------------------------------------------------------------------------------- plates ---- */
 
 /* The facet that rests, which is the one that was fixed; -1: they all move. */
 static int32_t at_rest(const rg_motion *m)

@@ -1,6 +1,6 @@
 /* apart.h -- independent components of a sheet, each a fold of its own: a system, steps and an end of its own.
- * Paper    eq. (11): the blocks that the constraint falls into        Uses  system.h components.h        Used by 
- * chart, fold
+ * Paper    eq. (11): the blocks that the constraint falls into
+ * Uses  system.h components.h        Used by  chart, fold
  *
  * Each component goes evenly from 0 to 100 % of its own way, frame by frame with the others. One that is done, or was
  * never asked to move, is not solved any more; one that is held stays where it is, and the others go on. */

@@ -23,8 +23,7 @@ void rg_closing_even_out(rg_relax *F, double *z)
     rg_freedom_mean(&F->freedom, F->symmetry, z + F->N, F->spare);
 }
 
-/* -------------------------------------------------- the constraint; evenly: one of each orbit, if that tells all ----
- * */
+/* -------------------------------------------------- the constraint; evenly: one of each orbit, if that tells all -- */
 
 static rg_coupled *system_of(rg_relax *F, int evenly) { return evenly && F->by_orbits ? &F->orbits : &F->J; }
 

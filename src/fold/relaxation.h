@@ -1,6 +1,6 @@
 /* relaxation.h -- one relaxation on its way: what it may do, its state, its path, what it works on.
- * Paper    eqs. (14), (19), section 4        Uses  coupled.h adjust.h limit.h        Used by  closing.c chord.c relax.c
- * */
+ * Paper    eqs. (14), (19), section 4
+ * Uses  coupled.h adjust.h limit.h        Used by  closing.c chord.c relax.c */
 #ifndef RG_RELAXATION_H
 #define RG_RELAXATION_H
 

@@ -39,13 +39,6 @@ static rg_status fail(rg_attempt *t, rg_status s, rg_diag *why)
 
 /* ------------------------------------------------------------------------------------- what it came to ---- */
 
-int32_t rg_attempt_states(const rg_attempt *t) { return t->relax ? t->relax->nodes : t->count; }
-
-const double *rg_attempt_state(const rg_attempt *t, int32_t k)
-{
-    return t->relax ? t->relax->node + (size_t)k * (size_t)t->relax->n : rg_attempt_angles(t, k);
-}
-
 /* The last state in the direction of the motion. */
 static const double *last_state(const rg_attempt *t)
 {
@@ -141,16 +134,6 @@ double rg_attempt_largest_angle(const rg_attempt *t, int32_t i)
 }
 
 /* ------------------------------------------------------------------------------------------ straight on ---- */
-
-rg_status rg_attempt_run(rg_attempt *t, rg_straight *f, int32_t parts, rg_trace *trace, rg_watch *watch)
-{
-    rg_forth r = {.f = f, .parts = parts, .trace = trace, .rho = t->rho, .due = t->due, .gaps = &t->gaps};
-    rg_gaps_free(&t->gaps, &t->mem);
-    const rg_status s = rg_forth_run(&r, &t->mem, watch);
-    t->count = r.count;
-    t->outcome = watch->cancelled ? RG_STOPPED : r.outcome;
-    return s;
-}
 
 /* How far such a run goes before it comes to rest; s_rest stays as it is where it does not. */
 static rg_status find_rest(const rg_mesh *drawn, const rg_settings *settings, rg_watch *watch, double *s_rest)

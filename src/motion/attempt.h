@@ -69,24 +69,23 @@ rg_status rg_attempt_go_on(rg_attempt *t, double work, rg_watch *watch, rg_diag 
  * progress 0 ... 1, always. Its frames are read off at once. *m is taken over, also on failure. RG_ENOMEM. */
 rg_status rg_attempt_from_path(rg_attempt *t, rg_mesh *m, const rg_settings *s, const double *target,
                                rg_path_reader *read, void *ctx, rg_diag *why);
-/* Runs f, made with `parts` times as many frames, to its end: frames, and what lies between them. trace: out; may be
- * NULL. */
-rg_status rg_attempt_run(rg_attempt *t, rg_straight *f, int32_t parts, rg_trace *trace, rg_watch *watch);
-
-/* frames.c. Frames by settings->frames, to and pace; where the path stopped short, those that it reached and the last
- * state. RG_ENOMEM. */
+/* In frames.c: frames by settings->frames, to and pace; where the path stopped short, those that it reached and the
+ * last state. RG_ENOMEM. */
 rg_status rg_attempt_read(rg_attempt *t, const rg_settings *s);
 /* The same off any path, as rg_attempt_from_path has it. RG_ENOMEM. */
 rg_status rg_attempt_read_path(rg_attempt *t, const rg_settings *s, rg_path_reader *read, void *ctx);
+/* Of what goes straight on, as they are found: f, made with `parts` times as many frames, runs to its end, and what
+ * lies between them is kept, too. trace: out; may be NULL. */
+rg_status rg_attempt_run(rg_attempt *t, rg_straight *f, int32_t parts, rg_trace *trace, rg_watch *watch);
 /* Frames that can be read off again are let go. */
 void rg_attempt_forget_frames(rg_attempt *t);
 /* Fold angles and pattern of frame k. */
 const double *rg_attempt_angles(const rg_attempt *t, int32_t k);
 const rg_vec2 *rg_attempt_pattern(const rg_attempt *t, int32_t k);
-
 /* The states that the path is made of: nodes of a relaxation, frames of what went straight on. */
 int32_t rg_attempt_states(const rg_attempt *t);
 const double *rg_attempt_state(const rg_attempt *t, int32_t k);
+
 /* The most that crease i turned on the whole path, radians. */
 double rg_attempt_largest_angle(const rg_attempt *t, int32_t i);
 

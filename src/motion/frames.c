@@ -17,6 +17,13 @@ const rg_vec2 *rg_attempt_pattern(const rg_attempt *t, int32_t k)
     return t->flat ? t->flat + (size_t)k * (size_t)t->mesh.nv : t->mesh.X;
 }
 
+int32_t rg_attempt_states(const rg_attempt *t) { return t->relax ? t->relax->nodes : t->count; }
+
+const double *rg_attempt_state(const rg_attempt *t, int32_t k)
+{
+    return t->relax ? t->relax->node + (size_t)k * (size_t)t->relax->n : rg_attempt_angles(t, k);
+}
+
 static rg_status make_frames(rg_attempt *t, int32_t frames, int moves)
 {
     const size_t n = (size_t)frames + 1;
@@ -90,6 +97,16 @@ static rg_status read_evenly(rg_attempt *t, double *due, int times, rg_path_read
     for (int n = 0; n < times && set_right(t, due, was, sum); n++) read_off(t, due, read, ctx);
     RG_MEM_FREE(&t->mem, was, sum);
     return RG_OK;
+}
+
+rg_status rg_attempt_run(rg_attempt *t, rg_straight *f, int32_t parts, rg_trace *trace, rg_watch *watch)
+{
+    rg_forth r = {.f = f, .parts = parts, .trace = trace, .rho = t->rho, .due = t->due, .gaps = &t->gaps};
+    rg_gaps_free(&t->gaps, &t->mem);
+    const rg_status s = rg_forth_run(&r, &t->mem, watch);
+    t->count = r.count;
+    t->outcome = watch->cancelled ? RG_STOPPED : r.outcome;
+    return s;
 }
 
 /* Progress at frames that are even in the largest angle that a crease turns; the frames that there are, at even

@@ -1,50 +1,20 @@
 #include "pattern/faces.h"
+#include "base/order.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-/* `turn` grows with the angle of a direction from -pi to pi, as -2 to 2, and costs no atan2. */
-typedef struct spoke { double turn; int32_t e; } spoke;
-
+/* Grows with the angle of a direction from -pi to pi, as -2 to 2, and costs no atan2. */
 static double turn_of(rg_vec2 d)
 {
     const double part = d.y / (fabs(d.x) + fabs(d.y));
     return d.x >= 0 ? part : d.y < 0 || (d.y == 0 && signbit(d.y)) ? -2 - part : 2 - part;
 }
 
-static int by_turn(const void *a, const void *b)
-{
-    const spoke *p = a, *q = b;
-    if (p->turn != q->turn) return p->turn < q->turn ? -1 : 1;
-    return p->e < q->e ? -1 : p->e > q->e;
-}
-
-/* A few, as nearly all vertices have, are put in order faster without a function to compare them. */
-enum { A_FEW = 12 };
-
-static void sort(spoke *s, int32_t n)
-{
-    if (n > A_FEW) {
-        qsort(s, (size_t)n, sizeof *s, by_turn);
-        return;
-    }
-    for (int32_t i = 1; i < n; i++) {
-        const spoke one = s[i];
-        int32_t k = i;
-        for (; k > 0; k--) {
-            const spoke *p = &s[k - 1];
-            if (!(p->turn > one.turn || (p->turn == one.turn && p->e > one.e))) break;
-            s[k] = *p;
-        }
-        s[k] = one;
-    }
-}
-
 rg_status rg_star_init(rg_star *s, const rg_memory *mem, int32_t nv, int32_t ne, const rg_vec2 *X, const rg_edge *E)
 {
     memset(s, 0, sizeof *s);
     s->mem = *mem;
-    spoke *spokes = NULL;
+    rg_keyed *spokes = NULL;
     size_t room = 0;
     if (RG_MEM_ARRAYS(mem, RG_ARRAY(s->start, (size_t)nv + 2), RG_ARRAY(s->edge, 2 * (size_t)ne)) != RG_OK ||
         RG_MEM_GROW(mem, spokes, room, 2 * (size_t)ne) != RG_OK) return RG_ENOMEM;
@@ -60,18 +30,18 @@ rg_status rg_star_init(rg_star *s, const rg_memory *mem, int32_t nv, int32_t ne,
                 rg_mem_soon(&spokes[cursor[E[e + RG_SOON].v[i]]]);
             }
             rg_vec2 d = rg_vec2_sub(X[E[e].v[!i]], X[E[e].v[i]]);
-            spokes[cursor[E[e].v[i]]++] = (spoke){turn_of(d), e};
+            spokes[cursor[E[e].v[i]]++] = (rg_keyed){turn_of(d), e, 0};
         }
     for (int32_t v = 0; v < nv; v++)
-        sort(spokes + s->start[v], s->start[v + 1] - s->start[v]);
-    for (int32_t j = 0; j < 2 * ne; j++) s->edge[j] = spokes[j].e;
+        rg_order_few(spokes + s->start[v], s->start[v + 1] - s->start[v]);
+    for (int32_t j = 0; j < 2 * ne; j++) s->edge[j] = spokes[j].v;
     rg_mem_free(mem, spokes);
     return RG_OK;
 }
 
 rg_status rg_star_sort(rg_star *s, int32_t nv, const rg_vec2 *X, const rg_edge *E, const unsigned char *which)
 {
-    spoke *spokes = NULL;
+    rg_keyed *spokes = NULL;
     size_t room = 0;
     rg_status status = RG_OK;
     for (int32_t v = 0; status == RG_OK && v < nv; v++) {
@@ -81,10 +51,10 @@ rg_status rg_star_sort(rg_star *s, int32_t nv, const rg_vec2 *X, const rg_edge *
         status = RG_MEM_GROW(&s->mem, spokes, room, (size_t)n);
         for (int32_t i = 0; status == RG_OK && i < n; i++) {
             const int32_t *end = E[edge[i]].v;
-            spokes[i] = (spoke){turn_of(rg_vec2_sub(X[end[end[0] == v]], X[v])), edge[i]};
+            spokes[i] = (rg_keyed){turn_of(rg_vec2_sub(X[end[end[0] == v]], X[v])), edge[i], 0};
         }
-        if (status == RG_OK) sort(spokes, n);
-        for (int32_t i = 0; status == RG_OK && i < n; i++) edge[i] = spokes[i].e;
+        if (status == RG_OK) rg_order_few(spokes, n);
+        for (int32_t i = 0; status == RG_OK && i < n; i++) edge[i] = spokes[i].v;
     }
     rg_mem_free(&s->mem, spokes);
     return status;

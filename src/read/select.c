@@ -24,7 +24,8 @@ static const char *trim(const char *s, size_t *n)
 
 static int opens(char c) { return c == '[' || c == '(' || c == '"' || c == '\''; }
 
-/* Past what brackets or quotes enclose, which s[i] opens: the place of their end, n: they have none, or are deeper than that. */
+/* Past what brackets or quotes enclose, which s[i] opens: the place of their end, n: they have none, or are deeper than
+ * that. */
 static size_t enclosed(const char *s, size_t n, size_t i)
 {
     char end[MOST_ENCLOSED];
