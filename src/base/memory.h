@@ -47,7 +47,14 @@ char *rg_mem_string(const rg_memory *mem, const char *text);
 
 /* What p points to will be needed soon: memory that is read here and there takes as long as all else on large
  * drawings. */
-static inline void rg_mem_soon(const void *p) { __builtin_prefetch(p); }
+static inline void rg_mem_soon(const void *p)
+{
+#ifdef __GNUC__
+    __builtin_prefetch(p);
+#else
+    (void)p;
+#endif
+}
 enum { RG_SOON = 16 }; /* steps of a loop before */
 
 /* Frees a block; NULL is fine. */
