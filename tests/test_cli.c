@@ -297,6 +297,10 @@ static void states_in_frames(void **state)
         near(last, 100, 1e-9);
     }
     says(ends(2, run("fold", "door.fold", "--frame", "2-1")), "rigami: --frame: ", "2-1");
+    /* What has none has no frame 1. */
+    says(ends(2, run("fold", "good.opx", "--frame", "1-4")), "rigami: good.opx: ", "only FOLD files have frames");
+    says(ends(2, run("info", "good.opx", "--frame", "7")), "rigami: good.opx: ", "no frame 7");
+    ends(0, run("info", "good.opx", "--frame", "0"));
     /* So are those of a motion: frames that say where the sheet is folded to, too. A state that is flat is one. */
     ends(0, run("fold", "good.opx", "-q", "--frames", "4", "-o", "door.fold"));
     ends(0, run("fold", "door.fold", "--frame", "all", "--frames", "7", "-q", "-o", "door.csv", "-o", "again.fold"));
@@ -478,6 +482,121 @@ static void a_batch(void **state)
     says(ends(2, run("batch", "good.opx")), "rigami: ", "-o DIR/");
 }
 
+static int rows_of(const char *path)
+{
+    static char table[ROOM];
+    return lines_in(slurp(path, table)) - 1;
+}
+
+/* No two files of a batch share what is written of them, whatever they are called, nor with the batch's own. */
+static void names_of_a_batch(void **state)
+{
+    (void)state;
+    static char text[ROOM];
+    char longer[2][230];
+    ends(0, run("gen", "miura", "2", "-o", "a.opx"));
+    ends(0, run("gen", "miura", "3", "2", "-o", "a.cp"));
+    ends(0, run("gen", "miura", "2", "3", "-o", "a.opx.svg"));
+    ends(0, run("batch", "a.opx", "a.cp", "a.opx.svg", "-o", "alike", "--frames", "2", "-q"));
+    assert_int_equal(rows_of("alike/table.csv"), 3);
+    mkdir("x", 0777), mkdir("x/y", 0777), mkdir("x-y", 0777);
+    ends(0, run("gen", "miura", "2", "-o", "x/y/a.opx"));
+    ends(0, run("gen", "miura", "3", "2", "-o", "x-y/a.opx"));
+    ends(0, run("batch", "x/y/a.opx", "x-y/a.opx", "-o", "dashes", "--frames", "2", "-q"));
+    assert_int_equal(rows_of("dashes/table.csv"), 2);
+    for (int i = 0; i < 2; i++) {
+        memset(longer[i], 'n', 210);
+        snprintf(longer[i] + 210, 20, "-%d.opx", i);
+        ends(0, run("gen", "miura", i ? "3" : "2", "-o", longer[i]));
+    }
+    ends(0, run("batch", longer[0], longer[1], longer[0], "-o", "longer", "--frames", "2", "-q"));
+    assert_int_equal(rows_of("longer/table.csv"), 2);
+    /* Sheets have numbers, which another file may have in its name. */
+    write_file("s.cp", "1 0 0 9 0\n1 9 0 9 9\n1 9 9 0 9\n1 0 9 0 0\n2 0 0 9 9\n1 20 0 29 0\n1 29 0 29 9\n1 29 9 20 9\n1 20 9 20 0\n3 20 0 29 9\n");
+    ends(0, run("gen", "miura", "2", "-o", "s-1.opx"));
+    ends(0, run("batch", "s.cp", "s-1.opx", "-o", "sheets", "--frames", "2", "-q"));
+    assert_int_equal(rows_of("sheets/table.csv"), 3);
+    /* What is the batch's own, what counts frames, what is no line. */
+    ends(0, run("gen", "miura", "2", "-o", "table.opx"));
+    ends(0, run("gen", "miura", "2", "-o", "50%04d\n.opx"));
+    ends(0, run("batch", "table.opx", "50%04d\n.opx", "-o", "odd", "--frames", "2", "-q", "--write", "csv"));
+    assert_int_equal(rows_of("odd/table.csv"), 2);
+    assert_int_equal(rows_of("odd/table.opx.csv"), 2);
+    assert_int_equal(lines_in(slurp("odd/table.txt", text)), 3);
+    says(ends(2, run("batch", "-", "-o", "stdin", "--frames", "2")), "rigami: batch: ", "standard input");
+    assert_int_equal(names("stdin"), 0);
+    /* A row is as long as it has to be. */
+    char deep[3000] = "";
+    for (int k = 0; k < 12; k++) {
+        memset(deep + strlen(deep), 'd', 200);
+        mkdir(deep, 0777);
+        strcat(deep, "/");
+    }
+    strcat(deep, "q.opx");
+    ends(0, run("gen", "miura", "2", "-o", deep));
+    ends(0, run("batch", deep, "a.opx", "-o", "deep", "--frames", "2", "-q"));
+    assert_int_equal(rows_of("deep/table.csv"), 2);
+    assert_non_null(strstr(slurp("deep/table.csv", text), "/q.opx,0,0,folded,"));
+}
+
+/* A file that cannot be written does not end the batch, is told, and is made again; no table is lost. */
+static void a_batch_goes_on(void **state)
+{
+    (void)state;
+    static char text[ROOM], before[ROOM];
+    mkdir("fails", 0777), mkdir("fails/short.json", 0777), mkdir("fails/stuck.log", 0777);
+    const char *const args[] = {"batch", "short.opx", "stuck.opx", "good.opx", "-o", "fails", "--frames", "2", "--jobs", "1",
+                                "--to", "1", NULL};
+    const ran *r = ends(3, run_with(&(streams){0}, args));
+    says(r, "rigami: batch: ", "2 of 3 files could not be written");
+    slurp("fails/table.csv", text);
+    assert_non_null(strstr(text, ",short.opx,0,3,failed,"));
+    assert_non_null(strstr(text, ",stuck.opx,0,3,failed,"));
+    assert_non_null(strstr(text, "stuck.log: "));
+    assert_non_null(strstr(text, ",good.opx,0,0,folded,"));
+    rmdir("fails/short.json"), rmdir("fails/stuck.log");
+    r = run_with(&(streams){0}, args);
+    assert_true(r->status < 3);
+    assert_non_null(strstr(r->out, "good.opx: folded, 1.0 %, ")); /* is kept */
+    assert_null(strstr(slurp("fails/table.csv", text), "failed"));
+    /* Options are told apart however many there are; one limit is not another one. */
+    const char *many[MOST_ARGS] = {"batch", "good.opx", "-o", "many", "--frames", "2"};
+    static char line[12][120];
+    int n = 6;
+    for (int i = 0; i < 12; i++) {
+        snprintf(line[i], sizeof line[i], "%0100d=none", i);
+        many[n++] = "--line", many[n++] = line[i];
+    }
+    many[n++] = "--to", many[n] = "50";
+    ends(0, run_with(&(streams){0}, many));
+    many[n] = "70";
+    assert_non_null(strstr(ends(0, run_with(&(streams){0}, many))->out, "folded, 70.0 %"));
+    ends(0, run("gen", "waterbomb", "64", "-o", "slow.opx"));
+    ends(0, run("gen", "miura", "2", "-o", "late.opx"));
+    write_file("limits.gif.1-0.part", "what a killed one left");
+    ends(1, run("batch", "slow.opx", "-o", "limits", "-q", "--limit", "1.25"));
+    assert_non_null(strstr(slurp("limits/table.csv", text), "not done within 1.25 seconds"));
+    write_file("limits/slow.gif.1-0.part", "of one that was killed");
+    const ran *late = ends(1, run("batch", "slow.opx", "-o", "limits", "--limit", "1", "--write", "gif"));
+    assert_null(strstr(late->out, "kept"));
+    assert_false(there("limits/slow.gif.1-0.part"));
+    assert_non_null(strstr(slurp("limits/table.csv", text), "not done within 1 seconds"));
+    assert_non_null(strstr(ends(1, run("batch", "slow.opx", "-o", "limits", "--limit", "1", "--write", "gif"))->out, "kept"));
+    unlink("limits.gif.1-0.part");
+    /* The table stays where a new one has no room. */
+    struct rlimit was, small;
+    slurp("fails/table.csv", before);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &was), 0);
+    small = was;
+    small.rlim_cur = 200;
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    r = run("batch", "short.opx", "stuck.opx", "good.opx", "-o", "fails", "--frames", "2", "--to", "1", "--merge", "-q");
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &was), 0);
+    ends(3, r);
+    assert_non_null(strstr(r->err, strerror(EFBIG)));
+    assert_string_equal(slurp("fails/table.csv", text), before);
+}
+
 static void what_was_meant(void **state)
 {
     (void)state;
@@ -619,6 +738,14 @@ static void writing_that_fails_keeps_what_was_there(void **state)
     ends(3, r);
     assert_non_null(strstr(r->err, strerror(EFBIG)));
     assert_non_null(strstr(r->err, "kept.fold"));
+    /* What is said to be written is. */
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    r = run("fold", "good.opx", "--frames", "50", "-o", "kept.fold", "-o", "kept.obj");
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &was), 0);
+    ends(3, r);
+    assert_non_null(strstr(r->out, "kept.obj\n"));
+    assert_null(strstr(r->out, "kept.fold"));
+    unlink("kept.obj");
     assert_string_equal(slurp("kept.fold", after), before);
     for (int k = 0; k < 2; k++) unlink(k ? "kept.fold" : "kept.svg");
     assert_int_equal(names("kept."), 0); /* no temporary file either */
@@ -840,6 +967,8 @@ static void examples_are_made(void **state)
     says(ends(2, run("gen", "miura", "--cell", "3", "--size", "4", "-o", "sized.opx")), "rigami: gen: ", "one of the two");
     says(ends(2, run("gen", "miura", "--size", "3furlong", "-o", "sized.opx")), "rigami: --size: ", "3furlong");
     says(ends(2, run("gen", "miura", "--size", "0", "-o", "sized.opx")), "rigami: --size: ", "0");
+    says(ends(2, run("gen", "miura", "--size", "1e-320", "-o", "sized2.opx")), "rigami: gen: ", "1e-9");
+    assert_int_equal(names("sized2"), 0); /* no drawing that this program itself cannot read */
     unlink("sized.opx");
 }
 
@@ -957,6 +1086,10 @@ static void creases_are_driven_pinned_and_freed(void **state)
     assert_int_equal(sscanf(strstr(again, "\n3,"), "\n3,%*f,%lf,%lf", &last[1][0], &last[1][1]), 2);
     for (int i = 0; i < 2; i++) near(last[1][i], last[0][i], 1e-6);
     ends(0, run("fold", "one.opx", "--drive", "0=30", "--drive", "0=-30"));
+    says(ends(2, run("fold", "one.opx", "--pin", "3", "--drive", "c3=60")), "rigami: one.opx: --drive c3=60: ", "otherwise");
+    says(ends(2, run("fold", "one.opx", "--drive", "3=60", "--free", "3")), "rigami: one.opx: --free 3: ", "otherwise");
+    const ran *still = ends(0, run("fold", "one.opx", "--drive", "3=0"));
+    assert_non_null(strstr(still->out, "driven to 0 degrees"));
     ends(1, run("fold", "one.opx", "--pin", "0", "--effort", "fast", "--frames", "4", "-o", "pinned.csv"));
     slurp("pinned.csv", again);
     for (char *line = strchr(again, '\n') + 1; line && *line; line = strchr(line, '\n') + 1) {
@@ -1186,6 +1319,36 @@ static void what_is_too_much_is_refused(void **state)
     assert_non_null(strstr(ends(0, run("info", "crowd.cp", "--merge", "1e-6"))->out, "It cannot be folded here: 1200 creases meet"));
 }
 
+/* A name may be as long as the file system takes, once and again, and what is left of it by others is swept. */
+static void names_are_as_long_as_they_may_be(void **state)
+{
+    (void)state;
+    char name[256], left[300];
+    memset(name, 'x', 255);
+    strcpy(name + 251, ".csv");
+    for (int k = 0; k < 2; k++) {
+        if (k == 1) {
+            snprintf(left, sizeof left, "%.215s.1-0.part", name);
+            write_file(left, "of one that was killed");
+        }
+        ends(0, run("fold", "good.opx", "-q", "--frames", k ? "3" : "2", "-o", name));
+    }
+    static char text[ROOM];
+    assert_int_equal(lines_in(slurp(name, text)), 4);
+    assert_false(there(left));
+    unlink(name);
+    assert_int_equal(names("xxx"), 0);
+}
+
+/* A chart that time or a signal ends says so, and is one all the same. */
+static void a_chart_that_is_ended_says_so(void **state)
+{
+    (void)state;
+    ends(0, run("gen", "miura", "6", "-o", "charted.opx"));
+    says(ends(1, run("chart", "charted.opx", "-q", "-o", "charts", "--max-seconds", "0.05")), "rigami: charted.opx: ", "0.05 seconds");
+    assert_false(is_empty("charts/charted.md"));
+}
+
 /* One place under two names is one output, and an input is not written over. */
 static void one_place_is_written_once(void **state)
 {
@@ -1193,6 +1356,22 @@ static void one_place_is_written_once(void **state)
     says(ends(2, run("fold", "good.opx", "-o", "once.fold", "-o", "./once.fold")), "rigami: ./once.fold: ", "twice");
     says(ends(2, run("fold", "good.opx", "-o", "once/", "-o", ".//once/")), "rigami: .//once/: ", "twice");
     assert_int_equal(names("once"), 0);
+    /* Frames, each in its file, are many places. */
+    mkdir("many_frames", 0777);
+    says(ends(2, run("fold", "good.opx", "-o", "many_frames/", "-o", "many_frames/0001.png")), "rigami: many_frames/0001.png: ", "twice");
+    says(ends(2, run("fold", "good.opx", "-o", "once-7.obj", "-o", "./once-%04d.obj")), "rigami: ./once-%04d.obj: ", "twice");
+    says(ends(2, run("fold", "good.opx", "-o", "once-%d.obj", "-o", "once-%04d.obj")), "rigami: once-%04d.obj: ", "twice");
+    ends(0, run("fold", "good.opx", "-q", "--frames", "2", "-o", "twice-%04d.obj", "-o", "twice-a.obj", "-o", "twice-b%04d.obj"));
+    /* A picture to be printed is an input, and so is what a chart is of. */
+    ends(0, run("fold", "good.opx", "-q", "--frames", "2", "--size", "40x40", "-o", "print.png", "-o", "many_frames/"));
+    says(ends(2, run("fold", "good.opx", "--image", "print.png", "-o", "./print.png")), "rigami: ./print.png: ", "written over");
+    says(ends(2, run("fold", "good.opx", "--image", "many_frames/0001.png", "-o", "many_frames/")), "rigami: many_frames/: ", "written over");
+    says(ends(2, run("fold", "good.opx", "--image", "nowhere.png", "-o", "print.gif")), "rigami: nowhere.png: ", strerror(ENOENT));
+    ends(0, run("convert", "-q", "good.opx", "-o", "charted.svg"));
+    static char before[ROOM], after[ROOM];
+    slurp("charted.svg", before);
+    says(ends(2, run("chart", "charted.svg", "-o", ".")), "rigami: ./charted.svg: ", "is the input");
+    assert_string_equal(slurp("charted.svg", after), before);
     says(ends(2, run("convert", "good.opx", "-o", "./good.opx")), "rigami: ./good.opx: ", "is the input");
     ends(0, run("info", "good.opx"));
 }
@@ -1288,6 +1467,10 @@ int main(void)
         cmocka_unit_test(the_verdict_comes_first), cmocka_unit_test(states_in_frames), cmocka_unit_test(tables_are_tidy), cmocka_unit_test(what_does_not_move_is_told),
         cmocka_unit_test(what_was_meant), cmocka_unit_test(a_motion_is_drawn_again),
         cmocka_unit_test(a_batch),
+        cmocka_unit_test(names_of_a_batch),
+        cmocka_unit_test(a_batch_goes_on),
+        cmocka_unit_test(names_are_as_long_as_they_may_be),
+        cmocka_unit_test(a_chart_that_is_ended_says_so),
         cmocka_unit_test(creases_may_roll_so_far),
         cmocka_unit_test(wrong_usage_is_refused),
         cmocka_unit_test(unreadable_input_is_refused),

@@ -412,6 +412,105 @@ static void other_changes_are_found(void **state)
     }
 }
 
+/* A disc that goes twice round its middle has a border, flat facets and corners that close, and is no sheet. */
+static void what_no_flat_sheet_is_is_found(void **state)
+{
+    (void)state;
+    enum { AROUND = 8 };
+    static const int at[5][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {0, 0}};
+    char text[200];
+    int frame;
+    json_t *flat = json_array(), *ends = json_array(), *letters = json_array(), *angles = json_array(),
+           *facets = json_array(), *places = json_array();
+    for (int v = 0; v <= AROUND; v++) {
+        const int *x = v < AROUND ? at[v % 4] : at[4];
+        json_array_append_new(flat, json_pack("[ii]", x[0], x[1]));
+        json_array_append_new(places, json_pack("[iii]", x[0], x[1], 0));
+    }
+    for (int e = 0; e < 2 * AROUND; e++) {
+        json_array_append_new(ends, e < AROUND ? json_pack("[ii]", AROUND, e)
+                                               : json_pack("[ii]", e - AROUND, (e + 1) % AROUND));
+        json_array_append_new(letters, json_string(e < AROUND ? "F" : "B"));
+        json_array_append_new(angles, json_integer(0));
+        if (e < AROUND) json_array_append_new(facets, json_pack("[iii]", AROUND, e, (e + 1) % AROUND));
+    }
+    json_t *j = json_pack("{s:o, s:o, s:o, s:O, s:o, s:[{s:O, s:o}, {s:o, s:o}]}", "vertices_coords", flat,
+                          "edges_vertices", ends, "edges_assignment", letters, "edges_foldAngle", angles,
+                          "faces_vertices", facets, "file_frames", "vertices_coords", places, "edges_foldAngle",
+                          json_deep_copy(angles), "vertices_coords", json_deep_copy(places), "edges_foldAngle", angles);
+    json_decref(places);
+    assert_non_null(j);
+    assert_false(is_valid(j, text, &frame));
+    assert_string_equal(text, "lie over each other in the pattern");
+    json_decref(j);
+    /* One facet as a star of five points. */
+    json_t *star = json_pack("{s:[[ii],[ii],[ii],[ii],[ii]], s:[[ii],[ii],[ii],[ii],[ii]], s:[sssss], s:[iiiii], "
+                             "s:[[iiiii]], s:[{s:[[iii],[iii],[iii],[iii],[iii]], s:[iiiii]}]}",
+                             "vertices_coords", 10, 0, -8, 6, 3, -9, 3, 9, -8, -6, "edges_vertices", 0, 1, 1, 2, 2, 3, 3,
+                             4, 4, 0, "edges_assignment", "B", "B", "B", "B", "B", "edges_foldAngle", 0, 0, 0, 0, 0,
+                             "faces_vertices", 0, 1, 2, 3, 4, "file_frames", "vertices_coords", 10, 0, 0, -8, 6, 0, 3,
+                             -9, 0, 3, 9, 0, -8, -6, 0, "edges_foldAngle", 0, 0, 0, 0, 0);
+    assert_non_null(star);
+    assert_false(is_valid(star, text, &frame));
+    assert_string_equal(text, "is no simple polygon in the pattern");
+    json_decref(star);
+}
+
+/* What is said to be added is no mountain and no valley, which would then be free to end as it likes. */
+static void what_is_said_to_be_added_is_looked_at(void **state)
+{
+    (void)state;
+    json_t *j = json_deep_copy(motion[0]), *letters = json_object_get(j, "edges_assignment"), *added = json_array();
+    for (size_t e = 0; e < json_array_size(letters); e++) {
+        const char *letter = json_string_value(json_array_get(letters, e));
+        if (strchr("MV", letter[0])) json_array_set_new(letters, e, json_string(letter[0] == 'M' ? "V" : "M"));
+        json_array_append_new(added, json_true());
+    }
+    json_object_set_new(j, "rigami:edges_added", added);
+    assert_true(is_refused(j));
+    json_decref(j);
+}
+
+/* The most that was asked for at a time. */
+typedef struct asked { size_t most; } asked;
+
+static void *asking_resize(void *ctx, void *block, size_t bytes)
+{
+    asked *a = ctx;
+    if (bytes == 0) {
+        free(block);
+        return NULL;
+    }
+    if (bytes > a->most) a->most = bytes;
+    return realloc(block, bytes);
+}
+
+/* A file that names more states than it has takes no room for them. */
+static void states_that_are_not_there_take_no_room(void **state)
+{
+    (void)state;
+    enum { STATES = 100000, MOST = 16 << 20 };
+    for (int inside = 0; inside < 2; inside++) {
+        json_t *j = json_deep_copy(motion[0]), *list = inside ? json_array() : frames_of(j);
+        for (int k = 0; k < STATES; k++)
+            json_array_append_new(list, inside ? json_integer(0) : json_pack("{s:[[ii]]}", "vertices_coords", 0, 0));
+        if (inside) json_object_set_new(json_array_get(frames_of(j), 1), "rigami:between", list);
+        write_json(j);
+        json_decref(j);
+        asked a = {0};
+        const rg_memory mem = {asking_resize, &a};
+        rg_certificate *c = NULL;
+        rg_motion *m = NULL;
+        rg_diag why = {0, ""};
+        rg_reading r = rg_reading_default();
+        r.memory = &mem;
+        assert_int_equal(rg_certificate_create(written, NULL, &mem, &c, &why), RG_EFORMAT);
+        assert_non_null(strstr(why.text, "vertices_coords"));
+        if (!inside) assert_int_equal(rg_motion_read(written, &r, &m, &why), RG_EFORMAT);
+        assert_true(a.most < MOST);
+    }
+}
+
 /* Frames left out: what the rest shows is leaps. */
 static void a_leap_is_found(void **state)
 {
@@ -484,6 +583,9 @@ int main(void)
         cmocka_unit_test(a_reversed_order_is_found),
         cmocka_unit_test(other_changes_are_found),
         cmocka_unit_test(a_leap_is_found),
+        cmocka_unit_test(what_no_flat_sheet_is_is_found),
+        cmocka_unit_test(what_is_said_to_be_added_is_looked_at),
+        cmocka_unit_test(states_that_are_not_there_take_no_room),
         cmocka_unit_test(what_is_no_motion_cannot_be_read),
         cmocka_unit_test(starves_cleanly),
     };

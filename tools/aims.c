@@ -32,7 +32,27 @@ static int32_t find_edge(const rg_pattern *p, const char *text, const char **end
     return -1;
 }
 
-int aims_set(const options *o, const char *name, rg_pattern *p, rg_driven *driven, int32_t *count)
+/* What was asked of a crease. */
+typedef struct aimed { int32_t edge; int what; } aimed;
+
+/* The crease is to do something else already. */
+static int is_taken(const aimed *list, int count, const aimed *now)
+{
+    for (int i = 0; i < count; i++)
+        if (list[i].edge == now->edge && list[i].what != now->what) return 1;
+    return 0;
+}
+
+/* Of two angles for one crease the second counts. */
+static void drive(rg_driven *driven, int32_t *count, rg_driven one)
+{
+    int32_t i = 0;
+    while (i < *count && driven[i].edge != one.edge) i++;
+    driven[i] = one;
+    *count += i == *count;
+}
+
+static int set_all(const options *o, const char *name, rg_pattern *p, rg_driven *driven, int32_t *count, aimed *list)
 {
     *count = 0;
     for (int i = 0; i < o->aims; i++) {
@@ -55,9 +75,23 @@ int aims_set(const options *o, const char *name, rg_pattern *p, rg_driven *drive
                 a->text, (int)rg_pattern_get_info(p)->creases - 1);
             return ENDS_USAGE;
         }
-        if (a->what == AIM_DRIVE) driven[(*count)++] = (rg_driven){e, degrees * DEG};
+        list[i] = (aimed){e, a->what};
+        if (is_taken(list, i, &list[i])) {
+            say("%s: --%s %s: another --drive, --pin or --free says otherwise of that crease", name, option, a->text);
+            return ENDS_USAGE;
+        }
+        if (a->what == AIM_DRIVE) drive(driven, count, (rg_driven){e, degrees * DEG});
         else if (a->what == AIM_FREE) rg_pattern_set_target(p, e, RG_FREE);
         else if (rg_pattern_pin(p, e) != RG_OK) return say_status(RG_ENOMEM, name, &(rg_diag){0, ""});
     }
     return ENDS_WELL;
+}
+
+int aims_set(const options *o, const char *name, rg_pattern *p, rg_driven *driven, int32_t *count)
+{
+    aimed *list = calloc((size_t)o->aims + 1, sizeof *list);
+    const int status = list ? set_all(o, name, p, driven, count, list)
+                            : say_status(RG_ENOMEM, name, &(rg_diag){0, ""});
+    free(list);
+    return status;
 }

@@ -8,6 +8,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,14 +16,18 @@
 #if defined(__linux__)
 #include <sys/prctl.h>
 #endif
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
-enum { ROOM = 4096, ROW = 2048 };
+enum { ROOM = 4096, FIELD = 512 };
 /* Seconds that are left for the table when the files that are being folded have been interrupted. */
 #define TO_BURY 0.2
+/* What comes behind the folder in a path: rows/, a name, an ending. */
+enum { ROOM_FOR_NAMES = 400 };
 
 /* The columns; where the program reads them again, their places. */
 enum {
@@ -46,11 +51,11 @@ static const char COLUMNS[] =
 
 /* ----------------------------------------------------------------------------------------------------- a row ---- */
 
-/* A field of CSV: what would part it is replaced. */
+/* A field of CSV: what would part it, or a line, is replaced. */
 static void put_text(const char *text, FILE *out)
 {
     for (; text && *text; text++)
-        fputc(*text == ',' ? ';' : *text == '"' || (unsigned char)*text < 32 ? ' ' : *text, out);
+        fputc(*text == ',' ? ';' : *text == '"' || (unsigned char)*text < 32 || *text == 127 ? ' ' : *text, out);
 }
 
 static void put_number(double x, FILE *out) { fprintf(out, ",%.9g", x); }
@@ -103,41 +108,94 @@ static void put_report(const task *t, int exit, const rg_report *r, double proce
     fputc('\n', out);
 }
 
-/* Written whole or not at all, so that a row that is there is one that counts. */
-typedef struct row { FILE *out; char path[ROOM], temporary[ROOM + 16]; } row;
+/* A file that is written whole or not at all, so that a row that is there is one that counts, and a table is not lost
+ * for one that has no room. Temporary names are those that rg_output_sweep knows. */
+typedef struct whole { FILE *out; char path[ROOM], temporary[ROOM + 40]; } whole;
 
-static int row_begin(row *r, const char *folder, const task *t)
+static int whole_begin(whole *w, const char *path)
 {
-    snprintf(r->path, sizeof r->path, "%s/rows/%s.csv", folder, t->name);
-    snprintf(r->temporary, sizeof r->temporary, "%s.%ld", r->path, (long)getpid());
-    r->out = fopen(r->temporary, "w");
-    if (!r->out) say("%s: %s", r->temporary, strerror(errno));
-    return r->out ? ENDS_WELL : ENDS_UNWRITTEN;
+    snprintf(w->path, sizeof w->path, "%s", path);
+    snprintf(w->temporary, sizeof w->temporary, "%s.%ld-0.part", path, (long)getpid());
+    rg_output_sweep(path, 0);
+    w->out = fopen(w->temporary, "w");
+    if (w->out) flock(fileno(w->out), LOCK_EX | LOCK_NB); /* somebody is at it */
+    else say("%s: %s", path, strerror(errno));
+    return w->out ? ENDS_WELL : ENDS_UNWRITTEN;
 }
 
-static int row_end(row *r)
+static int whole_end(whole *w)
 {
-    if (fclose(r->out) == 0 && rename(r->temporary, r->path) == 0) return ENDS_WELL;
-    say("%s: %s", r->path, strerror(errno));
-    unlink(r->temporary);
+    errno = 0;
+    const int written = fflush(w->out) == 0 && !ferror(w->out) && (fsync(fileno(w->out)) == 0 || errno == EINVAL);
+    const int why = errno;
+    if (fclose(w->out) == 0 && written && rename(w->temporary, w->path) == 0) return ENDS_WELL;
+    say("%s: %s", w->path, why || errno ? strerror(why ? why : errno) : "not all of it could be written");
+    unlink(w->temporary);
     return ENDS_UNWRITTEN;
 }
 
-/* The row that is kept of a task, of a run with the same file, options and program; 0: there is none. */
-static int kept(const char *folder, const task *t, char text[ROW])
+static const char *row_path(const char *folder, const task *t, char path[ROOM])
+{
+    snprintf(path, ROOM, "%s/rows/%s.csv", folder, t->name);
+    return path;
+}
+
+static int row_begin(whole *w, const char *folder, const task *t)
 {
     char path[ROOM];
-    snprintf(path, sizeof path, "%s/rows/%s.csv", folder, t->name);
-    FILE *f = fopen(path, "r");
-    const int there =
-        f && fgets(text, ROW, f) && strncmp(text, t->key, strlen(t->key)) == 0 && text[strlen(t->key)] == ',';
+    return whole_begin(w, row_path(folder, t, path));
+}
+
+/* Writes the row of a file that was not folded to an end. */
+static int row_of_failure(const char *folder, const task *t, int exit, const char *outcome, const char *reason)
+{
+    whole w;
+    if (row_begin(&w, folder, t) != ENDS_WELL) return ENDS_UNWRITTEN;
+    put_failure(t, exit, outcome, reason, w.out);
+    return whole_end(&w);
+}
+
+/* The row that is kept of a task, of a run with the same file, options and program; NULL: there is none. Owner: the
+ * caller, free. */
+static char *kept(const char *folder, const task *t)
+{
+    char path[ROOM], *text = NULL;
+    size_t room = 0;
+    FILE *f = fopen(row_path(folder, t, path), "r");
+    const ssize_t n = f ? getline(&text, &room, f) : -1;
     if (f) fclose(f);
-    return there;
+    const size_t key = strlen(t->key);
+    if (n > (ssize_t)key && text[n - 1] == '\n' && memcmp(text, t->key, key) == 0 && text[key] == ',') return text;
+    free(text);
+    return NULL;
+}
+
+/* Field k of a row, from 0. */
+static const char *field(const char *text, int k, char out[FIELD])
+{
+    for (; k > 0 && (text = strchr(text, ',')); k--) text++;
+    snprintf(out, FIELD, "%.*s", text ? (int)strcspn(text, ",\n") : 0, text ? text : "");
+    return out;
+}
+
+static void say_late(const options *o, char why[FIELD])
+{
+    snprintf(why, FIELD, "not done within %.10g seconds", o->limit);
+}
+
+/* Whether a row says all that there is to say: not what was cut off by another limit, killed, or for want of memory or
+ * of room. */
+static int is_done(const options *o, const char *text)
+{
+    char one[FIELD], late[FIELD];
+    say_late(o, late);
+    if (strcmp(field(text, OUTCOME, one), "timeout") == 0) return strcmp(field(text, REASON, one), late) == 0;
+    return atoi(field(text, EXIT, one)) < ENDS_UNWRITTEN;
 }
 
 /* ---------------------------------------------------------------------------------------------------- a child ---- */
 
-typedef struct outcome { const options *o; const task *t; const char *folder; int written; row row; } outcome;
+typedef struct outcome { const options *o; const task *t; const char *folder; int written; } outcome;
 
 /* The motion just written, judged from its file alone as `rigami verify` does: "valid", or the first fault. */
 static void verify(const outcome *c, char text[300])
@@ -163,16 +221,26 @@ static void verify(const outcome *c, char text[300])
     rg_pattern_destroy(given);
 }
 
+/* The signal that ends this process after so many seconds; 0: none. */
+static void set_limit(double seconds)
+{
+    const double whole = floor(seconds);
+    const struct itimerval timer = {
+        .it_value = {.tv_sec = (time_t)whole, .tv_usec = (suseconds_t)(1e6 * (seconds - whole))}};
+    setitimer(ITIMER_REAL, &timer, NULL);
+}
+
 static void keep_report(void *ctx, const rg_motion *m, int status)
 {
     outcome *c = ctx;
+    whole row;
     const double seconds = (double)clock() / CLOCKS_PER_SEC;
     char judged[300] = "";
-    alarm(0); /* the limit is that of folding, which is done */
+    set_limit(0); /* the limit is that of folding, which is done */
     if (c->o->verify && status != ENDS_UNWRITTEN) verify(c, judged);
-    if (interrupt_came() || row_begin(&c->row, c->folder, c->t) != ENDS_WELL) return;
-    put_report(c->t, status, rg_motion_report(m), seconds, judged, c->row.out);
-    c->written = row_end(&c->row) == ENDS_WELL;
+    if (interrupt_came() || row_begin(&row, c->folder, c->t) != ENDS_WELL) return;
+    put_report(c->t, status, rg_motion_report(m), seconds, judged, row.out);
+    c->written = whole_end(&row) == ENDS_WELL;
 }
 
 /* Folds one file, in a process of its own; what it says goes to NAME.log. */
@@ -196,7 +264,11 @@ static int child(const options *o, const char *folder, const task *t, int thread
     prctl(PR_SET_PDEATHSIG, SIGTERM); /* whatever ends the batch ends its parts */
 #endif
     interrupt_outputs(&one);
-    if (!freopen(log, "w", stderr) || !freopen(log, "a", stdout)) return ENDS_UNWRITTEN;
+    if (!freopen(log, "w", stderr) || !freopen(log, "a", stdout)) {
+        snprintf(why, sizeof why, "%.200s.log: %s", t->name, strerror(errno));
+        row_of_failure(folder, t, ENDS_UNWRITTEN, "failed", why);
+        return ENDS_UNWRITTEN;
+    }
     setvbuf(stderr, NULL, _IOLBF, 0);
     one.operand = (const char *[]){t->file};
     one.operands = 1;
@@ -207,34 +279,26 @@ static int child(const options *o, const char *folder, const task *t, int thread
     one.settings.threads = threads;
     one.progress = 0;
     one.quiet = 0;
-    if (o->limit > 0) alarm((unsigned)o->limit);
+    set_limit(o->limit);
     const int status = fold_one(&one, keep_report, &c);
     fflush(stderr);
     if (c.written || interrupt_came()) return status;
     FILE *f = fopen(log, "r");
     if (f && fgets(why, sizeof why, f)) why[strcspn(why, "\n")] = 0;
     if (f) fclose(f);
-    if (row_begin(&c.row, folder, t) != ENDS_WELL) return ENDS_UNWRITTEN;
-    put_failure(t, status, status == ENDS_USAGE ? "refused" : "failed",
-                strncmp(why, "rigami: ", 8) == 0 ? why + 8 : why, c.row.out);
-    return row_end(&c.row) == ENDS_WELL ? status : ENDS_UNWRITTEN;
+    return row_of_failure(folder, t, status, status == ENDS_USAGE ? "refused" : "failed",
+                          strncmp(why, "rigami: ", 8) == 0 ? why + 8 : why) == ENDS_WELL
+               ? status
+               : ENDS_UNWRITTEN;
 }
 
 /* ----------------------------------------------------------------------------------------------------- parent ---- */
 
-/* Field k of a row, from 0. */
-static const char *field(const char *text, int k, char out[ROW])
-{
-    for (; k > 0 && (text = strchr(text, ',')); k--) text++;
-    snprintf(out, ROW, "%.*s", text ? (int)strcspn(text, ",\n") : 0, text ? text : "");
-    return out;
-}
-
 static void tell(const options *o, const task *t, const char *text, int done, int count, int again)
 {
-    char end[ROW], percent[ROW], seconds[ROW];
+    char end[FIELD], percent[FIELD], seconds[FIELD], file[FIELD];
     if (o->quiet) return;
-    printf("[%d/%d] %s", done, count, t->file);
+    printf("[%d/%d] %s", done, count, say_plain(t->file, file, sizeof file));
     if (t->sheet) printf(", sheet %d", (int)t->sheet);
     printf(": %s", field(text, OUTCOME, end));
     if (*field(text, PERCENT, percent)) printf(", %.1f %%", atof(percent));
@@ -243,23 +307,35 @@ static void tell(const options *o, const task *t, const char *text, int done, in
     fflush(stdout);
 }
 
-/* A child that did not end by itself has written no row. */
+/* What a child has left that was killed while it wrote. */
+static void sweep(const options *o, const char *folder, const task *t)
+{
+    char path[ROOM];
+    for (int i = -1; i < o->forms; i++) {
+        snprintf(path, sizeof path, "%s/%s.%s", folder, t->name, i < 0 ? "json" : o->form[i]);
+        rg_output_sweep(path, 0);
+    }
+    rg_output_sweep(row_path(folder, t, path), 0);
+}
+
+/* A child that did not end by itself has written no row. ENDS_UNWRITTEN: there can be no rows. */
 static int bury(const options *o, const char *folder, const task *t, int status)
 {
-    char text[ROW];
-    row r;
-    if (WIFEXITED(status) && (kept(folder, t, text) || interrupt_came())) return WEXITSTATUS(status);
-    const int late = WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM;
-    char why[100];
-    snprintf(why, sizeof why, late ? "not done within %.0f seconds" : "the program ended with signal %.0f",
-             late ? o->limit : (double)WTERMSIG(status));
-    if (row_begin(&r, folder, t) != ENDS_WELL) return ENDS_UNWRITTEN;
-    put_failure(t,
-                late                  ? 124
-                : WIFSIGNALED(status) ? 128 + WTERMSIG(status)
-                                      : WEXITSTATUS(status),
-                late ? "timeout" : "failed", why, r.out);
-    return row_end(&r) == ENDS_WELL ? ENDS_SHORT : ENDS_UNWRITTEN;
+    char why[FIELD], *text = WIFEXITED(status) ? kept(folder, t) : NULL;
+    const int has_row = text != NULL;
+    free(text);
+    if (has_row || (WIFEXITED(status) && interrupt_came())) return ENDS_WELL;
+    sweep(o, folder, t);
+    if (WIFEXITED(status)) {
+        snprintf(why, sizeof why, "the program ended with status %d and kept no row", WEXITSTATUS(status));
+        return row_of_failure(folder, t, WEXITSTATUS(status), "failed", why);
+    }
+    if (WTERMSIG(status) == SIGALRM) {
+        say_late(o, why);
+        return row_of_failure(folder, t, 124, "timeout", why);
+    }
+    snprintf(why, sizeof why, "the program ended with signal %d", WTERMSIG(status));
+    return row_of_failure(folder, t, 128 + WTERMSIG(status), "failed", why);
 }
 
 typedef struct turn { int32_t creases; int task; } turn;
@@ -336,24 +412,32 @@ static int await(pool *p, int *status)
     return -1;
 }
 
+/* Tells of a task that has a row; non-zero: it has one, and of a run that need not be done again. */
+static int tell_kept(const options *o, const char *folder, const tasks *q, int i, int *done, int again)
+{
+    char *text = kept(folder, &q->task[i]);
+    const int counts = text && (!again || is_done(o, text));
+    if (counts) tell(o, &q->task[i], text, ++*done, q->count, again);
+    free(text);
+    return counts;
+}
+
 static int run_all(const options *o, const char *folder, const tasks *q)
 {
     pool p;
     int done = 0, next = 0, worst = pool_init(&p, o, q);
-    char text[ROW];
     interrupt_hold(INTERRUPT_GRACE + TO_BURY);
     while (worst != ENDS_UNWRITTEN && (next < q->count || p.running > 0)) {
         for (; next < q->count && p.running < p.jobs && !interrupt_came() && worst != ENDS_UNWRITTEN; next++) {
             const int i = p.order[next].task;
-            if (!o->fresh && kept(folder, &q->task[i], text)) tell(o, &q->task[i], text, ++done, q->count, 1);
-            else worst = start(o, folder, q, i, &p);
+            if (o->fresh || !tell_kept(o, folder, q, i, &done, 1)) worst = start(o, folder, q, i, &p);
         }
         int status = 0;
         const int i = await(&p, &status);
         if (i < 0 && (interrupt_came() || next >= q->count)) break;
         if (i < 0) continue;
-        if (bury(o, folder, &q->task[i], status) == ENDS_UNWRITTEN) worst = ENDS_UNWRITTEN;
-        if (kept(folder, &q->task[i], text)) tell(o, &q->task[i], text, ++done, q->count, 0);
+        if (bury(o, folder, &q->task[i], status) != ENDS_WELL) worst = ENDS_UNWRITTEN;
+        tell_kept(o, folder, q, i, &done, 0);
     }
     for (int status; await(&p, &status) >= 0;) continue;
     pool_free(&p);
@@ -362,41 +446,56 @@ static int run_all(const options *o, const char *folder, const tasks *q)
 
 /* ------------------------------------------------------------------------------------------------------ table ---- */
 
-/* The rows that there are, in the order of the files: as CSV, and for people. Returns how many are not there; -1: not
- * written. */
-static int write_tables(const char *folder, const char *name, const tasks *q, int *bad)
+/* What became of all: files without a row, those that do not fold, and of them those that could not be written. */
+typedef struct count { int missing, bad, unwritten; } count;
+
+static void put_line(const task *t, const char *text, FILE *people)
 {
-    char path[ROOM], text[ROW], a[ROW], b[ROW], c[ROW], d[ROW], e[ROW];
-    int missing = 0;
-    snprintf(path, sizeof path, "%s/%s.csv", folder, name);
-    FILE *csv = fopen(path, "w");
-    snprintf(path, sizeof path, "%s/%s.txt", folder, name);
-    FILE *people = csv ? fopen(path, "w") : NULL;
-    if (!people) say("%s: %s", path, strerror(errno));
-    if (people) {
-        fprintf(csv, "%s\n", COLUMNS);
-        fprintf(people, "%-44s %-9s %9s %9s %9s  %-12s %-8s %s\n", "file", "outcome", "percent", "moved", "seconds",
-                "contact", "verify", "reason");
+    char a[FIELD], b[FIELD], c[FIELD], d[FIELD], e[FIELD], file[ROOM];
+    fprintf(people, "%-44s %-9s %9.1f %9.2g %9.2f  ", say_plain(t->file, file, sizeof file), field(text, OUTCOME, a),
+            atof(field(text, PERCENT, b)), atof(field(text, MOVED, c)), atof(field(text, SECONDS, d)));
+    if (*field(text, CROSSES_FROM, b)) snprintf(a, sizeof a, "from %.0f %%", atof(b));
+    else field(text, CONTACT, a);
+    field(text, VERIFY, b);
+    fprintf(people, "%-12s %-8s %s\n", a, !*b || strcmp(b, "valid") == 0 ? b : "refused", field(text, REASON, e));
+}
+
+static void put_tables(const char *folder, const tasks *q, FILE *csv, FILE *people, count *n)
+{
+    char exit[FIELD];
+    fprintf(csv, "%s\n", COLUMNS);
+    fprintf(people, "%-44s %-9s %9s %9s %9s  %-12s %-8s %s\n", "file", "outcome", "percent", "moved", "seconds",
+            "contact", "verify", "reason");
+    for (int i = 0; i < q->count; i++) {
+        char *text = kept(folder, &q->task[i]);
+        if (text) {
+            const int status = atoi(field(text, EXIT, exit));
+            n->bad += status != ENDS_WELL;
+            n->unwritten += status == ENDS_UNWRITTEN;
+            fputs(text, csv);
+            put_line(&q->task[i], text, people);
+        } else n->missing++;
+        free(text);
     }
-    *bad = 0;
-    for (int i = 0; people && i < q->count; i++) {
-        const task *t = &q->task[i];
-        if (!kept(folder, t, text)) {
-            missing++;
-            continue;
-        }
-        fputs(text, csv);
-        *bad += atoi(field(text, EXIT, a)) != ENDS_WELL;
-        fprintf(people, "%-44s %-9s %9.1f %9.2g %9.2f  ", t->file, field(text, OUTCOME, a),
-                atof(field(text, PERCENT, b)), atof(field(text, MOVED, c)), atof(field(text, SECONDS, d)));
-        if (*field(text, CROSSES_FROM, b)) snprintf(a, sizeof a, "from %.0f %%", atof(b));
-        else field(text, CONTACT, a);
-        field(text, VERIFY, b);
-        fprintf(people, "%-12s %-8s %s\n", a, !*b || strcmp(b, "valid") == 0 ? b : "refused", field(text, REASON, e));
+}
+
+/* The rows that there are, in the order of the files: as CSV, and for people. */
+static int write_tables(const char *folder, const char *name, const tasks *q, count *n)
+{
+    char path[2][ROOM];
+    whole csv, people;
+    *n = (count){0, 0, 0};
+    snprintf(path[0], ROOM, "%s/%s.csv", folder, name);
+    snprintf(path[1], ROOM, "%s/%s.txt", folder, name);
+    if (whole_begin(&csv, path[0]) != ENDS_WELL) return ENDS_UNWRITTEN;
+    if (whole_begin(&people, path[1]) != ENDS_WELL) {
+        fclose(csv.out);
+        unlink(csv.temporary);
+        return ENDS_UNWRITTEN;
     }
-    const int written = people && fclose(people) == 0 && fclose(csv) == 0;
-    if (!people && csv) fclose(csv);
-    return written ? missing : -1;
+    put_tables(folder, q, csv.out, people.out, n);
+    const int first = whole_end(&csv), second = whole_end(&people);
+    return first == ENDS_WELL ? second : first;
 }
 
 static int prepare(const char *folder)
@@ -411,17 +510,21 @@ static int prepare(const char *folder)
 static int finish(const options *o, const char *folder, const tasks *q)
 {
     char name[60] = "table";
-    int bad;
+    count n;
     if (o->parts > 1 && !o->merge) snprintf(name, sizeof name, "part-%d-of-%d", (int)o->part, (int)o->parts);
-    const int missing = write_tables(folder, name, q, &bad);
-    if (missing < 0) return ENDS_UNWRITTEN;
-    if (missing && interrupt_came())
-        say("batch: interrupted: %d of %d are done; the same command goes on", q->count - missing, q->count);
-    else if (missing) say("batch: %d of %d files have no row in %s yet", missing, q->count, folder);
+    if (write_tables(folder, name, q, &n) != ENDS_WELL) return ENDS_UNWRITTEN;
+    const int there = q->count - n.missing;
+    if (n.missing && interrupt_came())
+        say("batch: interrupted: %d of %d are done; the same command goes on", there, q->count);
+    else if (n.missing) say("batch: %d of %d files have no row in %s yet", n.missing, q->count, folder);
+    if (n.unwritten)
+        say("batch: outputs of %d of %d files could not be written, and %s/%s.txt says why; the same command tries "
+            "again",
+            n.unwritten, q->count, folder, name);
     if (!o->quiet)
-        printf("%d files, %d folded, %d not; %s/%s.csv, %s/%s.txt\n", q->count - missing, q->count - missing - bad, bad,
-               folder, name, folder, name);
-    return missing || bad ? ENDS_SHORT : ENDS_WELL;
+        printf("%d files, %d folded, %d not; %s/%s.csv, %s/%s.txt\n", there, there - n.bad, n.bad, folder, name, folder,
+               name);
+    return n.unwritten ? ENDS_UNWRITTEN : n.missing || n.bad ? ENDS_SHORT : ENDS_WELL;
 }
 
 int cmd_batch(const options *o)
@@ -434,7 +537,15 @@ int cmd_batch(const options *o)
                          : "batch: -o DIR/ is missing");
         return ENDS_USAGE;
     }
-    snprintf(folder, sizeof folder, "%s", o->output[0]);
+    for (int i = 0; i < o->operands; i++)
+        if (strcmp(o->operand[i], "-") == 0) {
+            say("batch: standard input has no name to go by: name files");
+            return ENDS_USAGE;
+        }
+    if (snprintf(folder, sizeof folder, "%s", o->output[0]) + ROOM_FOR_NAMES >= ROOM) {
+        say("%.100s...: %s", o->output[0], strerror(ENAMETOOLONG));
+        return ENDS_UNWRITTEN;
+    }
     while (strlen(folder) > 1 && folder[strlen(folder) - 1] == '/') folder[strlen(folder) - 1] = 0;
     for (int i = 0; i < o->forms; i++) {
         char file[300];

@@ -6,6 +6,7 @@
 #include "verdict.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 int cmd_draw(const options *o)
 {
@@ -22,12 +23,15 @@ int cmd_draw(const options *o)
     const rg_status s = rg_motion_read(o->operand[0], &o->reading, &m, &why);
     if (s != RG_OK) return say_no_motion(s, o->operand[0], &why);
     progress_init(&bar, o->quiet && o->progress < 0 ? 0 : o->progress);
-    status = places_write(o, m, &bar);
+    options written = {.output = calloc((size_t)o->outputs + 1, sizeof *written.output)};
+    status = written.output ? places_write(o, m, &bar, &written) : say_status(RG_ENOMEM, o->operand[0], &why);
     if (status == ENDS_WELL && !o->quiet) {
-        verdict_files(o, "  written   ", files, sizeof files);
-        printf("%s: %d frames, to %.1f %%\n%s\n", o->operand[0], (int)rg_motion_report(m)->frame_count,
+        char name[sizeof files];
+        verdict_files(&written, "  written   ", files, sizeof files);
+        printf("%s: %d frames, to %.1f %%\n%s\n", say_plain(o->operand[0], name, sizeof name), (int)rg_motion_report(m)->frame_count,
                rg_motion_report(m)->folded_percent, files);
     }
+    free(written.output);
     rg_motion_destroy(m);
     return status;
 }

@@ -64,7 +64,7 @@ static void tell_stages(const rg_report *r)
 }
 
 /* Why no crease is to go anywhere; NULL: one is. */
-static const char *unmoved(const rg_motion *m)
+static const char *unmoved(const options *o, const rg_motion *m)
 {
     rg_crease c;
     int aimed = 0, count = 0;
@@ -73,15 +73,18 @@ static const char *unmoved(const rg_motion *m)
         aimed |= !isnan(c.target) && !c.added;
     }
     if (count == 0) return "nothing to fold, as there is no crease in it";
+    for (int i = 0; i < o->aims; i++)
+        if (o->aim[i].what == AIM_DRIVE) return "nothing moves, as what is driven is driven to 0 degrees";
     return aimed ? "nothing moves, as every fold angle of the file is 0; --no-targets folds it flat"
                  : "nothing moves, as no crease says which way it folds";
 }
 
 /* The first line says what came of it, the second what was written. */
-static void summarize(const options *o, const char *name, const rg_motion *m)
+static void summarize(const options *o, const options *written, const char *operand, const rg_motion *m)
 {
     const rg_report *r = rg_motion_report(m);
-    char files[4096], moved[120] = "";
+    char files[4096], name[4096], moved[120] = "";
+    say_plain(operand, name, sizeof name);
     if (r->max_adjustment > SEEN)
         snprintf(moved, sizeof moved, ", with creases moved by up to %.2g %% of the sheet (--adjust off keeps them)",
                  100 * r->max_adjustment);
@@ -91,12 +94,12 @@ static void summarize(const options *o, const char *name, const rg_motion *m)
                        : r->contact == RG_CONTACT_CROSSES ? "folded, passing through itself"
                        : r->stages > 0                    ? staged
                                                           : "folded";
-    const char *still = r->states == 0 ? unmoved(m) : NULL;
+    const char *still = r->states == 0 ? unmoved(o, m) : NULL;
     if (still) printf("%s: %s; %d frames\n", name, still, (int)r->frame_count);
     else
         printf("%s: %s, %.1f %%%s; %d frames in %.2f s\n", name, what, r->folded_percent, moved, (int)r->frame_count,
                r->seconds_total);
-    verdict_files(o, "  written   ", files, sizeof files);
+    verdict_files(written, "  written   ", files, sizeof files);
     if (files[0]) puts(files);
     summarize_stages(r);
 }
@@ -178,6 +181,8 @@ int fold_one(const options *o, fold_seen seen, void *ctx)
     progress bar;
     progress_init(&bar, o->quiet && o->progress < 0 ? 0 : o->progress);
     int status = places_check(o);
+    options written = {.output = calloc((size_t)o->outputs + 1, sizeof *written.output)};
+    if (!written.output) status = say_status(RG_ENOMEM, o->operand[0], &(rg_diag){0, ""});
     if (status == ENDS_WELL) status = states_read(o, &q);
     if (status == ENDS_WELL) status = fold_states(o, &q, &bar, &m);
     if (status == ENDS_WELL) {
@@ -185,13 +190,13 @@ int fold_one(const options *o, fold_seen seen, void *ctx)
         /* The state that was not reached is the one to name, else the last. */
         const char *name =
             o->operand[q.operand[r->states && r->states_reached < r->states ? r->states_reached : q.count - 1]];
-        status = places_write(o, m, &bar);
+        status = places_write(o, m, &bar, &written);
         const int on_output = o->report && strcmp(o->report, "-") == 0, stopped = r->outcome == RG_STOPPED;
         if (stopped) {
             char files[4096];
             verdict_say(o, name,
                         q.pattern[r->states && r->states_reached < r->states ? r->states_reached : q.count - 1], m);
-            verdict_files(o, "written up to there: ", files, sizeof files);
+            verdict_files(&written, "written up to there: ", files, sizeof files);
             if (files[0] && !o->quiet) say("%s: %s", name, files);
         }
         const int rolled = !(r->max_adjustment <= o->max_roll);
@@ -199,7 +204,7 @@ int fold_one(const options *o, fold_seen seen, void *ctx)
             say("%s: creases moved by up to %.3g %% of the sheet on the way, and should by no more than %.3g "
                 "(--max-roll)",
                 name, 100 * r->max_adjustment, 100 * o->max_roll);
-        if (!stopped && !o->quiet && !on_output) summarize(o, name, m);
+        if (!stopped && !o->quiet && !on_output) summarize(o, &written, name, m);
         if (o->verbose && !on_output) tell_details(m);
         const int elsewhere = !stopped && !(r->moved_at_end <= ON_THE_PATTERN);
         if (elsewhere && fabs(o->settings.to) < 1)
@@ -221,6 +226,7 @@ int fold_one(const options *o, fold_seen seen, void *ctx)
         if (seen) seen(ctx, m, status);
     }
     rg_motion_destroy(m);
+    free(written.output);
     states_free(&q);
     return status;
 }

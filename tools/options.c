@@ -450,6 +450,7 @@ static int set(options *o, const rule *r, const char *text)
 
 /* What getopt_long is to know of the command's options; its values are places in `rules`, above any letter. */
 enum { FIRST = 256 };
+enum { NAMED = 20 }; /* bytes of an option's whole name, with dashes and blanks; a word may be short for it */
 /* Whether rule i is one of the command's: of two of one name it is the first. */
 static int is_of(int bit, int i)
 {
@@ -534,11 +535,10 @@ static int check_operands(const options *o, const command *c)
 /* What a fold depends on, word by word. */
 static void note(options *o, const rule *r, const char *text)
 {
-    const size_t n = strlen(o->said);
     const int matters = (r->commands & FOR_FOLD) || r->kind == FORM || (r->kind == JOIN && text) || r->at == AT(verify);
     if (matters && r->kind != OUTPUT && strcmp(r->name, "quiet") != 0 && strcmp(r->name, "progress") != 0 &&
         strcmp(r->name, "no-progress") != 0)
-        snprintf(o->said + n, sizeof o->said - n, "--%s %s ", r->name, text ? text : "");
+        sprintf(o->said + strlen(o->said), "--%s %s ", r->name, text ? text : "");
 }
 
 /* Are all outputs films and pages, which run evenly in motion unless asked otherwise? */
@@ -592,7 +592,11 @@ int options_parse(options *o, const command *c, int argc, char **argv)
     o->form = calloc((size_t)argc + 1, sizeof *o->form);
     o->aim = calloc((size_t)argc + 1, sizeof *o->aim);
     o->reading.kind = o->kind;
-    if (!o->operand || !o->output || !o->kind || !o->form || !o->aim) {
+    size_t words = 1;
+    for (int i = 0; i < argc; i++) /* each letter of -qv is an option */
+        words += strlen(argv[i]) + NAMED * (argv[i][0] == '-' && argv[i][1] != '-' ? strlen(argv[i]) : 1);
+    o->said = calloc(words, 1);
+    if (!o->operand || !o->output || !o->kind || !o->form || !o->aim || !o->said) {
         say("out of memory");
         return ENDS_UNWRITTEN;
     }
@@ -621,6 +625,7 @@ void options_free(options *o)
     free(o->form);
     free(o->aim);
     free(o->range);
+    free(o->said);
     memset(o, 0, sizeof *o);
 }
 

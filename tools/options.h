@@ -42,7 +42,7 @@ typedef struct options {
     double limit;                                         /* seconds a file, 0: none */
     double seconds, megabytes;                            /* that the command may take, 0: any */
     double max_roll; /* the farthest that creases may roll, over the sheet's size */
-    char said[1024];                                      /* options that say how to fold and what to write, as given */
+    char *said;                                           /* options that say how to fold and what to write, as given */
     const char *report;                                   /* NULL: none */
     int verbose, quiet, json, progress;                            /* progress: 1 yes, 0 no, -1 on a terminal */
     int help, version;                                    /* asked for: nothing after it was looked at */

@@ -36,10 +36,47 @@ static int same_place(const char *a, const char *b)
            is.st_ino == other.st_ino;
 }
 
+/* Where the number of a frame stands in a name of many: the length before it, and what comes after. 0: it is one file.
+ */
+static int find_number(const char *each, size_t *before, const char **after)
+{
+    size_t n;
+    const char *name = last_part(each, &n);
+    *before = strlen(each), *after = ".png";
+    if (*before > 0 && each[*before - 1] == '/') return 1;
+    for (const char *c = strchr(name, '%'); c; c = strchr(c + 1, '%')) {
+        const char *d = c + 1 + (c[1] == '0' && c[2] >= '1' && c[2] <= '9' ? 2 : 0);
+        if (*d != 'd') continue;
+        *before = (size_t)(c - each), *after = d + 1;
+        return 1;
+    }
+    return 0;
+}
+
+/* Is it, by its name, one of many files that are written under numbers, or are both the same many? */
+static int is_one_of(const char *each, const char *file)
+{
+    enum { LONGEST = 4096 };
+    char first[LONGEST], own[LONGEST];
+    size_t before, of_file, n;
+    const char *after, *end;
+    if (!find_number(each, &before, &after)) return 0;
+    if (find_number(file, &of_file, &end)) snprintf(own, sizeof own, "%.*s0%s", (int)of_file, file, end);
+    else snprintf(own, sizeof own, "%s", file);
+    const char *name = each + before, *its = last_part(own, &n);
+    while (name > each && name[-1] != '/') name--;
+    const size_t lead = before - (size_t)(name - each);
+    if (strncmp(its, name, lead) != 0) return 0;
+    const size_t digits = strspn(its + lead, "0123456789");
+    if (digits == 0 || strcmp(its + lead + digits, after) != 0) return 0;
+    snprintf(first, sizeof first, "%.*s%s", (int)(name - each), each, its);
+    return same_place(first, own);
+}
+
 static int same_file(const char *a, const char *b)
 {
     struct stat is, other;
-    if (strcmp(a, b) == 0 || same_place(a, b)) return 1;
+    if (strcmp(a, b) == 0 || same_place(a, b) || is_one_of(a, b) || is_one_of(b, a)) return 1;
     return stat(a, &is) == 0 && stat(b, &other) == 0 && is.st_dev == other.st_dev && is.st_ino == other.st_ino &&
            S_ISREG(is.st_mode);
 }
@@ -50,6 +87,10 @@ static int check_alone(const options *o, const char *name, int outputs)
     for (int i = 0; i < o->operands; i++) {
         if (strcmp(name, "-") == 0 || !same_file(name, o->operand[i])) continue;
         say("%s: is the input, and would be written over", name);
+        return ENDS_USAGE;
+    }
+    if (o->picture.image && strcmp(name, "-") != 0 && same_file(name, o->picture.image)) {
+        say("%s: is the picture to be printed, and would be written over", name);
         return ENDS_USAGE;
     }
     for (int i = 0; i < outputs; i++) {
@@ -80,6 +121,10 @@ static int check_place(const char *name)
 int places_check(const options *o)
 {
     int status = ENDS_WELL;
+    if (o->picture.image && access(o->picture.image, R_OK) != 0) {
+        say("%s: %s", o->picture.image, strerror(errno));
+        return ENDS_USAGE;
+    }
     for (int i = 0; i < o->outputs && status == ENDS_WELL; i++) {
         rg_diag why = {0, ""};
         rg_status s = rg_output_check(o->output[i], &why);
@@ -115,8 +160,10 @@ static const char *name_of(const char *operand)
     return strcmp(operand, "-") == 0 ? NULL : slash ? slash + 1 : operand;
 }
 
-/* All outputs are tried, whatever becomes of one; the report comes last, as it tells how long they took. */
-int places_write(const options *o, const rg_motion *m, progress *bar)
+/* The worse of two exit statuses; a picture or a place to look at that cannot be is the user's, not the disk's. */
+static int worse(int status, int other) { return other > status ? other : status; }
+
+int places_write(const options *o, const rg_motion *m, progress *bar, options *written)
 {
     const double from = seconds_now();
     rg_diag why = {0, ""};
@@ -124,19 +171,23 @@ int places_write(const options *o, const rg_motion *m, progress *bar)
     int status = ENDS_WELL;
     rg_picture picture = o->picture;
     picture.title = name_of(o->operand[o->operands - 1]);
+    written->outputs = 0;
+    written->report = NULL;
     for (int i = 0; i < o->outputs; i++) {
         why = (rg_diag){0, ""};
         progress_say(bar, "writing", o->output[i]);
         interrupt_doing(o->output[i]);
         s = rg_motion_write(m, o->output[i], &picture, &why);
         progress_erase(bar);
-        if (s != RG_OK) say_status(s, o->output[i], &why), status = ENDS_UNWRITTEN;
+        if (s != RG_OK) status = worse(status, say_status(s, o->output[i], &why));
+        else written->output[written->outputs++] = o->output[i];
     }
     interrupt_doing(o->report);
     if (!o->report) return status;
     why = (rg_diag){0, ""};
     s = rg_report_write(m, seconds_now() - from, peak_bytes(), o->report, &why);
-    if (s != RG_OK) say_status(s, NULL, &why), status = ENDS_UNWRITTEN;
+    if (s != RG_OK) status = worse(status, say_status(s, NULL, &why));
+    else written->report = o->report;
     interrupt_doing(NULL);
     return status;
 }

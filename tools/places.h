@@ -10,7 +10,8 @@
 int places_check_alone(const options *o, const char *output);
 /* Both return an exit status; what is wrong has been said. */
 int places_check(const options *o);
-/* All outputs are tried, whatever becomes of one; the report comes last, as it tells how long they took. */
-int places_write(const options *o, const rg_motion *m, progress *bar);
+/* All outputs are tried, whatever becomes of one; the report comes last, as it tells how long they took. written: out,
+ * the files that are there now, borrowed: its own list, [o->outputs], and its report. */
+int places_write(const options *o, const rg_motion *m, progress *bar, options *written);
 
 #endif

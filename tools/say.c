@@ -4,6 +4,14 @@
 #include <stdio.h>
 #include <string.h>
 
+const char *say_plain(const char *text, char *plain, size_t room)
+{
+    if (text != plain) snprintf(plain, room, "%s", text);
+    for (char *c = plain; *c; c++)
+        if ((unsigned char)*c < 32 || *c == 127) *c = '?';
+    return plain;
+}
+
 void say(const char *format, ...)
 {
     char line[8192]; /* two paths of the longest kind */

@@ -13,6 +13,8 @@ enum { ENDS_WELL = 0, ENDS_SHORT = 1, ENDS_USAGE = 2, ENDS_UNWRITTEN = 3 };
 __attribute__((format(printf, 1, 2)))
 #endif
 void say(const char *format, ...);
+/* `text` on one line, as say() shows it: in `room` bytes, which are returned. */
+const char *say_plain(const char *text, char *plain, size_t room);
 /* "rigami: FILE:LINE: what is wrong", without the line where there is none and without the file if that is NULL or
  * the words begin with it. Returns the exit status that `s` stands for. */
 int say_status(rg_status s, const char *file, const rg_diag *why);

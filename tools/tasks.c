@@ -26,33 +26,130 @@ static uint64_t hash_file(uint64_t h, const char *path)
     return h;
 }
 
-static void name_of(const char *file, char name[200])
+/* ----------------------------------------------------------------------------------------------------- names ---- */
+
+enum { NAME = 200, OF_LONG = 170 }; /* bytes; of a name that is too long, those that are kept */
+
+/* What names a file: what is no part of one, or counts frames, or ends a line, is a dash. Non-zero: it has room. */
+static int put_name(const char *from, size_t n, char name[NAME])
+{
+    snprintf(name, NAME, "%.*s", (int)n, from);
+    for (char *c = name; *c; c++)
+        if (*c == '/' || *c == '%' || (unsigned char)*c < 32 || *c == 127) *c = '-';
+    return n < NAME;
+}
+
+/* The file's own name, without folder and ending. */
+static int short_name(const char *file, char name[NAME])
 {
     const char *slash = strrchr(file, '/'), *from = slash ? slash + 1 : file, *dot = strrchr(from, '.');
-    const int n = dot && dot > from ? (int)(dot - from) : (int)strlen(from);
-    snprintf(name, 200, "%.*s", n, from);
+    return put_name(from, dot && dot > from ? (size_t)(dot - from) : strlen(from), name);
 }
 
-static int by_text(const void *a, const void *b) { return strcmp(*(const char *const *)a, *(const char *const *)b); }
+static int long_name(const char *file, char name[NAME]) { return put_name(file, strlen(file), name); }
 
-/* The names of all files, sorted, to see which of them are alike. */
-static char **all_names(const options *o)
+static uint64_t hash_text(const char *text) { return hash(UINT64_C(0xcbf29ce484222325), text, strlen(text)); }
+
+/* All names that files may go by, hashed and sorted: two that are alike by chance only get longer names. */
+struct names {
+    uint64_t *shorter, *longer;
+    unsigned char *again; /* [operands] non-zero: that very file was named before */
+    int count;
+};
+
+typedef struct path { const char *text; int number; } path;
+
+static int by_path(const void *a, const void *b)
 {
-    char **list = calloc((size_t)o->operands, sizeof *list);
-    for (int i = 0; list && i < o->operands; i++) {
-        if (!(list[i] = malloc(200))) return NULL;
-        name_of(o->operand[i], list[i]);
+    const path *p = a, *q = b;
+    const int order = strcmp(p->text, q->text);
+    return order ? order : (p->number > q->number) - (p->number < q->number);
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    return (x > y) - (x < y);
+}
+
+static void names_free(struct names *n)
+{
+    free(n->shorter);
+    free(n->longer);
+    free(n->again);
+}
+
+static int names_init(struct names *n, const options *o)
+{
+    const size_t room = (size_t)o->operands + 1;
+    path *sorted = calloc(room, sizeof *sorted);
+    char name[NAME];
+    *n = (struct names){.shorter = calloc(room, sizeof *n->shorter),
+                        .longer = calloc(room, sizeof *n->longer),
+                        .again = calloc(room, 1)};
+    if (!sorted || !n->shorter || !n->longer || !n->again) {
+        free(sorted);
+        return say_status(RG_ENOMEM, NULL, &(rg_diag){0, ""});
     }
-    if (list) qsort(list, (size_t)o->operands, sizeof *list, by_text);
-    return list;
+    for (int i = 0; i < o->operands; i++) sorted[i] = (path){o->operand[i], i};
+    qsort(sorted, (size_t)o->operands, sizeof *sorted, by_path);
+    for (int i = 0; i < o->operands; i++) {
+        if (i > 0 && strcmp(sorted[i].text, sorted[i - 1].text) == 0) {
+            n->again[sorted[i].number] = 1;
+            continue;
+        }
+        short_name(sorted[i].text, name);
+        n->shorter[n->count] = hash_text(name);
+        long_name(sorted[i].text, name);
+        n->longer[n->count++] = hash_text(name);
+    }
+    qsort(n->shorter, (size_t)n->count, sizeof *n->shorter, by_value);
+    qsort(n->longer, (size_t)n->count, sizeof *n->longer, by_value);
+    free(sorted);
+    return ENDS_WELL;
 }
 
-static int is_alone(char *const *list, int n, const char *name)
+/* How often a name is in a list: 0, 1, 2 for more. */
+static int times(const uint64_t *list, int count, const char *name)
 {
-    char *const *at = bsearch(&name, list, (size_t)n, sizeof *list, by_text);
-    if (!at) return 1;
-    return !(at > list && strcmp(at[-1], name) == 0) && !(at + 1 < list + n && strcmp(at[1], name) == 0);
+    const uint64_t key = hash_text(name), *at = bsearch(&key, list, (size_t)count, sizeof *list, by_value);
+    if (!at) return 0;
+    return 1 + ((at > list && at[-1] == key) || (at + 1 < list + count && at[1] == key));
 }
+
+/* What the batch itself writes beside the files. */
+static int is_of_batch(const char *name)
+{
+    return strcmp(name, "table") == 0 || strcmp(name, "rows") == 0 || strncmp(name, "part-", 5) == 0;
+}
+
+/* Whether sheet 1, 2, ... of a file goes by what another file is called. */
+static int has_sheet_of(const struct names *n, const char *name, int32_t sheets)
+{
+    char one[NAME + 20];
+    int found = 0;
+    for (int32_t k = 1; k <= sheets && !found; k++) {
+        snprintf(one, sizeof one, "%s-%d", name, (int)k);
+        found = times(n->shorter, n->count, one) || times(n->longer, n->count, one);
+    }
+    return found;
+}
+
+/* No two files have the same one: the short one where it is the only one, else the long one, else one with a number of
+ * the path's own. */
+static void name_of(const struct names *n, const char *file, int32_t sheets, char name[NAME])
+{
+    if (short_name(file, name) && !is_of_batch(name) && times(n->shorter, n->count, name) == 1 &&
+        !has_sheet_of(n, name, sheets))
+        return;
+    if (long_name(file, name) && !is_of_batch(name) && times(n->longer, n->count, name) == 1 &&
+        !times(n->shorter, n->count, name) && !has_sheet_of(n, name, sheets))
+        return;
+    short_name(file, name);
+    snprintf(name + strnlen(name, OF_LONG), NAME - OF_LONG, "-%016" PRIx64, hash_text(file));
+}
+
+/* ----------------------------------------------------------------------------------------------------- tasks ---- */
 
 /* How many sheets to fold one by one; 0: the file is taken as it is. *creases: out, of the file as it is. */
 static int32_t sheets_of(const options *o, const char *file, int32_t *creases)
@@ -66,26 +163,22 @@ static int32_t sheets_of(const options *o, const char *file, int32_t *creases)
     return o->reading.sheet == 0 && i.sheets > 1 ? i.sheets : 0;
 }
 
-static int add(const options *o, int i, char *const *names, tasks *q)
+static int add(const options *o, int i, const struct names *names, tasks *q)
 {
     const char *file = o->operand[i];
     int32_t creases;
     const int32_t sheets = sheets_of(o, file, &creases);
     uint64_t h = hash_file(hash(UINT64_C(0xcbf29ce484222325), rg_version(), strlen(rg_version())), file);
     h = hash(h, o->said, strlen(o->said));
+    if (o->picture.image) h = hash_file(h, o->picture.image);
     task *more = realloc(q->task, (size_t)(q->count + (sheets ? sheets : 1)) * sizeof *more);
     if (!more) return say_status(RG_ENOMEM, NULL, &(rg_diag){0, ""});
     q->task = more;
     for (int32_t k = sheets ? 1 : 0; k <= sheets; k++) {
-        char name[200];
+        char name[NAME];
         task *t = &q->task[q->count++];
         *t = (task){.file = file, .sheet = sheets ? k : o->reading.sheet, .creases = creases};
-        name_of(file, name);
-        if (!is_alone(names, o->operands, name)) {
-            snprintf(name, sizeof name, "%.199s", file);
-            for (char *c = name; *c; c++)
-                if (*c == '/') *c = '-';
-        }
+        name_of(names, file, sheets, name);
         snprintf(t->name, sizeof t->name, sheets ? "%s-%d" : "%s", name, (int)k);
         snprintf(t->key, sizeof t->key, "%016" PRIx64, h + (uint64_t)k);
     }
@@ -94,13 +187,13 @@ static int add(const options *o, int i, char *const *names, tasks *q)
 
 int tasks_find(const options *o, tasks *q)
 {
-    char **names = all_names(o);
-    int status = names ? ENDS_WELL : say_status(RG_ENOMEM, NULL, &(rg_diag){0, ""});
+    struct names names;
+    int status = names_init(&names, o);
     *q = (tasks){.count = 0};
     for (int i = 0; status == ENDS_WELL && i < o->operands; i++)
-        if (o->merge || o->parts < 2 || i % o->parts == o->part - 1) status = add(o, i, names, q);
-    for (int i = 0; names && i < o->operands; i++) free(names[i]);
-    free(names);
+        if (!names.again[i] && (o->merge || o->parts < 2 || i % o->parts == o->part - 1))
+            status = add(o, i, &names, q);
+    names_free(&names);
     return status;
 }
 

@@ -192,4 +192,5 @@ void verdict_files(const options *o, const char *lead, char *text, size_t room)
         if (!file || strcmp(file, "-") == 0) continue;
         n += (size_t)snprintf(text + n, room - n, "%s%s", n ? ", " : lead, file);
     }
+    say_plain(text, text, room);
 }

@@ -14,6 +14,8 @@
 #include <unistd.h>
 
 enum { TEMPORARY_NAMES = 1000 };
+/* Bytes of a name that its temporary one begins with: most file systems take 255, and what is added is less than 40. */
+enum { MOST_OF_NAME = 215 };
 
 static rg_status fail(rg_diag *why, const char *path)
 {
@@ -42,10 +44,11 @@ static int folder_name(const char *path, char folder[PATH_MAX])
 /* Tries names until `make` gets one that nobody has; errno says why it does not. */
 static int find_name(rg_file *f, int (*make)(rg_file *f, int fd), int fd)
 {
-    const size_t room = strlen(f->path) + 40;
+    const size_t whole = strlen(f->path), folder = folder_of(f->path);
+    const size_t used = whole - folder > MOST_OF_NAME ? folder + MOST_OF_NAME : whole;
     int made = -1;
     for (int n = 0; made < 0 && n < TEMPORARY_NAMES; n++) {
-        snprintf(f->temporary, room, "%s.%ld-%d.part", f->path, (long)getpid(), n);
+        snprintf(f->temporary, whole + 40, "%.*s.%ld-%d.part", (int)used, f->path, (long)getpid(), n);
         made = make(f, fd);
         if (made < 0 && errno != EEXIST) break;
     }
@@ -305,19 +308,32 @@ void rg_file_abandon(rg_file *f)
 
 static size_t digits(const char *s) { return strspn(s, "0123456789"); }
 
+/* name[used] is START NUMBER END, or the beginning of that if it is as long as that can be. */
+static int is_of(const char *name, size_t used, const char *start, const char *end)
+{
+    const int cut = used == MOST_OF_NAME;
+    const size_t n = strlen(start);
+    if (n > used) return cut && memcmp(name, start, used) == 0;
+    if (memcmp(name, start, n) != 0) return 0;
+    size_t number = digits(name + n);
+    if (number > used - n) number = used - n; /* what follows is a number too */
+    const size_t rest = used - n - number;
+    return (cut ? rest <= strlen(end) : rest == strlen(end)) && memcmp(name + n + number, end, rest) == 0;
+}
+
 /* START NUMBER END.PID-N.part: the PID, 0: it is no such name. */
 static long whose(const char *name, const char *start, const char *end)
 {
-    const size_t n = strlen(start), m = strlen(end);
-    if (strncmp(name, start, n) != 0) return 0;
-    name += n;
-    name += digits(name);
-    if (strncmp(name, end, m) != 0 || name[m] != '.') return 0;
-    name += m + 1;
-    const long pid = digits(name) > 0 && digits(name) < 19 ? strtol(name, NULL, 10) : 0;
-    name += digits(name);
-    if (*name++ != '-' || digits(name) == 0) return 0;
-    return strcmp(name + digits(name), ".part") == 0 ? pid : 0;
+    static const char last[] = ".part";
+    size_t at = strlen(name), from;
+    if (at < sizeof last || strcmp(name + at - (sizeof last - 1), last) != 0) return 0;
+    at -= sizeof last - 1;
+    for (from = at; from > 0 && name[from - 1] >= '0' && name[from - 1] <= '9';) from--;
+    if (from == at || from == 0 || name[from - 1] != '-') return 0;
+    at = --from;
+    while (from > 0 && name[from - 1] >= '0' && name[from - 1] <= '9') from--;
+    if (from == at || at - from >= 19 || from == 0 || name[from - 1] != '.') return 0;
+    return is_of(name, from - 1, start, end) ? strtol(name + from, NULL, 10) : 0;
 }
 
 /* Who writes it holds a lock on it, and has none on it any more when it is dead. */

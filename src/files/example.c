@@ -16,6 +16,9 @@ void rg_example_init(rg_example *e, size_t size)
     rg_give(e, size, &usual, sizeof usual);
 }
 
+/* 0: not asked for. Much less is too small to compute with. */
+static int is_length(double x) { return x == 0 || (x >= 1e-9 && x <= 1e9); }
+
 static rg_status take(const rg_example *given, rg_example *out, rg_diag *why)
 {
     rg_example mine = usual_example();
@@ -23,9 +26,8 @@ static rg_status take(const rg_example *given, rg_example *out, rg_diag *why)
     const size_t least = given && given->size == first ? first : sizeof mine;
     const rg_status s = given ? rg_take(&mine, sizeof mine, given, given->size, least, why) : RG_OK;
     if (s != RG_OK) return s;
-    if (!(mine.side >= 0 && mine.side <= 1e9) || !(mine.cell >= 0 && mine.cell <= 1e9) ||
-        !(mine.unit >= 0 && mine.unit <= 1e9))
-        return rg_fail(RG_EARG, why, 0, "a length is above 0 and at most 1e9");
+    if (!is_length(mine.side) || !is_length(mine.cell) || !is_length(mine.unit))
+        return rg_fail(RG_EARG, why, 0, "a length is from 1e-9 to 1e9");
     if (mine.side > 0 && mine.cell > 0)
         return rg_fail(RG_EARG, why, 0, "either the sheet's side or that of a part can be asked for");
     *out = mine;

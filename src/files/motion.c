@@ -44,9 +44,14 @@ static rg_status find_frames(given *g)
     if (n > INT32_MAX / 2) return rg_fail(RG_EFORMAT, g->why, 0, "file_frames: too many");
     g->frame = rg_mem_array(&g->m->mem, n + 1, sizeof *g->frame);
     if (!g->frame) return RG_ENOMEM;
-    for (size_t i = 0; i < n; i++)
-        if (rg_value_count(rg_value_get(rg_value_at(frames, i), "vertices_coords")) > 0)
-            g->frame[g->count++] = (int32_t)i;
+    for (size_t i = 0; i < n; i++) {
+        const size_t there = rg_value_count(rg_value_get(rg_value_at(frames, i), "vertices_coords"));
+        if (there > 0 && there != (size_t)g->nv) /* before there is room for all of them */
+            return rg_fail(RG_EFORMAT, g->why, 0,
+                           "file_frames[%d].vertices_coords: %zu of them, and %d in the crease pattern", (int)i, there,
+                           (int)g->nv);
+        if (there > 0) g->frame[g->count++] = (int32_t)i;
+    }
     if (g->count == 0)
         return rg_fail(RG_EFORMAT, g->why, 0,
                        "file_frames: no frame has vertices_coords: this is no motion, but rigami fold makes one of a "
@@ -65,10 +70,6 @@ static rg_status positions(const given *g, int32_t k, rg_vec3 *x)
     const rg_value *frame = frame_of(g, k), *list = rg_value_get(frame, "vertices_coords");
     if (!frame)
         for (int32_t v = 0; v < m->mesh.nv; v++) x[v] = (rg_vec3){m->mesh.X[v].x, m->mesh.X[v].y, 0};
-    if (frame && rg_value_count(list) != (size_t)g->nv)
-        return rg_fail(RG_EFORMAT, g->why, 0,
-                       "file_frames[%d].vertices_coords: %zu of them, and %d in the crease pattern", (int)g->frame[k],
-                       rg_value_count(list), (int)g->nv);
     for (int32_t v = 0; frame && v < m->mesh.nv; v++) {
         const rg_value *row = rg_value_at(list, (size_t)m->source.vertex[v]);
         double q[3] = {0, 0, 0};

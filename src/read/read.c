@@ -222,6 +222,8 @@ rg_status rg_read_bytes(const void *bytes, size_t size, const char *path, const 
     }
     rg_status status = rg_kinds_check(s, why);
     if (status == RG_OK) status = rg_read_format(bytes, size, path, s, &format, why);
+    if (status == RG_OK && s->file_frame > 0 && format != RG_FORMAT_FOLD)
+        status = rg_fail(RG_EFORMAT, why, 0, "there is no frame %d: only FOLD files have frames", (int)s->file_frame);
     if (status != RG_OK) return status;
     switch (format) {
     case RG_FORMAT_OPX: status = rg_opx_read(bytes, size, &mem, &stop, out, why); break;

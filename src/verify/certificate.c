@@ -35,6 +35,7 @@ static rg_status look(rg_certificate *c, rg_record *r, const rg_pattern *given)
     s = rg_isometry_frames(r, &c->faults, &c->isometry);
     if (s == RG_OK && !(c->isometry.rigid <= RG_THROUGH_LEAST)) return s; /* facets that are none cross nothing */
     if (s == RG_OK) s = rg_pieces_init(r, &p);
+    if (s == RG_OK) s = rg_pieces_check(r, &p, &c->faults);
     if (s == RG_OK) s = rg_through_frames(r, &p, &c->faults, &c->through);
     if (s == RG_OK) s = rg_pile_check(r, &p, &c->through.sides, &c->faults, &c->pile);
     rg_aparts_free(&c->through.sides);

@@ -1,9 +1,12 @@
 #include "verify/pieces.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* Sine of a corner that is turned inwards by rounding only. */
 static const double STRAIGHT = 1e-7;
+/* Of the sheet's size: what is narrower than this is how the drawing is rounded, no facet over another. */
+static const double NARROW = 1e-4;
 
 static double sine_at(rg_vec2 a, rg_vec2 b, rg_vec2 c)
 {
@@ -14,8 +17,14 @@ static double sine_at(rg_vec2 a, rg_vec2 b, rg_vec2 c)
 static int all_outwards(const rg_vec2 *X, const int32_t *c, int32_t n)
 {
     int good = n <= RG_PIECE_MOST;
-    for (int32_t i = 0; good && i < n; i++) good = sine_at(X[c[i]], X[c[(i + 1) % n]], X[c[(i + 2) % n]]) >= -STRAIGHT;
-    return good;
+    double turned = 0;
+    for (int32_t i = 0; good && i < n; i++) {
+        const rg_vec2 a = X[c[i]], b = X[c[(i + 1) % n]], d = X[c[(i + 2) % n]];
+        good = sine_at(a, b, d) >= -STRAIGHT;
+        turned += atan2(rg_vec2_cross(rg_vec2_sub(b, a), rg_vec2_sub(d, b)),
+                        rg_vec2_dot(rg_vec2_sub(b, a), rg_vec2_sub(d, b)));
+    }
+    return good && turned < 3 * RG_PI; /* a star goes round twice */
 }
 
 static void add(rg_pieces *p, int32_t f, const int32_t *c, int32_t n)
@@ -26,14 +35,14 @@ static void add(rg_pieces *p, int32_t f, const int32_t *c, int32_t n)
     p->n++;
 }
 
-/* The triangle at corner i holds no other corner. */
+/* The triangle at corner i holds no other vertex. */
 static int is_ear(const rg_vec2 *X, const int32_t *c, int32_t n, int32_t i)
 {
     const rg_vec2 a = X[c[(i + n - 1) % n]], b = X[c[i]], d = X[c[(i + 1) % n]];
     if (!(sine_at(a, b, d) > STRAIGHT)) return 0;
     for (int32_t k = 0; k < n; k++) {
         const rg_vec2 q = X[c[k]];
-        if (k == i || k == (i + 1) % n || k == (i + n - 1) % n) continue;
+        if (c[k] == c[i] || c[k] == c[(i + 1) % n] || c[k] == c[(i + n - 1) % n]) continue;
         if (rg_vec2_turn(a, b, q) >= 0 && rg_vec2_turn(b, d, q) >= 0 && rg_vec2_turn(d, a, q) >= 0) return 0;
     }
     return 1;
@@ -74,6 +83,73 @@ rg_status rg_pieces_init(const rg_record *r, rg_pieces *p)
     return RG_OK;
 }
 
+typedef struct span { double low[2], high[2]; int32_t piece; } span;
+
+static int by_low(const void *a, const void *b)
+{
+    const span *p = a, *q = b;
+    return p->low[0] < q->low[0] ? -1 : p->low[0] > q->low[0] ? 1 : p->piece - q->piece;
+}
+
+static int32_t piece_of(const rg_record *r, const rg_pieces *p, int32_t a, rg_vec2 x[RG_PIECE_MOST])
+{
+    const int32_t n = p->start[a + 1] - p->start[a];
+    for (int32_t k = 0; k < n; k++) x[k] = r->flat[p->corner[p->start[a] + k]];
+    return n;
+}
+
+static double facet_area(const rg_record *r, int32_t f)
+{
+    const int32_t *c = r->corner + r->start[f], n = r->start[f + 1] - r->start[f];
+    double sum = 0;
+    for (int32_t k = 1; k + 1 < n; k++) sum += rg_vec2_turn(r->flat[c[0]], r->flat[c[k]], r->flat[c[k + 1]]) / 2;
+    return sum;
+}
+
+static void check_simple(const rg_record *r, const rg_pieces *p, rg_faults *all)
+{
+    const double little = NARROW * r->size * NARROW * r->size;
+    for (int32_t f = 0; f < r->nf; f++) {
+        double sum = 0;
+        for (int32_t a = p->first[f]; a < p->first[f + 1]; a++) {
+            rg_vec2 x[RG_PIECE_MOST];
+            const int32_t n = piece_of(r, p, a, x);
+            sum += rg_pieces_area(x, n);
+        }
+        if (!(fabs(sum - facet_area(r, f)) <= little))
+            rg_faults_add(all, -1, f, -1, "is no simple polygon in the pattern");
+    }
+}
+
+rg_status rg_pieces_check(const rg_record *r, const rg_pieces *p, rg_faults *all)
+{
+    span *s = rg_mem_array(&p->mem, (size_t)p->n, sizeof *s);
+    if (!s) return RG_ENOMEM;
+    check_simple(r, p, all);
+    for (int32_t a = 0; a < p->n; a++) {
+        rg_vec2 x[RG_PIECE_MOST];
+        const int32_t n = piece_of(r, p, a, x);
+        s[a] = (span){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, a};
+        for (int32_t k = 0; k < n; k++) {
+            s[a].low[0] = fmin(s[a].low[0], x[k].x), s[a].high[0] = fmax(s[a].high[0], x[k].x);
+            s[a].low[1] = fmin(s[a].low[1], x[k].y), s[a].high[1] = fmax(s[a].high[1], x[k].y);
+        }
+    }
+    qsort(s, (size_t)p->n, sizeof *s, by_low);
+    for (int32_t i = 0; i < p->n; i++)
+        for (int32_t k = i + 1; k < p->n && s[k].low[0] < s[i].high[0]; k++) {
+            const int32_t f = p->facet[s[i].piece], g = p->facet[s[k].piece];
+            rg_vec2 a[RG_PIECE_MOST], b[RG_PIECE_MOST], common[RG_PIECE_COMMON];
+            if (f == g || s[i].low[1] >= s[k].high[1] || s[k].low[1] >= s[i].high[1]) continue;
+            const int32_t na = piece_of(r, p, s[i].piece, a), nb = piece_of(r, p, s[k].piece, b);
+            const int32_t n = rg_pieces_common(a, na, b, nb, common);
+            if (rg_pieces_width(common, n) > NARROW * r->size)
+                rg_faults_add(all, -1, f < g ? f : g, f < g ? g : f, "lie over each other in the pattern");
+        }
+    rg_mem_free(&p->mem, s);
+    return RG_OK;
+}
+
 void rg_pieces_free(rg_pieces *p)
 {
     if (!p->mem.resize) return;
@@ -86,6 +162,13 @@ double rg_pieces_area(const rg_vec2 *a, int32_t n)
     double sum = 0;
     for (int32_t i = 1; i + 1 < n; i++) sum += rg_vec2_turn(a[0], a[i], a[i + 1]) / 2;
     return sum;
+}
+
+double rg_pieces_width(const rg_vec2 *a, int32_t n)
+{
+    double round = 0;
+    for (int32_t k = 0; k < n; k++) round += rg_vec2_length(rg_vec2_sub(a[(k + 1) % n], a[k]));
+    return round > 0 ? 4 * fabs(rg_pieces_area(a, n)) / round : 0;
 }
 
 /* a, cut by the line of one side of b after the other (Sutherland and Hodgman 1974). */

@@ -65,14 +65,6 @@ static int32_t piece_of(const pile *q, int32_t a, rg_vec2 x[RG_PIECE_MOST])
     return n;
 }
 
-/* As wide as twice the area over the half of the length round it. */
-static double width_of(const rg_vec2 *x, int32_t n)
-{
-    double round = 0;
-    for (int32_t k = 0; k < n; k++) round += rg_vec2_length(rg_vec2_sub(x[(k + 1) % n], x[k]));
-    return round > 0 ? 4 * fabs(rg_pieces_area(x, n)) / round : 0;
-}
-
 /* How wide a place two facets have in common; 0: none. */
 static double common_width(const pile *q, int32_t f, int32_t g)
 {
@@ -81,7 +73,7 @@ static double common_width(const pile *q, int32_t f, int32_t g)
     for (int32_t i = q->p->first[f]; i < q->p->first[f + 1]; i++)
         for (int32_t k = q->p->first[g]; k < q->p->first[g + 1]; k++) {
             const int32_t na = piece_of(q, i, a), nb = piece_of(q, k, b), m = rg_pieces_common(a, na, b, nb, common);
-            widest = fmax(widest, width_of(common, m));
+            widest = fmax(widest, rg_pieces_width(common, m));
         }
     return widest;
 }
@@ -155,7 +147,7 @@ static double place_of_three(const pile *q, int32_t f, int32_t g, int32_t h)
             const int32_t na = piece_of(q, i, a), nb = piece_of(q, k, b), n = rg_pieces_common(a, na, b, nb, ab);
             for (int32_t j = q->p->first[h]; n >= 3 && n <= RG_PIECE_MOST && j < q->p->first[h + 1]; j++) {
                 const int32_t nc = piece_of(q, j, c), m = rg_pieces_common(ab, n, c, nc, abc);
-                widest = fmax(widest, width_of(abc, m));
+                widest = fmax(widest, rg_pieces_width(abc, m));
             }
         }
     return widest;

@@ -101,7 +101,8 @@ static rg_status edges(const reader *q)
         if (!letter || !strchr("BMVFUCJ", letter[0]) || !letter[0] || letter[1])
             return bad(q, "no such letter", "edges_assignment");
         r->assignment[e] = letter[0];
-        r->added[e] = rg_value_is_true(rg_value_at(added, (size_t)e)) != 0;
+        /* What is a mountain or the border is of the pattern, whatever the file says. */
+        r->added[e] = letter[0] == 'F' && rg_value_is_true(rg_value_at(added, (size_t)e)) != 0;
         r->side[e][0] = r->side[e][1] = -1;
     }
     return angles(q, q->root, r->target);
@@ -186,6 +187,14 @@ static rg_status orders(const reader *q, const rg_value *frame)
     return RG_OK;
 }
 
+/* Has it as many places and angles as it should? Asked of all before there is room for any. */
+static rg_status is_whole(const reader *q, const rg_value *state)
+{
+    const rg_value *v;
+    const rg_status s = list(q, state, "vertices_coords", q->r->nv, &v);
+    return s == RG_OK ? list(q, state, "edges_foldAngle", q->r->ne, &v) : s;
+}
+
 static int is_placed(const rg_value *frame) { return rg_value_get(frame, "vertices_coords") != NULL; }
 
 /* Frames, and with each the states that its file has between it and the next one. */
@@ -197,9 +206,14 @@ static rg_status frames(const reader *q)
     if (s != RG_OK) return s;
     const int32_t n = (int32_t)rg_value_count(v);
     int64_t states = 0;
-    for (int32_t k = 0; k < n; k++)
-        if (is_placed(rg_value_at(v, (size_t)k)))
-            states += 1 + (int64_t)rg_value_count(rg_value_get(rg_value_at(v, (size_t)k), "rigami:between"));
+    for (int32_t k = 0; k < n && s == RG_OK; k++) {
+        const rg_value *frame = rg_value_at(v, (size_t)k), *between = rg_value_get(frame, "rigami:between");
+        if (!is_placed(frame)) continue;
+        s = is_whole(q, frame);
+        for (size_t i = 0; i < rg_value_count(between) && s == RG_OK; i++) s = is_whole(q, rg_value_at(between, i));
+        states += 1 + (int64_t)rg_value_count(between);
+    }
+    if (s != RG_OK) return s;
     if (states < 1) return bad(q, "none has vertices_coords", "file_frames");
     if (states > MOST) return bad(q, "too many", "file_frames");
     r->frames = (int32_t)states;

@@ -118,14 +118,25 @@ static int is_ours(const char *path)
     return has_mark(path, mark, sizeof mark - 1);
 }
 
-/* Is the frame there, of a run that drew the same? A file that has its name is whole. */
+/* A picture that was copied, or brought to the disk, in part is none. */
+static int has_end(const char *path)
+{
+    static const unsigned char end[12] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+    unsigned char last[sizeof end] = {0};
+    FILE *f = fopen(path, "rb");
+    const int whole = f && fseek(f, -(long)sizeof end, SEEK_END) == 0 && fread(last, sizeof end, 1, f) == 1;
+    if (f) fclose(f);
+    return whole && memcmp(last, end, sizeof end) == 0;
+}
+
+/* Is the frame there, of a run that drew the same? */
 static int is_drawn(void *ctx, int32_t frame)
 {
     const album *a = ctx;
     char mark[sizeof "tEXtRun" + RG_KEY_ROOM] = "tEXtRun";
     memcpy(mark + sizeof "tEXtRun", a->run, RG_KEY_ROOM - 1);
     rg_numbered_name(&a->name, frame, a->room, rg_numbered_room(&a->name));
-    return has_mark(a->room, mark, sizeof "tEXtRun" + RG_KEY_ROOM - 1);
+    return has_mark(a->room, mark, sizeof "tEXtRun" + RG_KEY_ROOM - 1) && has_end(a->room);
 }
 
 /* Frames of a longer run before this one would be taken for its end. */
