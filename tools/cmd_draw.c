@@ -28,8 +28,8 @@ int cmd_draw(const options *o)
     if (status == ENDS_WELL && !o->quiet) {
         char name[sizeof files];
         verdict_files(&written, "  written   ", files, sizeof files);
-        printf("%s: %d frames, to %.1f %%\n%s\n", say_plain(o->operand[0], name, sizeof name), (int)rg_motion_report(m)->frame_count,
-               rg_motion_report(m)->folded_percent, files);
+        printf("%s: %d frames, to %.1f %%\n%s\n", say_plain(o->operand[0], name, sizeof name),
+               (int)rg_motion_report(m)->frame_count, rg_motion_report(m)->folded_percent, files);
     }
     free(written.output);
     rg_motion_destroy(m);

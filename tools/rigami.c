@@ -71,13 +71,14 @@ static const command commands[] = {
      "options\n"
      "and program, is kept: an interrupted batch goes on when it is called again. On several machines that share DIR:\n"
      "--part 1/8 on the first, ... --part 8/8 on the last, then once --merge with all files. Exit status: 0 when all\n"
-     "fold; 1 when some do not, or are not done yet; 2 for wrong usage; 3 for output that cannot be written.\n",
+     "fold; 1 when some do not, or are not done yet; 2 for wrong usage; 3 when outputs could not be written, of some\n"
+     "files, or at all.\n",
      cmd_batch},
     {"chart", FOR_CHART, "IN [-o DIR]", 1, 1, "Charts speed against accuracy of every method, and where each stops.",
      "IN is a crease pattern, - standard input. Says what each method and solver costs and how far off\n"
      "it is; with -o also writes DIR/IN.csv, every run, DIR/IN.svg, the diagram, and DIR/IN.md.\n"
-     "Exit status: 0 when it was made, whatever it says; 2 when IN cannot be read or holds nothing to\n"
-     "solve; 3 when an output cannot be written.\n",
+     "Exit status: 0 when it was made, whatever it says; 1 when it was ended before; 2 when IN cannot be\n"
+     "read or holds nothing to solve; 3 when an output cannot be written.\n",
      cmd_chart},
     {"verify", FOR_VERIFY, "MOTION.fold [IN]", 1, 2,
      "Says whether a motion that was written is one that paper can make.",

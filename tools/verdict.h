@@ -12,7 +12,8 @@ void verdict_say(const options *o, const char *name, const rg_pattern *p, const 
 void verdict_say_contact(const options *o, const char *name, const rg_pattern *p, const rg_motion *m);
 /* A coordinate as people write it: what is 0 but for rounding, over the sheet's size, is 0. */
 double verdict_tidy(double x, double size);
-/* The files that were written, outputs and report of `o`, on one line, with `lead` before them; an empty text: there are none. */
+/* Outputs and report of `o`, those that were written, on one line, with `lead` before them; an empty text: there are
+ * none. */
 void verdict_files(const options *o, const char *lead, char *text, size_t room);
 
 #endif
