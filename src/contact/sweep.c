@@ -326,6 +326,7 @@ typedef struct sweep {
     rg_sweep_found found;
     rg_status status;
     int rigid; /* non-zero: no facet changes its shape */
+    int32_t of[2], shared, corner; /* of the last two facets that were asked for: what they share */
     pair m;
 } sweep;
 
@@ -501,19 +502,26 @@ static int stays_away(sweep *s, int32_t a, int32_t b, double arm)
     return 1;
 }
 
+/* A facet of many corners has many parts, whose pairs follow each other. */
+static int32_t shared_by(sweep *s, int32_t f, int32_t g)
+{
+    if (s->of[0] == f && s->of[1] == g) return s->shared;
+    s->of[0] = f, s->of[1] = g;
+    return s->shared = rg_plates_shared(s->p->mesh, f, g, &s->corner);
+}
+
 static void meet(sweep *s, int32_t a, int32_t b, double arm)
 {
     const rg_plates *p = s->p;
-    int32_t corner;
     if (p->facet[a] == p->facet[b]) return;
     if (p->facet[a] > p->facet[b]) {
         const int32_t swap = a;
         a = b, b = swap;
     }
-    const int32_t shared = rg_plates_shared(p->mesh, p->facet[a], p->facet[b], &corner);
+    const int32_t shared = shared_by(s, p->facet[a], p->facet[b]);
     const int32_t hinge = shared > 1 ? hinge_of(p, a, b) : -1;
     if (hinge >= 0) close_hinge(s, a, b, hinge);
-    else if (shared > 0 || !s->rigid || !stays_away(s, a, b, arm)) advance(s, a, b, corner);
+    else if (shared > 0 || !s->rigid || !stays_away(s, a, b, arm)) advance(s, a, b, s->corner);
 }
 
 /* How near the segment from q to r comes to the origin. */
@@ -626,7 +634,7 @@ rg_status rg_sweep_step(const rg_plates *p, const rg_plates_state *from, const r
                         rg_sweep_work *w,
                         rg_sweep_found *found)
 {
-    sweep s = {.p = p, .from = from, .to = to, .depth = depth * p->size, .w = w};
+    sweep s = {.p = p, .from = from, .to = to, .depth = depth * p->size, .w = w, .of = {-1, -1}};
     s.found = (rg_sweep_found){.verdict = RG_SWEEP_FREE, .time = 1, .facet = {-1, -1}};
     w->n_now = 0;
     if (p->parts > 1 && rg_front_shows_moving(p, from, to, s.depth, &w->front)) {

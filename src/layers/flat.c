@@ -116,10 +116,8 @@ static rg_isometry reflected(const rg_isometry *q, rg_vec2 a, rg_vec2 b)
     const rg_isometry mirror = {{{cos2, sin2}, {sin2, -cos2}}, t};
     rg_isometry r;
     r.t = rg_isometry_apply(q, mirror.t);
-    for (int k = 0; k < 2; k++) {
-        const rg_vec2 c = rg_isometry_apply(q, mirror.c[k]);
-        r.c[k] = rg_vec2_sub(c, q->t);
-    }
+    for (int k = 0; k < 2; k++) /* without q->t, which may be so long that it leaves nothing of a unit vector */
+        r.c[k] = rg_isometry_apply(&(rg_isometry){{q->c[0], q->c[1]}, {0, 0}}, mirror.c[k]);
     return r;
 }
 

@@ -375,6 +375,10 @@ static rg_status find_progress(rg_fold *f, int32_t k, double goal)
     double part = 0, closure = NAN;
     const int32_t c = leader(f, k);
     int found;
+    if (rg_fold_mesh(f)->N == 0) { /* no crease leads: the sheet is the same in both */
+        rg_fold_stand(f, goal - at_low < at_high - goal ? k : k + 1);
+        return RG_OK;
+    }
     const rg_status s = find_on_path(f, k, -1, goal, &found);
     if (s != RG_OK || found) return s;
     rg_between *way = way_between(f, k);
