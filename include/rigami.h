@@ -759,8 +759,8 @@ RG_API rg_status rg_motion_tangent(const rg_motion *m, int32_t frame, rg_tangent
 RG_API void rg_tangent_destroy(rg_tangent *t);
 RG_API const rg_tangent_info *rg_tangent_get_info(const rg_tangent *t);
 /* step[columns]: out, wish - C^+ C wish, the nearest velocity that the facets allow, eq. (9); may be the same array.
- * reaction[rows]: out, y with step = wish - C^T y: how hard each vertex resists; NULL: not asked for. Allocates
- * nothing. */
+ * reaction[rows]: out, y with step = wish - C^T y: how hard each vertex resists; NULL: not asked for. RG_EARG: a wish
+ * is infinite or NaN. Allocates nothing. */
 RG_API rg_status rg_tangent_project(rg_tangent *t, const double *wish, double *step, double *reaction);
 /* An orthonormal basis of the infinitesimal motions, one after the other, [*freedoms][columns]; the degrees of
  * freedom are how many they are, and the rank of C is columns less that. Flat and flat-folded states have more than

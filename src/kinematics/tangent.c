@@ -11,6 +11,9 @@ static const double NOTHING = 1e-6;
 static const int32_t SURE = 2;
 /* Each makes a reaction better by the fourth power of ten or so. */
 static const int32_t REFINEMENTS = 3;
+/* Squares of what is beyond 2^512 are endless, of what is below 2^-512 nothing: a wish this far from 1 is brought near
+ * it, and what comes of it back. */
+enum { FAR = 300 };
 
 struct rg_tangent {
     rg_memory mem;
@@ -99,21 +102,42 @@ static rg_status project(rg_tangent *t, const double *wish, double *step)
     return rg_project_step(&t->P, &t->K, wish, 0, NULL, step, SOLVE_TOLERANCE, &rep); /* eq. (9) */
 }
 
+/* The power of two to divide a wish by; 0: it is as it should be. */
+static int power_of(int32_t n, const double *wish)
+{
+    double most = 0;
+    int power;
+    for (int32_t i = 0; i < n; i++) most = fmax(most, fabs(wish[i]));
+    frexp(most, &power);
+    return power > FAR || power < -FAR ? power : 0;
+}
+
+static void bring_back(int32_t n, double *x, int power)
+{
+    for (int32_t i = 0; power && i < n; i++) x[i] = ldexp(x[i], power);
+}
+
 rg_status rg_tangent_project(rg_tangent *t, const double *wish, double *step, double *reaction)
 {
     const int32_t N = t->K.C.N, rows = 3 * t->K.C.M;
-    for (int32_t i = 0; i < N; i++) t->v[i] = t->K.still[i] ? 0 : wish[i];
+    for (int32_t i = 0; i < N; i++)
+        if (!isfinite(wish[i])) return RG_EARG;
+    const int power = power_of(N, wish);
+    for (int32_t i = 0; i < N; i++) t->v[i] = t->K.still[i] ? 0 : power ? ldexp(wish[i], -power) : wish[i];
     rg_status s = project(t, t->v, step);
-    if (s != RG_OK || !reaction) return s;
-    memcpy(reaction, t->P.y, (size_t)rows * sizeof *reaction);
-    for (int32_t i = 0; i < N; i++) t->rest[i] = t->v[i] - step[i];
+    if (s == RG_OK && reaction) {
+        memcpy(reaction, t->P.y, (size_t)rows * sizeof *reaction);
+        for (int32_t i = 0; i < N; i++) t->rest[i] = t->v[i] - step[i];
+    }
     /* The factor is of C C^T + beta I, which leaves some of what is taken without its y: more of the same for that. */
-    for (int32_t n = 0; s == RG_OK && n < REFINEMENTS; n++) {
+    for (int32_t n = 0; s == RG_OK && reaction && n < REFINEMENTS; n++) {
         rg_sparse_mul_t(&t->K.C, reaction, t->v);
         for (int32_t i = 0; i < N; i++) t->v[i] = t->rest[i] - t->v[i];
         s = project(t, t->v, t->spare);
         for (int32_t i = 0; s == RG_OK && i < rows; i++) reaction[i] += t->P.y[i];
     }
+    bring_back(N, step, power);
+    if (reaction) bring_back(rows, reaction, power);
     return s;
 }
 

@@ -84,8 +84,10 @@ int rg_fold_has_more(const rg_fold *f);
 void rg_fold_advance(rg_fold *f);
 /* Room for a track of so many states and a leg after them, which is a list of its own from now on. RG_ENOMEM. */
 rg_status rg_fold_own_track(rg_fold *f, int32_t states);
-/* The engine to steer by. RG_ENOMEM. */
+/* The engine to steer by, with roles as below. RG_ENOMEM. */
 rg_status rg_fold_make_steer(rg_fold *f);
+/* Nobody has set anything: creases aim at what the motion aimed at. */
+void rg_fold_aim_as_found(rg_fold *f);
 
 /* As rg_motion_create. path: out, what can be read off again, its mesh that of the motion, to be freed before it; NULL:
  * not asked for. */

@@ -90,6 +90,8 @@ rg_status rg_fold_restore(rg_fold *f, const rg_snapshot *s)
         const rg_vec2 *X = s->steered ? rg_fold_pattern(f, s->aimed ? s->track.count - 1 : s->first) : m->X;
         rg_mesh_sectors(m, X, f->theta);
         rg_steer_return(f->steer, f->theta, &s->leg);
+    } else if (f->steer) {
+        rg_fold_aim_as_found(f);
     }
     rg_fold_look(f);
     return RG_OK;
@@ -282,7 +284,8 @@ static rg_status fill(rg_motion *m, const rg_fold *f, int32_t every)
     return s;
 }
 
-static rg_status record(const rg_fold *f, int32_t every, rg_motion **motion, rg_diag *why)
+/* watch: asked while it is measured; NULL: nobody. */
+static rg_status record(const rg_fold *f, int32_t every, rg_watch *watch, rg_motion **motion, rg_diag *why)
 {
     const double begun = rg_seconds();
     rg_motion *m = rg_mem_array(&f->mem, 1, sizeof *m);
@@ -294,9 +297,9 @@ static rg_status record(const rg_fold *f, int32_t every, rg_motion **motion, rg_
     if (s == RG_OK) s = fill(m, f, every);
     if (s == RG_OK) s = rg_motion_hang(m, why);
     if (s == RG_OK) s = rg_motion_lend(m);
-    if (s == RG_OK) s = rg_measure_frames(m, NULL);
+    if (s == RG_OK) s = rg_measure_frames(m, watch);
     if (s == RG_OK) set_percent(m, f, every);
-    if (s == RG_OK) s = rg_ending_find(m, NULL, why);
+    if (s == RG_OK) s = rg_ending_find(m, watch, why);
     if (s != RG_OK) {
         rg_motion_destroy(m);
         return rg_fail(s, why, 0, "%s", rg_status_text(s));
@@ -306,7 +309,10 @@ static rg_status record(const rg_fold *f, int32_t every, rg_motion **motion, rg_
     return RG_OK;
 }
 
-rg_status rg_fold_record(const rg_fold *f, rg_motion **motion, rg_diag *why) { return record(f, 1, motion, why); }
+rg_status rg_fold_record(const rg_fold *f, rg_motion **motion, rg_diag *why)
+{
+    return record(f, 1, NULL, motion, why);
+}
 
 /* ---------------------------------------------------------------------------------------------- driven at once ---- */
 
@@ -339,9 +345,19 @@ static rg_status drive_edges(rg_fold *f, const rg_pattern *p, int32_t count, con
     return s;
 }
 
+/* Two tries are told as one: never less than before. */
+typedef struct told { rg_progress progress; void *ctx; double most; } told;
+
+static int tell(void *ctx, double done)
+{
+    told *t = ctx;
+    t->most = fmax(t->most, done);
+    return t->progress ? t->progress(t->ctx, t->most) : 0;
+}
+
 /* One try, on facets as drawn or cut. */
 static rg_status drive(const rg_pattern *p, int32_t count, const rg_driven *driven, const rg_settings *s,
-                       rg_progress progress, void *ctx, rg_motion **motion, rg_diag *why)
+                       rg_watch *watch, rg_motion **motion, rg_diag *why)
 {
     rg_fold *f = NULL;
     const int32_t every = parts_of(count, driven, s);
@@ -351,9 +367,13 @@ static rg_status drive(const rg_pattern *p, int32_t count, const rg_driven *driv
     if (status != RG_OK) return status;
     status = drive_edges(f, p, count, driven, why);
     while (status == RG_OK && rg_fold_step(f)->outcome == RG_RUNNING)
-        if (progress && progress(ctx, f->progress)) break;
-    if (status == RG_OK) status = record(f, every, motion, why);
+        if (rg_watch_tell(watch, f->progress)) break;
+    if (status == RG_OK) status = record(f, every, watch, motion, why);
     if (status == RG_OK) (*motion)->settings.frames = s->frames;
+    if (status == RG_OK && f->info.outcome == RG_RUNNING) { /* somebody ended it */
+        (*motion)->report.outcome = RG_STOPPED;
+        snprintf((*motion)->report.reason, sizeof (*motion)->report.reason, "interrupted");
+    }
     rg_fold_destroy(f);
     return status;
 }
@@ -366,14 +386,18 @@ static int is_better(const rg_motion *a, const rg_motion *b)
 rg_status rg_motion_create_driven(const rg_pattern *p, int32_t count, const rg_driven *driven, const rg_settings *given,
                                   rg_progress progress, void *ctx, rg_motion **motion, rg_diag *why)
 {
+    const double begun = rg_seconds();
     rg_settings s;
     rg_motion *m = NULL, *cut = NULL;
+    told to = {progress, ctx, 0};
+    rg_watch watch = {.progress = tell, .ctx = &to};
     rg_status status = rg_settings_take(given, &s, why);
     if (status == RG_OK && count < 1) status = rg_fail(RG_EARG, why, 0, "nothing is driven");
-    if (status == RG_OK) status = drive(p, count, driven, &s, progress, ctx, &m, why);
-    if (status == RG_OK && m->report.outcome == RG_STOPPED && s.triangulate == RG_TRIANGULATE_AUTO) {
+    if (status == RG_OK) status = drive(p, count, driven, &s, &watch, &m, why);
+    const int stopped = status == RG_OK && m->report.outcome == RG_STOPPED && !watch.cancelled;
+    if (stopped && s.triangulate == RG_TRIANGULATE_AUTO) {
         s.triangulate = RG_TRIANGULATE_ALL;
-        status = drive(p, count, driven, &s, progress, ctx, &cut, why);
+        status = drive(p, count, driven, &s, &watch, &cut, why);
         if (status == RG_OK && is_better(cut, m)) {
             rg_motion *t = m;
             m = cut;
@@ -383,7 +407,11 @@ rg_status rg_motion_create_driven(const rg_pattern *p, int32_t count, const rg_d
         }
         rg_motion_destroy(cut);
     }
-    if (status == RG_OK) *motion = m;
-    else rg_motion_destroy(m);
-    return status;
+    if (status != RG_OK) {
+        rg_motion_destroy(m);
+        return status;
+    }
+    m->report.seconds_total = rg_seconds() - begun;
+    *motion = m;
+    return RG_OK;
 }

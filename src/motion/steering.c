@@ -56,8 +56,7 @@ rg_status rg_fold_own_track(rg_fold *f, int32_t states)
     return RG_OK;
 }
 
-/* Creases aim at what the motion aimed at. */
-static void set_roles(rg_fold *f)
+void rg_fold_aim_as_found(rg_fold *f)
 {
     const rg_motion *m = f->shared->motion;
     for (int32_t i = 0; i < m->mesh.N; i++) {
@@ -75,7 +74,7 @@ rg_status rg_fold_make_steer(rg_fold *f)
     const rg_status s = rg_steer_init(steer, &f->mem, rg_fold_mesh(f), &f->settings);
     if (s == RG_OK) {
         f->steer = steer;
-        set_roles(f);
+        rg_fold_aim_as_found(f);
     } else {
         rg_steer_free(steer);
         rg_mem_free(&f->mem, steer);
@@ -111,8 +110,8 @@ void rg_fold_advance(rg_fold *f)
     const int32_t last = f->settings.frames - 1, next = f->track.count - f->first;
     const double before = f->track.progress[f->track.count - 1];
     if (F->outcome == RG_RUNNING) rg_steer_to(F, next >= last ? 1 : (double)next / last);
-    const int stopped = F->outcome == RG_STOPPED;
-    const double s = stopped ? F->s : next >= last ? 1 : (double)next / last;
+    const int stopped = F->outcome == RG_STOPPED, ended = F->outcome == RG_FOLDED; /* at once, if nothing is to move */
+    const double s = stopped ? F->s : ended || next >= last ? 1 : (double)next / last;
     if (stopped ? s > before : next <= last) append(f, F->out, rg_fold_pattern(f, f->first), s, F->closure);
     if (F->outcome != RG_RUNNING) end(f);
 }
@@ -162,7 +161,7 @@ static void end_driving(rg_steer *F)
 rg_status rg_fold_drive(rg_fold *f, int32_t count, const int32_t *creases, const double *radians)
 {
     const int32_t N = rg_fold_mesh(f)->N;
-    if (count < 1 || count > N) return RG_EARG;
+    if (count < 1) return RG_EARG;
     for (int32_t k = 0; k < count; k++)
         if (creases[k] < 0 || creases[k] >= N || !is_angle(radians[k])) return RG_EARG;
     const rg_status s = prepare(f);

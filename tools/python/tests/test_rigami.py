@@ -107,6 +107,29 @@ class Miura(unittest.TestCase):
         with self.assertRaises(rigami.Error):
             rigami.Pattern.from_arrays(read.vertices, read.edges + len(read.vertices), read.assignment)
 
+        with self.assertRaises(ValueError):
+            rigami.Pattern.from_arrays(read.vertices, read.edges.astype(np.int64) + 2**32, read.assignment)
+        with self.assertRaises(ValueError):
+            rigami.Pattern.from_arrays(read.vertices, read.edges + 0.5, read.assignment)
+
+    def test_structs_keep_their_owners(self):
+        """What has gone comes back as something else's memory: as that of a motion with other frames."""
+        pattern = rigami.Pattern.read(self.file)
+        report, info = rigami.Motion(pattern, frames=5).report, rigami.Fold(pattern, frames=5).info
+        size, tangent = rigami.Pattern.read(self.file).info, rigami.Fold(pattern, frames=5).tangent().info
+        others = [kind(pattern, frames=7) for kind in (rigami.Motion, rigami.Fold) for _ in range(3)]
+        others += [rigami.Pattern.generate("miura", 2, 2) for _ in range(3)]
+        others += [rigami.Fold(others[-1], flat=True).tangent() for _ in range(3)]
+        self.assertEqual((report.frame_count, info.frames), (5, 5))
+        self.assertEqual((size.vertices, tangent.columns), (49, 60))
+
+    def test_texts_have_no_end_within(self):
+        with self.assertRaises(ValueError):
+            rigami.Pattern.read(self.file + "\0.cp")
+        with self.assertRaises(ValueError):
+            rigami.Motion(rigami.Pattern.read(self.file), frames=3).write(self.out("a.obj\0.csv"))
+        self.assertFalse(os.path.exists(self.out("a.obj")))
+
     def test_snapshot_tangent_progress(self):
         fold = rigami.Fold(rigami.Pattern.read(self.file))
         fold.go_to(37)

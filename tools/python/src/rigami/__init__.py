@@ -7,8 +7,11 @@
 
 Angles are in radians, valley positive. Arrays that come out are views of the library's own memory, not to be written
 to; each keeps what it belongs to alive. Those of a Fold show its present state and hold until it is moved: copy what is
-to be kept. Arrays that go in are used where they are, if they are of the right type (float64, int32) and in one piece.
-`lib` and `ffi` are the whole C face, see rigami.h."""
+to be kept. Structs such as Motion.report keep their owner alive as arrays do, but what they point to does not: hold
+the object itself for that. Arrays that go in are used where they are, if they are of the right type (float64, int32)
+and in one piece. `lib` and `ffi` are the whole C face, see rigami.h."""
+import os
+
 import numpy as np
 
 from ._face import ffi, lib
@@ -52,9 +55,26 @@ def _view(pointer, shape, kind, owner):
     return np.asarray(_Lent(pointer, shape, kind, owner))
 
 
+def _held(struct, owner):
+    """A struct that the library lends; holds its owner as long as somebody looks at it."""
+    return ffi.gc(struct, lambda _: owner)
+
+
+def _text(words):
+    """A string or a path as C takes it, to its end."""
+    words = os.fsencode(words) if isinstance(words, os.PathLike) else words
+    words = words.encode(errors="surrogateescape") if isinstance(words, str) else words
+    if b"\0" in words:
+        raise ValueError("embedded null byte")
+    return words
+
+
 def _array(x, kind, ctype, *shape):
     """An array as C takes it: (the array, which must outlive the call, and its pointer)."""
-    x = np.ascontiguousarray(x, kind)
+    given = np.asarray(x)
+    x = np.ascontiguousarray(given, kind)
+    if np.issubdtype(x.dtype, np.integer) and not np.array_equal(x, given):
+        raise ValueError(f"whole numbers of {8 * x.itemsize} bits are asked for")
     if x.ndim != len(shape) or any(want is not None and want != has for want, has in zip(shape, x.shape)):
         raise ValueError(f"an array of shape {shape} is asked for, not {x.shape}")
     return x, ffi.cast(ctype, ffi.from_buffer(x))
@@ -74,7 +94,7 @@ def _fill(struct, keep, options):
                 raise ValueError(f"{name} is one of {', '.join(kind.elements.values())}")
             value = min(ends, key=lambda end: len(end[0]))[1]
         elif isinstance(value, str):
-            value = ffi.new("char[]", value.encode())
+            value = ffi.new("char[]", _text(value))
             keep.append(value)
         setattr(struct, name, value)
     return struct
@@ -106,7 +126,7 @@ class _Watched:
         self.arguments = (lib.rigami_watch, self.handle) if progress else (ffi.NULL, ffi.NULL)
 
     def end(self):
-        if self.box["raised"]:
+        if self.box["raised"] is not None:
             raise self.box["raised"]
 
 
@@ -131,7 +151,7 @@ class Pattern:
 
     def __init__(self, handle):
         self._handle = ffi.gc(handle, lib.rg_pattern_destroy)
-        self.info = lib.rg_pattern_get_info(self._handle)
+        self.info = _held(lib.rg_pattern_get_info(self._handle), self._handle)
 
     @classmethod
     def _from(cls, call, *arguments, **options):
@@ -143,7 +163,7 @@ class Pattern:
     @classmethod
     def read(cls, path, **options):
         """From a file: .opx, .cp, .fold, .svg, .dxf or .ori."""
-        return cls._from(lib.rg_pattern_read, str(path).encode(), **options)
+        return cls._from(lib.rg_pattern_read, _text(path), **options)
 
     @classmethod
     def parse(cls, data, **options):
@@ -154,7 +174,7 @@ class Pattern:
     @classmethod
     def generate(cls, kind, n=0, m=0, angle=0.0, **options):
         """An example, such as ("miura", 8, 8)."""
-        return cls._from(lib.rg_generate_pattern, kind.encode(), n, m, angle, **options)
+        return cls._from(lib.rg_generate_pattern, _text(kind), n, m, angle, **options)
 
     @classmethod
     def from_arrays(cls, vertices, edges, assignment, targets=None, title=None, **options):
@@ -311,13 +331,13 @@ class Motion(_Sheet):
         """One that was written as .fold before."""
         reading, keep = _made("rg_reading", options)
         out, why = ffi.new("rg_motion **"), ffi.new("rg_diag *")
-        _check(lib.rg_motion_read(str(path).encode(), reading, out, why), why)
+        _check(lib.rg_motion_read(_text(path), reading, out, why), why)
         return cls._of(out[0])
 
     @property
     def report(self):
         """rg_report as it is, for its members."""
-        return lib.rg_motion_report(self._motion)
+        return _held(lib.rg_motion_report(self._motion), self)
 
     @property
     def outcome(self):
@@ -375,7 +395,7 @@ class Motion(_Sheet):
         """In the form that the path's extension asks for. Options are the members of rg_picture."""
         picture, keep = _made("rg_picture", options)
         why = ffi.new("rg_diag *")
-        _check(lib.rg_motion_write(self._motion, str(path).encode(), picture, why), why)
+        _check(lib.rg_motion_write(self._motion, _text(path), picture, why), why)
 
     def _repr_png_(self):
         """What a notebook shows: the last frame."""
@@ -384,7 +404,7 @@ class Motion(_Sheet):
     def to_bytes(self, form, frame=-1, **options):
         """The same to memory; form: an extension, such as ".glb"."""
         picture, keep = _made("rg_picture", options)
-        return _written(lib.rg_motion_write_to, self._motion, form.encode(), frame, after=(picture,))
+        return _written(lib.rg_motion_write_to, self._motion, _text(form), frame, after=(picture,))
 
 
 class Snapshot:
@@ -422,7 +442,7 @@ class Fold(_Sheet):
     @property
     def info(self):
         """rg_step_info as it is, for its members."""
-        return lib.rg_fold_get_info(self._handle)
+        return _held(lib.rg_fold_get_info(self._handle), self)
 
     @property
     def progress(self):
@@ -538,7 +558,7 @@ class Tangent:
 
     def __init__(self, handle):
         self._handle = ffi.gc(handle, lib.rg_tangent_destroy)
-        self.info = lib.rg_tangent_get_info(self._handle)
+        self.info = _held(lib.rg_tangent_get_info(self._handle), self._handle)
         self.shape = (self.info.rows, self.info.columns)
 
     @property
@@ -580,6 +600,5 @@ def convert(path, out, **options):
     told, reading = [], _made("rg_reading", options)
     why = ffi.new("rg_diag *")
     handle = ffi.new_handle(told)
-    _check(lib.rg_convert(str(path).encode(), str(out).encode(), lib.RG_FORMAT_AUTO, reading[0], lib.rigami_warn,
-                          handle, why), why)
+    _check(lib.rg_convert(_text(path), _text(out), lib.RG_FORMAT_AUTO, reading[0], lib.rigami_warn, handle, why), why)
     return told
