@@ -19,6 +19,10 @@
  * or rg_certificate may be used by several as long as nobody changes it; an rg_fold, rg_layers or rg_tangent by one at
  * a time.
  *
+ * Surroundings: floating point as a program begins with it, rounding to nearest, no exception trapped: infinities and
+ * NaN are part of the work, and a thread that traps them (feenableexcept) is to let go of that for a call. Half a
+ * megabyte of stack is enough for any call, whatever it reads.
+ *
  * Growth: structs that a caller fills begin with `size` and are made by rg_..._default(), which sets it to what the
  * caller was compiled with; members that it does not know yet are taken at their defaults. Structs that the library
  * fills are lent by pointer and only grow at their ends. Elements of lists, and small structs passed by value

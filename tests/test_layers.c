@@ -9,6 +9,7 @@
 
 #include "corpus.h"
 #include "draw.h"
+#include "generate/generate.h"
 #include "layers/layers.h"
 #include "stacked.h"
 
@@ -521,6 +522,25 @@ static void no_crease(void **state)
     rg_layers_destroy(y);
 }
 
+/* Far from the origin, and large: where facets go keeps its digits, and they meet as they do at home. */
+static void wherever_it_lies(void **state)
+{
+    (void)state;
+    static const struct { double size, x, y; } places[] = {{1, 0, 0}, {1e12, 0, 0}, {1e-12, 0, 0}, {1, 3e9, -7e9}, {1e60, 0, 0}};
+    for (int k = 0; k < 5; k++) {
+        const rg_memory mem = rg_mem_default(NULL);
+        rg_reading s = rg_reading_default();
+        rg_layers_info info;
+        rg_lines l;
+        assert_int_equal(rg_generate_lines("miura", 6, 0, 0, &mem, &l, NULL), RG_OK);
+        draw_moved(&l, places[k].size, 0, places[k].x, places[k].y);
+        rg_layers *y = layers_of_drawing(&l, &s, &info);
+        assert_int_equal(info.state, RG_LAYERS_VALID);
+        assert_string_equal(info.count, "1");
+        rg_layers_destroy(y);
+    }
+}
+
 /* A crease that stays flat holds its two facets together. Panels of 2, 1, 2 roll up only through each other, as the last one goes on
  * beyond the first fold, and the first one beyond the second; as a zigzag they fold. Flat creases under the folds change nothing. */
 static void flat_creases_are_paper(void **state)
@@ -730,7 +750,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(own_patterns),   cmocka_unit_test(map_folding), cmocka_unit_test(more_than_can_be_counted), cmocka_unit_test(more_than_there_is_room_for),       cmocka_unit_test(brute_force),
         cmocka_unit_test(reasons), cmocka_unit_test(every_index_is_another_order), cmocka_unit_test(wishes),
-        cmocka_unit_test(one_crease), cmocka_unit_test(no_crease),
+        cmocka_unit_test(one_crease), cmocka_unit_test(no_crease), cmocka_unit_test(wherever_it_lies),
         cmocka_unit_test(flat_creases_are_paper), cmocka_unit_test(undriven_creases), cmocka_unit_test(ends_that_are_not_flat),
         cmocka_unit_test(moved_and_triangulated), cmocka_unit_test(levels),
         cmocka_unit_test(real_patterns)};

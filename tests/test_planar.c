@@ -816,6 +816,37 @@ static void no_lines_and_hopeless_ones(void **state)
     rg_lines_free(&l);
 }
 
+/* Three panels that lie on each other in the end: folded like a letter the middle one is between, rolled up the last one
+ * goes through the first fold. That is seen whatever the size, or the size is refused: it was told both ways. */
+static void contact_does_not_depend_on_size(void **state)
+{
+    (void)state;
+    static const double sizes[] = {1, 1e-12, 1e12, 1e-59, 1e69, 1e-99, 1e100, 1e150};
+    for (int k = 0; k < 8; k++)
+        for (int rolled = 0; rolled < 2; rolled++) {
+            const double size = sizes[k];
+            rg_reading r = rg_reading_default();
+            rg_settings s = rg_settings_default();
+            rg_pattern *p = NULL;
+            rg_motion *m = NULL;
+            rg_lines l = drawing();
+            draw_box(&l, 0, 0, 2.7 * size, size);
+            draw(&l, RG_VALLEY, size, 0, size, size);
+            draw(&l, rolled ? RG_VALLEY : RG_MOUNTAIN, 1.7 * size, 0, 1.7 * size, size);
+            const rg_status status = rg_pattern_from_lines(&l, &r, &p, NULL);
+            assert_int_equal(status, k < 5 ? RG_OK : RG_EFORMAT);
+            if (status != RG_OK) continue;
+            s.contact = RG_CONTACT_REPORT;
+            assert_int_equal(rg_motion_create(p, &s, NULL, NULL, &m, NULL), RG_OK);
+            const rg_report *q = rg_motion_report(m);
+            assert_int_equal(q->contact, rolled ? RG_CONTACT_CROSSES : RG_CONTACT_FREE);
+            near(q->contact_depth, rolled ? 0.244668 : 0, 1e-3);
+            assert_string_equal(q->layers, rolled ? "none" : "valid");
+            rg_motion_destroy(m);
+            rg_pattern_destroy(p);
+        }
+}
+
 static void merge_out_of_range(void **state)
 {
     (void)state;
@@ -888,7 +919,7 @@ int main(void)
         cmocka_unit_test(it_can_be_ended_in_the_middle), cmocka_unit_test(what_is_plane_stays_as_it_is),
         cmocka_unit_test(what_is_left_out_is_said),
         cmocka_unit_test(gaps_are_told_with_what_joins_them), cmocka_unit_test(faults_do_not_flood),
-        cmocka_unit_test(no_lines_and_hopeless_ones),
+        cmocka_unit_test(no_lines_and_hopeless_ones), cmocka_unit_test(contact_does_not_depend_on_size),
         cmocka_unit_test(merge_out_of_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -497,6 +497,123 @@ static void kept_states(void **state)
     rg_snapshot_destroy(NULL);
 }
 
+/* Restored, a fold knows nothing of what was set since: it was found, and never steered. */
+static void restored_to_before_it_was_steered(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("miura", 4);
+    rg_fold *f = found_fold(p, 9), *other = NULL;
+    rg_snapshot *s = NULL;
+    const int32_t N = rg_motion_get_sheet(rg_fold_motion(f))->creases;
+    size_t bytes;
+    assert_int_equal(rg_fold_go_to(f, 50), RG_OK);
+    assert_int_equal(rg_fold_snapshot(f, &s), RG_OK);
+    assert_int_equal(rg_fold_clone(f, &other), RG_OK);
+    for (int32_t c = 2; c < N; c++) assert_int_equal(rg_fold_set_target(f, c, RG_FREE), RG_OK);
+    assert_int_equal(rg_fold_pin(f, 1), RG_OK);
+    assert_int_equal(rg_fold_restore(f, s), RG_OK);
+    rg_fold *const both[] = {f, other};
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(rg_fold_set_target(both[k], 0, letter(f, 0) == 'V' ? 0.7 : -0.7), RG_OK);
+        while (rg_fold_step(both[k])->outcome == RG_RUNNING) {}
+    }
+    assert_int_equal(rg_fold_get_info(f)->outcome, rg_fold_get_info(other)->outcome);
+    assert_int_equal(rg_fold_get_info(f)->frame, rg_fold_get_info(other)->frame);
+    double *there = angles(other, &bytes);
+    assert_memory_equal(rg_fold_angles(f, NULL), there, bytes);
+    free(there);
+    rg_snapshot_destroy(s);
+    rg_fold_destroy(f);
+    rg_fold_destroy(other);
+    rg_pattern_destroy(p);
+}
+
+/* A sheet without creases has states, and a place between two of them is one of the two. */
+static void nothing_to_fold(void **state)
+{
+    (void)state;
+    rg_lines l = drawing();
+    draw_box(&l, 0, 0, 3, 1);
+    rg_pattern *p = pattern_of(&l);
+    rg_fold *f = found_fold(p, 5);
+    for (double percent = 0; percent <= 100; percent += 12.5) {
+        assert_int_equal(rg_fold_go_to(f, percent), RG_OK);
+        assert_in_range(rg_fold_get_info(f)->frame, 0, 4);
+    }
+    rg_fold_destroy(f);
+    rg_pattern_destroy(p);
+}
+
+/* Where all are that shall move, the way is over at once, and all of it done: not the part that a step would be. */
+static void sent_to_where_it_is(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("miura", 4);
+    rg_fold *f = flat_fold(p, 9);
+    const int32_t twice[] = {0, 0}, last = rg_motion_get_sheet(rg_fold_motion(f))->creases - 1;
+    const double to = letter(f, 0) == 'V' ? 1 : -1, angle[] = {0, to};
+    for (int round = 0; round < 2; round++) {
+        assert_int_equal(rg_fold_drive(f, 1, twice, &angle[round]), RG_OK);
+        const rg_step_info *i = rg_fold_step(f);
+        while (i->outcome == RG_RUNNING) i = rg_fold_step(f);
+        assert_int_equal(i->outcome, RG_FOLDED);
+        near(i->progress, 1, 0);
+        assert_int_equal(rg_fold_drive(f, 1, twice, &angle[round]), RG_OK);
+        i = rg_fold_step(f);
+        assert_int_equal(i->outcome, RG_FOLDED);
+        near(i->progress, 1, 0);
+    }
+    /* of a crease that is there twice the last angle counts, however often it is */
+    int32_t *many = calloc((size_t)last + 3, sizeof *many);
+    double *all = calloc((size_t)last + 3, sizeof *all);
+    all[last + 2] = to / 2;
+    assert_int_equal(rg_fold_drive(f, last + 3, many, all), RG_OK);
+    while (rg_fold_step(f)->outcome == RG_RUNNING) {}
+    near(rg_fold_angles(f, NULL)[0], to / 2, 1e-15);
+    free(many), free(all);
+    rg_fold_destroy(f);
+    rg_pattern_destroy(p);
+}
+
+typedef struct patience { double last; int left, fell; } patience;
+
+static int lose_patience(void *ctx, double progress)
+{
+    patience *q = ctx;
+    q->fell += !(progress >= q->last && progress <= 1);
+    q->last = progress;
+    return --q->left == 0;
+}
+
+/* A driven motion that somebody ends is what there was by then, and says so, as any other; what is told never falls,
+ * though a second try, with facets cut, begins anew. */
+static void driven_and_ended(void **state)
+{
+    (void)state;
+    static const struct { const char *kind; int left, tries, frames; } runs[] = {
+        {"preliminary", 3, 1, 2}, {"preliminary", 0, 1, 11}, {"tatou", 3, 1, 1}, {"tatou", 0, 2, 11}};
+    for (int k = 0; k < 4; k++) {
+        rg_pattern *p = generated(runs[k].kind, 0);
+        const rg_plane *plane = rg_pattern_get_plane(p);
+        rg_settings s = rg_settings_default();
+        rg_driven one = {0, 0};
+        patience q = {0, runs[k].left, 0};
+        rg_motion *m = NULL;
+        s.frames = 11;
+        while (plane->assignment[one.edge] == 'B') one.edge++;
+        one.radians = plane->assignment[one.edge] == 'V' ? 3 : -3;
+        assert_int_equal(rg_motion_create_driven(p, 1, &one, &s, lose_patience, &q, &m, NULL), RG_OK);
+        const rg_report *r = rg_motion_report(m);
+        assert_int_equal(r->outcome, runs[k].left ? RG_STOPPED : RG_FOLDED);
+        if (runs[k].left) assert_string_equal(r->reason, "interrupted");
+        assert_int_equal(r->frame_count, runs[k].frames);
+        assert_int_equal(r->tries, runs[k].tries);
+        assert_int_equal(q.fell, 0);
+        rg_motion_destroy(m);
+        rg_pattern_destroy(p);
+    }
+}
+
 /* What is lent of a state is that of the frame that it is. */
 static void positions_and_transforms(void **state)
 {
@@ -781,7 +898,8 @@ int main(void)
         cmocka_unit_test(one_crease_of_a_miura_ori), cmocka_unit_test(back_through_flat), cmocka_unit_test(targets_pins_and_free_creases),
         cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames), cmocka_unit_test(frames_do_not_matter), cmocka_unit_test(to_and_fro), cmocka_unit_test(forgotten_on_the_way), cmocka_unit_test(flat_paper_to_its_end), cmocka_unit_test(not_by_a_whole_turn),
         cmocka_unit_test(kept_states), cmocka_unit_test(positions_and_transforms), cmocka_unit_test(recorded),
-        cmocka_unit_test(records_are_verified),
+        cmocka_unit_test(records_are_verified), cmocka_unit_test(restored_to_before_it_was_steered),
+        cmocka_unit_test(nothing_to_fold), cmocka_unit_test(sent_to_where_it_is), cmocka_unit_test(driven_and_ended),
         cmocka_unit_test(steps_ask_for_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -145,6 +145,40 @@ static void projections(void **state)
     }
 }
 
+/* A projection is linear, also where squares are endless or nothing; what is no number is refused. */
+static void wishes_of_any_size(void **state)
+{
+    (void)state;
+    static const double sizes[] = {1e-300, 1e-160, 1e-90, 1e90, 1e155, 1e300};
+    for (int k = 0; k < STATES_HERE; k++) {
+        rg_fold *f = fold_at(STATES[k].kind, STATES[k].n, STATES[k].percent, STATES[k].t);
+        rg_tangent *t = NULL;
+        unsigned seed = 5;
+        assert_int_equal(rg_fold_tangent(f, &t), RG_OK);
+        const int32_t N = rg_tangent_get_info(t)->columns, rows = rg_tangent_get_info(t)->rows;
+        double *wish = malloc(4 * (size_t)N * sizeof *wish), *step = wish + N, *large = step + N, *other = large + N;
+        double *y = malloc(2 * (size_t)rows * sizeof *y), *z = y + rows;
+        for (int32_t c = 0; c < N; c++) wish[c] = noise(&seed);
+        assert_int_equal(rg_tangent_project(t, wish, step, y), RG_OK);
+        for (int i = 0; i < 6; i++) {
+            for (int32_t c = 0; c < N; c++) large[c] = sizes[i] * wish[c];
+            assert_int_equal(rg_tangent_project(t, large, other, z), RG_OK);
+            for (int32_t c = 0; c < N; c++) near(other[c] / sizes[i], step[c], 1e-12);
+            for (int32_t r = 0; r < rows; r++) near(z[r] / sizes[i], y[r], 1e-4);
+        }
+        memcpy(other, step, (size_t)N * sizeof *other);
+        static const double none[] = {NAN, INFINITY, -INFINITY};
+        for (int i = 0; i < 3; i++) {
+            wish[N - 1] = none[i];
+            assert_int_equal(rg_tangent_project(t, wish, other, z), RG_EARG);
+            assert_memory_equal(other, step, (size_t)N * sizeof *other);
+        }
+        free(wish), free(y);
+        rg_tangent_destroy(t);
+        rg_fold_destroy(f);
+    }
+}
+
 /* C is the change of r with the angles: by central differences; columns rise; what closes has angle 0. */
 static void derivatives(void **state)
 {
@@ -177,6 +211,7 @@ static void derivatives(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(rank_and_basis), cmocka_unit_test(projections), cmocka_unit_test(derivatives)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(rank_and_basis), cmocka_unit_test(projections), cmocka_unit_test(wishes_of_any_size),
+                                       cmocka_unit_test(derivatives)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -370,10 +370,6 @@ static rg_status drive(const rg_pattern *p, int32_t count, const rg_driven *driv
         if (rg_watch_tell(watch, f->progress)) break;
     if (status == RG_OK) status = record(f, every, watch, motion, why);
     if (status == RG_OK) (*motion)->settings.frames = s->frames;
-    if (status == RG_OK && f->info.outcome == RG_RUNNING) { /* somebody ended it */
-        (*motion)->report.outcome = RG_STOPPED;
-        snprintf((*motion)->report.reason, sizeof (*motion)->report.reason, "interrupted");
-    }
     rg_fold_destroy(f);
     return status;
 }
@@ -411,7 +407,12 @@ rg_status rg_motion_create_driven(const rg_pattern *p, int32_t count, const rg_d
         rg_motion_destroy(m);
         return status;
     }
-    m->report.seconds_total = rg_seconds() - begun;
+    rg_report *r = &m->report;
+    if (watch.cancelled && r->outcome != RG_FOLDED) {
+        r->outcome = RG_STOPPED;
+        snprintf(r->reason, sizeof r->reason, "interrupted");
+    }
+    r->seconds_total = rg_seconds() - begun;
     *motion = m;
     return RG_OK;
 }

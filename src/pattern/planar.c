@@ -21,7 +21,7 @@ static const double ROUNDING = 1e-13, OF_TOLERANCE = 1e-3;
 static const double BEGINS = 0.5;
 /* Of a drawing. Who looks for contact takes lengths to the fourth power, and parts of the size down to 1e-14: beyond
  * these that is nothing, or endless, and what lies apart is told to cross. */
-static const double SMALLEST = 1e-60, LARGEST = 1e60;
+static const double SMALLEST = 1e-60, LARGEST = 1e70;
 
 /* ------------------------------------------------------------------------------------------------ doubles */
 
