@@ -832,10 +832,10 @@ typedef struct rg_example {
     size_t size;      /* of this struct, as the caller has it */
     int32_t n, m;     /* as for rg_generate */
     double angle;     /* the same */
-    double side;      /* the sheet's longer side, in units of the file; 0: 400 */
-    double cell;      /* instead of it the side of a part, which is what rigami gen --help says for each kind; 0: by
-                       * `side` */
-    double unit;      /* metres in a unit of the file, 0: it says none */
+    double side;      /* the sheet's longer side, in units of the file, 1e-9 ... 1e9; 0: 400 */
+    double cell;      /* instead of it the side of a part, which is what rigami gen --help says for each kind, 1e-9 ...
+                       * 1e9; 0: by `side` */
+    double unit;      /* metres in a unit of the file, 1e-9 ... 1e9; 0: it says none */
     rg_format format; /* of what is written; AUTO: by the path's extension, .opx where it has none */
     const rg_memory *memory; /* NULL: malloc; NULL */
 } rg_example;

@@ -126,9 +126,9 @@ static const member EXAMPLE[] = {
     {AT(rg_example, n), INT, 2, LARGEST, 0, 0}, /* of a Miura-ori */
     {AT(rg_example, m), INT, 2, LARGEST, 0, 0},
     {AT(rg_example, angle), DOUBLE, (10 - 1e-9) * RG_DEG, (85 + 1e-9) * RG_DEG, 0, 0}, /* rounded */
-    REAL(rg_example, side, 0, 1e9),
-    REAL(rg_example, cell, 0, 1e9),
-    REAL(rg_example, unit, 0, 1e9),
+    {AT(rg_example, side), DOUBLE, 1e-9, 1e9, 0, 0},
+    {AT(rg_example, cell), DOUBLE, 1e-9, 1e9, 0, 0},
+    {AT(rg_example, unit), DOUBLE, 1e-9, 1e9, 0, 0},
     WHOLE(rg_example, format, 0, RG_FORMAT_DXF), /* those that are written */
     BORROWED(rg_example, memory),
 };

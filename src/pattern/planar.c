@@ -19,9 +19,9 @@ enum { PAIRS_LOOKED_AT = 200000, TO_MEAN_ANYTHING = 10, FEW_LINES = 3000 };
 static const double ROUNDING = 1e-13, OF_TOLERANCE = 1e-3;
 /* Reading the file is the first half of the work. */
 static const double BEGINS = 0.5;
-/* Of a drawing. Who looks for contact takes lengths to the fourth power, and parts of the size down to 1e-14: beyond
- * these that is nothing, or endless, and what lies apart is told to cross. */
-static const double SMALLEST = 1e-60, LARGEST = 1e70;
+/* Of a drawing; and of one that is to fold: who looks for contact takes lengths to the fourth power, and parts of the
+ * size down to 1e-14. Beyond these that is nothing, or endless, and what lies apart is told to cross. */
+static const double SMALLEST = 1e-100, SMALLEST_TO_FOLD = 1e-60, LARGEST_TO_FOLD = 1e70;
 
 /* ------------------------------------------------------------------------------------------------ doubles */
 
@@ -263,10 +263,12 @@ static rg_status graph(rg_lines *lines, const rg_reading *settings, double merge
             high = (rg_vec2){fmax(high.x, x.x), fmax(high.y, x.y)};
         }
     g->size = high.x >= low.x ? fmax(high.x - low.x, high.y - low.y) : 0;
-    if (!(g->size <= LARGEST)) return rg_fail(RG_EFORMAT, why, 0, "the coordinates are too large to compute with");
+    const double smallest = settings ? SMALLEST_TO_FOLD : SMALLEST;
+    if (!isfinite(g->size * g->size) || (settings && g->size > LARGEST_TO_FOLD))
+        return rg_fail(RG_EFORMAT, why, 0, "the coordinates are too large to compute with");
     if (!(g->size > 0)) return RG_OK;
-    if (g->size < SMALLEST)
-        return rg_fail(RG_EFORMAT, why, 0, "the whole drawing is smaller than %g: too small to compute with", SMALLEST);
+    if (g->size < smallest)
+        return rg_fail(RG_EFORMAT, why, 0, "the whole drawing is smaller than %g: too small to compute with", smallest);
 
     rg_splitter s = {.mem = g->mem, .ask = ask, .progress = BEGINS};
     rg_status status = rg_points_init(&s.points, &s.mem, low, g->size, merge * g->size);
