@@ -25,6 +25,8 @@ static void one_line(const rg_diag *why, const char *name)
     assert_true(why->text[0] && why->line >= 0);
     for (const char *c = why->text; *c; c++)
         if (iscntrl((unsigned char)*c)) fail_msg("%s: a control character in \"%s\"", name, why->text);
+    /* in UTF-8: CONTROL SEQUENCE INTRODUCER, LINE SEPARATOR */
+    if (strstr(why->text, "\xC2\x9B") || strstr(why->text, "\xE2\x80\xA8")) fail_msg("%s: what a terminal obeys in \"%s\"", name, why->text);
 }
 
 static void tell(void *name, const rg_diag *warning) { one_line(warning, name); }
@@ -85,7 +87,8 @@ static void read_or_refused(void **state)
     assert_true(files > 10 && refused > 0 && refused < files);
 }
 
-static void is_refused(const char *name, const char *words)
+/* line -1: any. */
+static void is_refused_at(const char *name, int line, const char *words)
 {
     char path[300];
     const rg_reading s = rg_reading_default();
@@ -93,7 +96,25 @@ static void is_refused(const char *name, const char *words)
     rg_diag why = {0, ""};
     snprintf(path, sizeof path, "%s/%s", FOLDER, name);
     assert_int_equal(rg_pattern_read(path, &s, &p, &why), RG_EFORMAT);
-    if (!strstr(why.text, words)) fail_msg("%s: \"%s\", not \"%s\"", name, why.text, words);
+    if (!strstr(why.text, words) || (line >= 0 && why.line != line))
+        fail_msg("%s: line %d: \"%s\", not \"%s\"", name, why.line, why.text, words);
+}
+
+static void is_refused(const char *name, const char *words) { is_refused_at(name, -1, words); }
+
+/* Read, with so many lines of each kind. */
+static void has_kinds(const char *name, int mountains, int valleys)
+{
+    char path[300];
+    const rg_reading s = rg_reading_default();
+    rg_pattern *p = NULL;
+    rg_diag why = {0, ""};
+    snprintf(path, sizeof path, "%s/%s", FOLDER, name);
+    if (rg_pattern_read(path, &s, &p, &why) != RG_OK) fail_msg("%s: line %d: %s", name, why.line, why.text);
+    const rg_pattern_info *i = rg_pattern_get_info(p);
+    if (i->mountains != mountains || i->valleys != valleys)
+        fail_msg("%s: %d mountains and %d valleys, not %d and %d", name, (int)i->mountains, (int)i->valleys, mountains, valleys);
+    rg_pattern_destroy(p);
 }
 
 /* A number was shown as the file has it, with what stands in its lines: a file could say anything in the program's name. */
@@ -174,6 +195,79 @@ static void a_sheet_without_creases_folds(void **state)
     rg_pattern_destroy(p);
 }
 
+/* What a file says wrongly was forgotten when something was right behind it; what it does not say was made up. */
+static void nothing_is_made_up(void **state)
+{
+    (void)state;
+    is_refused_at("two-values.opx", 7, "line type 7 is not one of");
+    is_refused_at("no-edges.fold", 4, "no edges_vertices to say which edges these are");
+    is_refused_at("loop.svg", 3, "a curve"); /* it has no chord, and passed for a straight line without length */
+}
+
+/* Both were told at line 1. */
+static void places_are_where_they_are(void **state)
+{
+    (void)state;
+    is_refused_at("version.ori", 3, "\"v9\" is not known");
+    is_refused_at("no-list.ori", 3, "lineSegments: there are none");
+}
+
+/* A value ended where an entity stood, and a style that one stood for was lost; so were lines. */
+static void entities_are_opened_or_refused(void **state)
+{
+    (void)state;
+    has_kinds("entity-in-value.svg", 2, 2); /* diagonals that cross */
+    is_refused_at("entity-of-lines.svg", 4, "no plain text");
+    is_refused_at("entity-in-entity.svg", 4, "no plain text");
+}
+
+/* Numbers of more than 500 characters were two, the flags of an arc one with what follows, and 3000 names of an element
+ * weighed less than none. */
+static void numbers_of_drawings_are_whole(void **state)
+{
+    (void)state;
+    has_kinds("long-number.svg", 1, 0);
+    has_kinds("flags.svg", 0, 0);
+    has_kinds("weight-of-selector.svg", 1, 0);
+}
+
+/* A LWPOLYLINE in a block forgot the colour of the INSERT; names of layers are the same in small and capital letters. */
+static void lines_have_the_colour_of_what_they_are_in(void **state)
+{
+    (void)state;
+    has_kinds("colour-of-block.dxf", 1, 0);
+    has_kinds("letters-of-layer.dxf", 1, 0);
+}
+
+/* Names that move the cursor, in a warning (read_or_refused) and in what is told of the pattern. */
+static void what_is_shown_moves_no_cursor(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"controls.dxf", "characters.opx"};
+    for (int k = 0; k < 2; k++) {
+        char path[300], out[] = "/tmp/rigami-bad-XXXXXX", text[4000];
+        const rg_reading s = rg_reading_default();
+        rg_pattern *p = NULL;
+        rg_diag why = {0, ""};
+        const int fd = mkstemp(out);
+        assert_true(fd >= 0);
+        snprintf(path, sizeof path, "%s/%s", FOLDER, names[k]);
+        assert_int_equal(rg_pattern_read(path, &s, &p, &why), RG_OK);
+        assert_int_equal(rg_info_text(p, 1, out, &why), RG_OK);
+        FILE *f = fopen(out, "r");
+        assert_non_null(f);
+        text[fread(text, 1, sizeof text - 1, f)] = 0;
+        fclose(f);
+        close(fd);
+        unlink(out);
+        rg_pattern_destroy(p);
+        assert_true(text[0]);
+        for (const char *c = text; *c; c++)
+            if (iscntrl((unsigned char)*c) && *c != '\n') fail_msg("%s: a control character in \"%s\"", path, text);
+        assert_null(strstr(text, "\xC2\x9B"));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -185,6 +279,12 @@ int main(void)
         cmocka_unit_test(coordinates_have_one_limit),
         cmocka_unit_test(selectors_are_within),
         cmocka_unit_test(a_sheet_without_creases_folds),
+        cmocka_unit_test(nothing_is_made_up),
+        cmocka_unit_test(places_are_where_they_are),
+        cmocka_unit_test(entities_are_opened_or_refused),
+        cmocka_unit_test(numbers_of_drawings_are_whole),
+        cmocka_unit_test(lines_have_the_colour_of_what_they_are_in),
+        cmocka_unit_test(what_is_shown_moves_no_cursor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -258,11 +258,45 @@ static void reading_can_be_ended_in_the_middle(void **state)
     }
 }
 
+/* So it is where there are no lines for long. */
+static void reading_can_be_ended_between_lines(void **state)
+{
+    (void)state;
+    static const struct { rg_format format; const char *begin, *part, *end; } tries[] = {
+        {RG_FORMAT_CP, "1 0 0 1 0\n", " \n", ""},
+        {RG_FORMAT_DXF, "", "999\nno line\n", "0\nSECTION\n2\nENTITIES\n0\nLINE\n11\n1\n0\nEOF\n"},
+        {RG_FORMAT_SVG, "<svg>", "<g/>\n", "<line stroke='red' x2='1'/></svg>"},
+        {RG_FORMAT_FOLD, "{\"vertices_coords\":[[0,0]", ",\n[1,0]", "],\"edges_vertices\":[[0,1]],\"edges_assignment\":[\"M\"]}"}};
+    enum { PARTS = 400000 };
+    for (size_t f = 0; f < sizeof tries / sizeof *tries; f++) {
+        const size_t one = strlen(tries[f].part);
+        char *text = malloc(200 + PARTS * one), *at;
+        assert_non_null(text);
+        at = stpcpy(text, tries[f].begin);
+        for (int i = 0; i < PARTS; i++) at = stpcpy(at, tries[f].part);
+        at = stpcpy(at, tries[f].end);
+        asked a = {0, 1 << 30, 0};
+        rg_reading s = rg_reading_default();
+        rg_lines l = {.count = 0};
+        rg_diag why = {0, ""};
+        s.format = tries[f].format;
+        s.progress = answer, s.progress_ctx = &a;
+        assert_int_equal(rg_read_bytes(text, (size_t)(at - text), NULL, &s, 0, &l, &why), RG_OK);
+        assert_int_equal(l.count, 1);
+        rg_lines_free(&l);
+        const int parser = s.format == RG_FORMAT_SVG ? PARTS / 2000 : s.format == RG_FORMAT_FOLD ? PARTS * 7 >> 18 : 0;
+        if (!(a.times > parser + 2 && a.times < 5000)) fail_msg("format %d: asked %d times, by the parser %d", (int)s.format, a.times, parser);
+        a = (asked){0, a.times - 1, 0};
+        assert_int_equal(rg_read_bytes(text, (size_t)(at - text), NULL, &s, 0, &l, &why), RG_ECANCELLED);
+        free(text);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(content_goes_before_the_name), cmocka_unit_test(ori), cmocka_unit_test(the_format_asked_for), cmocka_unit_test(what_is_no_crease_pattern),
-        cmocka_unit_test(byte_order_marks), cmocka_unit_test(memory_runs_short), cmocka_unit_test(reading_can_be_ended_in_the_middle),
+        cmocka_unit_test(byte_order_marks), cmocka_unit_test(memory_runs_short), cmocka_unit_test(reading_can_be_ended_in_the_middle), cmocka_unit_test(reading_can_be_ended_between_lines),
         cmocka_unit_test(damaged_at_random)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -283,6 +283,27 @@ static void refusals(void **state)
     }
 }
 
+/* Layers beyond some thousand were not known, and each line looked through all of them, several times. */
+static void many_layers(void **state)
+{
+    (void)state;
+    enum { LAYERS = 20000, LINES = 20000 };
+    char *text = malloc(LAYERS * 40 + LINES * 50 + 500), *at = text;
+    assert_non_null(text);
+    at = stpcpy(at, "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n");
+    for (int i = 0; i < LAYERS; i++) at += sprintf(at, "0\nLAYER\n2\nlayer %d\n62\n%d\n", i, i % 2 ? 5 : 1);
+    at = stpcpy(at, "0\nLAYER\n2\nlayer 7\n62\n1\n"); /* the later one of two counts */
+    at = stpcpy(at, "0\nLAYER\n2\nLayer 8\n62\n5\n"); /* and this is another one */
+    at = stpcpy(at, "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n");
+    for (int i = 0; i < LINES; i++) at += sprintf(at, "0\nLINE\n8\n%s %d\n11\n1\n21\n1\n", i < 10 ? "layer" : "LAYER", i);
+    at = stpcpy(at, "0\nENDSEC\n0\nEOF\n");
+    rg_lines l = read_ok(text, RG_FORMAT_DXF, NULL);
+    assert_int_equal(l.count, LINES);
+    for (int32_t i = 0; i < LINES; i++) assert_int_equal(l.line[i].assignment, i % 2 && i != 7 ? 'V' : 'M');
+    rg_lines_free(&l);
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(entities), cmocka_unit_test(layers_and_colours),
@@ -290,6 +311,6 @@ int main(void)
                                        cmocka_unit_test(blocks), cmocka_unit_test(blocks_that_do_not_end), cmocka_unit_test(repeats_of_what_is_long),
                                        cmocka_unit_test(hidden_layers), cmocka_unit_test(planes_of_space),
                                        cmocka_unit_test(facets_and_what_is_left_out), cmocka_unit_test(curves_that_do_no_harm),
-                                       cmocka_unit_test(kinds), cmocka_unit_test(units)};
+                                       cmocka_unit_test(many_layers), cmocka_unit_test(kinds), cmocka_unit_test(units)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

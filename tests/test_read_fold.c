@@ -329,11 +329,62 @@ static void depth_and_truncation(void **state)
     }
 }
 
+/* Frames inherit from each other, and each has what all of them have: what is long was put together anew for each. */
+static void frames_that_inherit_much(void **state)
+{
+    (void)state;
+    enum { KEYS = 30000, FRAMES = 1000, CHAIN = 95 };
+    char *text = malloc(KEYS * 16 + FRAMES * 60 + 100);
+    assert_non_null(text);
+    size_t n = (size_t)sprintf(text, "{\"file_spec\":1.1");
+    for (int i = 0; i < KEYS; i++) n += (size_t)sprintf(text + n, ",\"k%d\":0", i);
+    n += (size_t)sprintf(text + n, ",\"file_frames\":[");
+    for (int i = 0; i < FRAMES; i++)
+        n += (size_t)sprintf(text + n, "%s{\"frame_inherit\":true,\"frame_parent\":%d}", i ? "," : "", i < CHAIN ? i : CHAIN);
+    sprintf(text + n, "]}");
+    refused(text, RG_FORMAT_FOLD, NULL, 1, "no vertices_coords");
+    free(text);
+}
+
+/* A flat frame is looked for behind folded ones, but not behind all that a file can make of a long one. */
+static void frames_that_are_folded(void **state)
+{
+    (void)state;
+    for (int many = 0; many < 2; many++) {
+        const int vertices = many ? 20001 : 9, frames = 900;
+        char *text = malloc((size_t)vertices * 60 + (size_t)frames * 60 + 500);
+        assert_non_null(text);
+        size_t n = (size_t)sprintf(text, "{\"vertices_coords\":[[0,0,0]");
+        for (int i = 1; i < vertices; i++) n += (size_t)sprintf(text + n, ",[%d,%d,%d]", i % 100, i / 100 + i * 3 % 4, i * 7 % 5);
+        n += (size_t)sprintf(text + n, "],\"edges_vertices\":[[0,1]");
+        for (int i = 2; i < vertices; i++) n += (size_t)sprintf(text + n, ",[%d,%d]", i - 1, i);
+        n += (size_t)sprintf(text + n, "],\"file_frames\":[");
+        for (int i = 0; i < frames; i++) n += (size_t)sprintf(text + n, "{\"frame_inherit\":true,\"frame_parent\":0},");
+        sprintf(text + n, "{\"vertices_coords\":[[0,0],[1,0]],\"edges_vertices\":[[0,1]],\"edges_assignment\":[\"V\"]}]}");
+        if (many) refused(text, RG_FORMAT_FOLD, NULL, 1, "a folded form");
+        else letters(text, "V");
+        free(text);
+    }
+}
+
+/* Without edges_vertices, the edges are the sides of the faces in an order that the file knows nothing of. */
+static void numbers_of_edges_are_those_of_the_file(void **state)
+{
+    (void)state;
+    static const char corners[] = "{\"vertices_coords\":[[0,0],[4,0],[4,4],[0,4]]" FACES;
+    char text[400];
+    snprintf(text, sizeof text, "%s,\"edges_foldAngle\":[0,0,90,0,0]}", corners);
+    refused(text, RG_FORMAT_FOLD, NULL, 1, "edges_foldAngle: there are no edges_vertices to say which edges these are");
+    snprintf(text, sizeof text, "%s,\"edges_vertices\":[],\"edges_assignment\":[],\"edges_foldAngle\":[]}", corners);
+    letters(text, "BUBBB");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(letters_of_all_kinds), cmocka_unit_test(what_is_missing), cmocka_unit_test(angles), cmocka_unit_test(nearly_flat), cmocka_unit_test(who_draws_down), cmocka_unit_test(radians),
         cmocka_unit_test(sides), cmocka_unit_test(planes_and_folded_forms), cmocka_unit_test(frames),
-        cmocka_unit_test(places_of_errors), cmocka_unit_test(lines_of_the_file), cmocka_unit_test(depth_and_truncation)};
+        cmocka_unit_test(frames_that_inherit_much), cmocka_unit_test(frames_that_are_folded),
+        cmocka_unit_test(numbers_of_edges_are_those_of_the_file), cmocka_unit_test(places_of_errors), cmocka_unit_test(lines_of_the_file), cmocka_unit_test(depth_and_truncation)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

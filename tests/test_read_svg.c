@@ -146,8 +146,79 @@ static void repeats_of_what_is_long(void **state)
             n += (size_t)sprintf(text + n, "<g id='a%d'><use href='#a%d'/><use href='#a%d' y='%d'/></g>", i + 1, i, i, i);
         n += (size_t)sprintf(text + n, "</defs><use href='#a17'/></svg>");
         assert_true(n < ROOM);
-        refused(text, RG_FORMAT_SVG, NULL, -1, "too large with all that it repeats");
+        refused(text, RG_FORMAT_SVG, NULL, -1, rules ? "too much to look through" : " too ");
     }
+    free(text);
+}
+
+/* A text of a head, a part so many times, a middle, another part so many times, and an end. The caller's. */
+static char *repeated(const char *head, const char *one, int ones, const char *middle, const char *two, int twos, const char *end)
+{
+    const size_t room = strlen(head) + strlen(one) * (size_t)ones + strlen(middle) + strlen(two) * (size_t)twos + strlen(end) + 1;
+    char *text = malloc(room), *at = text;
+    assert_non_null(text);
+    at = stpcpy(at, head);
+    for (int i = 0; i < ones; i++) at = stpcpy(at, one);
+    at = stpcpy(at, middle);
+    for (int i = 0; i < twos; i++) at = stpcpy(at, two);
+    stpcpy(at, end);
+    return text;
+}
+
+/* Small files whose parts multiply: rules by elements, elements by those beside them, variables by what is around, stops of a
+ * gradient, what is hidden, names. Each is refused or read; as they were, some of them took hours. */
+static void what_multiplies_ends(void **state)
+{
+    (void)state;
+    static const struct { const char *head, *one; int ones; const char *middle, *two; int twos; const char *end, *words; } tries[] = {
+        {"<svg><style>", "q{stroke:red}", 2000, "</style>", "<line x2='1'/>", 20000, "</svg>", "too much to look through"},
+        {"<svg><style>line:nth-child(2n){stroke:red}", " ", 0, "</style>", "<line x2='1'/>", 40000, "</svg>", "too much to look through"},
+        {"<svg><style>", ".x{stroke:red}", 2000, "</style><g class='", "y ", 500000, "'/></svg>", "too much to look through"},
+        {"<svg><style>", "q{--a:red}", 2000, "</style><g><g><g><g><g>", "<line x2='1' stroke='var(--a)'/>", 20000, "</g></g></g></g></g></svg>", "too much to look through"},
+        {"<svg><linearGradient id='g'>", "<stop stop-color='red'/>", 20000, "</linearGradient>", "<path stroke='url(#g)' d='M0 0H1'/>", 20000, "</svg>",
+         "too much to look through"},
+        {"<svg><defs><g id='a' display='none'>", "<line/>", 20000, "</g></defs>", "<use href='#a'/>", 20000, "</svg>", "too large with all that it repeats"},
+        {"<svg><style>", "%,", 1000000, "a{stroke:red}</style>", "<line stroke='red' x2='1'/>", 1, "</svg>", NULL},
+        {"<svg><g id='", "long", 500000, "'>", "<path stroke='red' d='M0 0H1'/>", 20000, "</g></svg>", NULL}};
+    for (size_t i = 0; i < sizeof tries / sizeof *tries; i++) {
+        char *text = repeated(tries[i].head, tries[i].one, tries[i].ones, tries[i].middle, tries[i].two, tries[i].twos, tries[i].end);
+        if (tries[i].words) {
+            refused(text, RG_FORMAT_SVG, NULL, 1, tries[i].words);
+        } else {
+            rg_lines l = read_svg(text);
+            assert_int_equal(l.count, tries[i].twos);
+            rg_lines_free(&l);
+        }
+        free(text);
+    }
+}
+
+/* Rules for the place among many, as drawing programs write them, are no such thing. */
+static void places_among_many(void **state)
+{
+    (void)state;
+    char *text = repeated("<svg><style>line:nth-child(2n){stroke:red}</style>", "<line x2='1'/>", 5000, "", "", 0, "</svg>");
+    rg_lines l = read_svg(text);
+    assert_int_equal(l.count, 2500);
+    rg_lines_free(&l);
+    free(text);
+}
+
+/* The parser tells a text that it finds too long as it does want of memory. */
+static void a_text_too_long_is_no_want_of_memory(void **state)
+{
+    (void)state;
+    char *text = repeated("<svg>\n<title>", "aaaaa&amp;\n", 1700000, "</title>", "", 0, "<line stroke='red' x2='1'/></svg>");
+    refused(text, RG_FORMAT_SVG, NULL, -1, "a text of more than ten megabytes");
+    free(text);
+}
+
+/* What one entity stands for, many times: the sum is bounded. */
+static void entities_in_sum(void **state)
+{
+    (void)state;
+    char *text = repeated("<!DOCTYPE svg [<!ENTITY a '", "x", 100000, "'>]>\n<svg>", "<g id='&a;'/>", 1000, "<line stroke='red' x2='1'/></svg>");
+    refused(text, RG_FORMAT_SVG, NULL, 2, "entities open into more text");
     free(text);
 }
 
@@ -393,7 +464,9 @@ static void nesting_and_rules_end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shapes), cmocka_unit_test(paths), cmocka_unit_test(transforms), cmocka_unit_test(repeats), cmocka_unit_test(repeats_that_do_not_end), cmocka_unit_test(repeats_of_what_is_long), cmocka_unit_test(styles),
+        cmocka_unit_test(shapes), cmocka_unit_test(paths), cmocka_unit_test(transforms), cmocka_unit_test(repeats), cmocka_unit_test(repeats_that_do_not_end), cmocka_unit_test(repeats_of_what_is_long),
+        cmocka_unit_test(what_multiplies_ends), cmocka_unit_test(places_among_many), cmocka_unit_test(a_text_too_long_is_no_want_of_memory),
+        cmocka_unit_test(entities_in_sum), cmocka_unit_test(styles),
         cmocka_unit_test(colours), cmocka_unit_test(selectors), cmocka_unit_test(paints), cmocka_unit_test(names_dashes_data), cmocka_unit_test(sizes),
                                        cmocka_unit_test(refusals), cmocka_unit_test(marks_and_numbers_too_large),
         cmocka_unit_test(texts), cmocka_unit_test(entities_stay_closed), cmocka_unit_test(nesting_and_rules_end)};

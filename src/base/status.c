@@ -1,8 +1,10 @@
 #include "base/status.h"
 #include "base/text.h"
+#include "base/utf8.h"
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 const char *rg_status_text(rg_status s)
 {
@@ -27,8 +29,12 @@ int rg_version_number(void)
 
 void rg_status_one_line(char *text)
 {
-    for (; *text; text++)
-        if ((unsigned char)*text < ' ' || *text == 0x7F) *text = ' ';
+    for (size_t n; *text; text += n) {
+        const unsigned char *s = (const unsigned char *)text;
+        const size_t bytes = rg_utf8_character(s), shown = rg_utf8_shown(s);
+        n = bytes ? bytes : 1;
+        if (!shown) memset(text, bytes ? ' ' : '?', n);
+    }
 }
 
 rg_status rg_fail(rg_status s, rg_diag *why, int line, const char *format, ...)

@@ -12,7 +12,8 @@ __attribute__((format(printf, 4, 5)))
 #endif
 rg_status rg_fail(rg_status s, rg_diag *why, int line, const char *format, ...);
 
-/* Blanks for control characters, so that what a file says stays one line of a message, and moves no cursor. */
+/* Blanks for control characters, and ? for what is no UTF-8, so that what a file says stays one line of a message, and
+ * moves no cursor. */
 void rg_status_one_line(char *text);
 
 #endif

@@ -1,4 +1,5 @@
 #include "base/text.h"
+#include "base/utf8.h"
 
 #include <locale.h>
 
@@ -34,6 +35,17 @@ int rg_text(char *text, size_t room, const char *format, ...)
     const int n = rg_text_with(text, room, format, args);
     va_end(args);
     return n;
+}
+
+void rg_text_shown(FILE *out, const char *text)
+{
+    for (size_t n; *text; text += n) {
+        const unsigned char *s = (const unsigned char *)text;
+        const size_t bytes = rg_utf8_character(s), shown = rg_utf8_shown(s);
+        n = bytes ? bytes : 1;
+        if (shown) fwrite(text, 1, n, out);
+        else fputc(bytes ? ' ' : '?', out);
+    }
 }
 
 int rg_text_to(FILE *out, const char *format, ...)

@@ -19,4 +19,7 @@ int rg_text(char *text, size_t room, const char *format, ...) RG_FORMAT_AT(3);
 int rg_text_with(char *text, size_t room, const char *format, va_list args);
 int rg_text_to(FILE *out, const char *format, ...) RG_FORMAT_AT(2);
 
+/* What a file says, in one line: as rg_status_one_line has it. */
+void rg_text_shown(FILE *out, const char *text);
+
 #endif

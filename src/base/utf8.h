@@ -1,5 +1,5 @@
 /* utf8.h -- where characters begin and end, in text that may be anything.
- * Used by  json.c plot.c opx.c svg.c svgfile.c */
+ * Used by  json.c status.c text.c plot.c opx.c svg.c svgfile.c */
 #ifndef RG_UTF8_H
 #define RG_UTF8_H
 
@@ -17,6 +17,16 @@ static inline size_t rg_utf8_character(const unsigned char *s)
     const int overlong = (a == 0xe0 && s[1] < 0xa0) || (a == 0xf0 && s[1] < 0x90);
     const int surrogate = a == 0xed && s[1] >= 0xa0, beyond = a == 0xf4 && s[1] >= 0x90;
     return overlong || surrogate || beyond ? 0 : n;
+}
+
+/* The same of a character that a terminal shows and does not obey: no control, whether of ASCII or of the 32 that
+ * Latin-1 has besides, and no end of a line or paragraph. */
+static inline size_t rg_utf8_shown(const unsigned char *s)
+{
+    const size_t n = rg_utf8_character(s);
+    const int is_control = (n == 1 && (s[0] < 0x20 || s[0] == 0x7f)) || (n == 2 && s[0] == 0xc2 && s[1] < 0xa0);
+    const int is_end = n == 3 && s[0] == 0xe2 && s[1] == 0x80 && (s[2] == 0xa8 || s[2] == 0xa9);
+    return is_control || is_end ? 0 : n;
 }
 
 /* Whether XML 1.0 can hold that character, of so many bytes. */

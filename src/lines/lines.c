@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Lines that are read before it is asked again whether to go on: a few milliseconds. */
-enum { LINES_UNASKED = 2000 };
+/* Lines that are read before it is asked again whether to go on, bytes in which there are none: a few milliseconds. */
+enum { LINES_UNASKED = 2000, BYTES_UNASKED = 1 << 18 };
 
 void rg_lines_init(rg_lines *l, const rg_memory *mem)
 {
@@ -26,10 +26,19 @@ void rg_lines_free(rg_lines *l)
     memset(l, 0, sizeof *l);
 }
 
+rg_status rg_lines_go_on(rg_lines *l, size_t bytes)
+{
+    l->bytes += bytes;
+    if (l->bytes < BYTES_UNASKED) return RG_OK;
+    l->bytes = 0;
+    return rg_stop_asked(l->stop) ? RG_ECANCELLED : RG_OK;
+}
+
 rg_status rg_lines_add(rg_lines *l, rg_vec2 a, rg_vec2 b, char assignment, int32_t where)
 {
     if (++l->unasked >= LINES_UNASKED) {
         l->unasked = 0;
+        l->bytes = 0;
         if (rg_stop_asked(l->stop)) return RG_ECANCELLED;
     }
     if (l->count >= INT32_MAX / 8) return RG_ENOMEM; /* indices of what is made of the lines stay in 32 bits */

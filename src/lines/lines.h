@@ -67,6 +67,7 @@ typedef struct rg_lines {
     const rg_keeper *keeper; /* of that */
     const rg_stop *stop; /* asked now and then while lines are read; NULL: nobody */
     int32_t unasked; /* lines since */
+    size_t bytes;    /* of what is no line, since */
     int32_t *vertex; /* ... and the numbers of each line's two ends there, [2 count] */
     int32_t faces, *face_start, *face_vertex; /* ... and the faces listed there: face_vertex[face_start[f]] and on */
 } rg_lines;
@@ -80,6 +81,8 @@ rg_vec2 rg_lines_own(const rg_lines *l, rg_vec2 x, double size);
 
 /* All: RG_ENOMEM leaves *l as it was. rg_lines_add: RG_ECANCELLED where its stop says so. */
 rg_status rg_lines_add(rg_lines *l, rg_vec2 a, rg_vec2 b, char assignment, int32_t where);
+/* So much of the file was passed over. RG_ECANCELLED as above. */
+rg_status rg_lines_go_on(rg_lines *l, size_t bytes);
 rg_status rg_lines_warn(rg_lines *l, int32_t where, const char *format, ...);
 /* Counts a line of that trait; of more than RG_MOST_TRAITS the rest is forgotten. Longer names are cut. */
 rg_status rg_lines_trait(rg_lines *l, rg_trait_sort sort, const char *name, size_t n, char assignment);

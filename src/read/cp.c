@@ -61,9 +61,13 @@ rg_status rg_cp_read(const void *bytes, size_t size, const rg_memory *mem, const
     out->y_down = 1;
     while (status == RG_OK && s < end) {
         field f[FIELDS];
+        const char *from = s;
         const int n = fields(&s, end, f);
         if (where < INT32_MAX) where++;
-        if (n == 0) continue;
+        if (n == 0) {
+            status = rg_lines_go_on(out, (size_t)(s - from));
+            continue;
+        }
         said++;
         status = add(out, f, n, where, why);
     }

@@ -8,6 +8,7 @@ void rg_css_init(rg_css *css, const rg_memory *mem)
 {
     memset(css, 0, sizeof *css);
     css->mem = *mem;
+    css->most = RG_CSS_MOST_WORK;
 }
 
 void rg_css_free(rg_css *css)
@@ -38,17 +39,17 @@ static void blank_comments(char *s)
     }
 }
 
-/* What is read: the text, and where what of it is. */
+/* What is read: the text from where the last line was asked for, and that line. */
 typedef struct source { const char *text; int32_t line; rg_lines *out; rg_diag *why; } source;
 
-static int32_t line_of(const source *q, const char *at)
+/* Asked for one place after the other. */
+static int32_t line_of(source *q, const char *at)
 {
-    int32_t line = q->line;
-    for (const char *c = q->text; c < at; c++) line += *c == '\n';
-    return line;
+    for (; q->text < at; q->text++) q->line += *q->text == '\n';
+    return q->line;
 }
 
-static rg_status untold(const source *q, const char *at, size_t n)
+static rg_status untold(source *q, const char *at, size_t n)
 {
     char shown[81];
     at = trim(at, &n);
@@ -80,9 +81,9 @@ static uint64_t names_in(const char *s, size_t n)
     return names;
 }
 
-static rg_status add_rules(rg_css *css, const source *q, const char *selectors, size_t n, const char *body,
-                           size_t body_n)
+static rg_status add_rules(rg_css *css, source *q, const char *selectors, size_t n, const char *body, size_t body_n)
 {
+    const uint64_t names = names_in(body, body_n);
     for (size_t from = 0; from <= n;) {
         size_t length = rg_select_comma(selectors + from, n - from);
         const size_t next = from + length + 1;
@@ -99,7 +100,7 @@ static rg_status add_rules(rg_css *css, const source *q, const char *selectors, 
                            (int)RG_CSS_MOST_RULES);
         s = RG_MEM_GROW(&css->mem, css->rule, css->room, (size_t)css->rules + 1);
         if (s != RG_OK) return s;
-        css->rule[css->rules++] = (rg_rule){selector, body, length, body_n, weight, names_in(body, body_n)};
+        css->rule[css->rules++] = (rg_rule){selector, body, length, body_n, weight, names};
     }
     return RG_OK;
 }
@@ -136,7 +137,7 @@ static int is_for_screens(const char *s)
 }
 
 /* From an @rule: behind it, or, where it holds here too, into its block. */
-static const char *pass_at(const source *q, const char *s, rg_status *status)
+static const char *pass_at(source *q, const char *s, rg_status *status)
 {
     const size_t head = strcspn(s, "{;");
     if (s[head] == '{' && is_for_screens(s)) return s + head + 1; /* its own } is passed over, as it closes nothing */
@@ -151,7 +152,7 @@ rg_status rg_css_add(rg_css *css, const rg_xml_node *style, rg_lines *l, rg_diag
     rg_status status = RG_MEM_GROW(&css->mem, css->sheet, css->sheet_room, (size_t)css->sheets + 1);
     char *s = status == RG_OK ? rg_xml_string(&css->mem, style) : NULL;
     if (!s) return RG_ENOMEM;
-    const source q = {s, rg_xml_line(style), l, why};
+    source q = {s, rg_xml_line(style), l, why};
     css->sheet[css->sheets++] = s;
     blank_comments(s);
     for (const char *at = s; status == RG_OK;) {
@@ -204,22 +205,27 @@ static int declared(const char *s, size_t n, const char *property, char value[RG
     return found;
 }
 
+/* What looking at a rule or an element costs, beside its bytes. */
+enum { OF_LOOKING = 16 };
+
 /* A style of its own weighs more than any rule, and what is important more than what is not. */
 enum { OF_STYLE = 1 << 29, OF_IMPORTANT = 1 << 30 };
 
-int rg_css_get(const rg_css *css, const rg_xml_node *n, const char *property, char value[RG_CSS_VALUE])
+int rg_css_get(rg_css *css, const rg_xml_node *n, const char *property, char value[RG_CSS_VALUE])
 {
     const char *style = rg_xml_attribute(n, "style"), *attribute = rg_xml_attribute(n, property);
+    css->work += OF_LOOKING + css->rules + (int64_t)strlen(style);
     const int own = declared(style, strlen(style), property, value);
     const uint64_t name = bit_of(property, strlen(property));
     int64_t best = own == 2 ? (int64_t)OF_IMPORTANT + OF_STYLE : own ? OF_STYLE : -1;
-    for (int32_t i = 0; i < css->rules; i++) {
+    for (int32_t i = 0; i < css->rules && css->work <= css->most; i++) {
         const rg_rule *r = &css->rule[i];
         if (!(r->names & name)) continue;
+        css->work += OF_LOOKING + (int64_t)r->body_n;
         char found[RG_CSS_VALUE];
         const int how = declared(r->body, r->body_n, property, found);
         const int64_t weight = r->weight + (how == 2 ? (int64_t)OF_IMPORTANT : 0);
-        if (!how || weight < best || !rg_select_matches(r->selector, r->selector_n, n)) continue;
+        if (!how || weight < best || !rg_select_matches(r->selector, r->selector_n, n, &css->work)) continue;
         best = weight;
         memcpy(value, found, sizeof found);
     }

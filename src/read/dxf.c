@@ -20,6 +20,7 @@ enum { MOST_LEFT_OUT = 24 };
 /* What of an entity has been read so far. */
 typedef struct entity {
     rg_slice name, layer, dash;
+    rg_layer *on; /* of that name, NULL: it is in no table; known when all of the entity is */
     int32_t where;
     long colour, flags, rgb; /* rgb -1: none */
     /* of a facet of a mesh: vertices from 1, negative: the side after it is not drawn; 0: none */
@@ -91,36 +92,34 @@ static void leave_out(reader *r, rg_slice name, int32_t where)
     tell(&r->left_out[i], where);
 }
 
-static long layer_colour(const reader *r, rg_slice name)
-{
-    const rg_layer *l = rg_tables_layer(&r->tables, name);
-    return l ? l->colour : RG_DXF_WHITE;
-}
+static long layer_colour(const entity *e) { return e->on ? e->on->colour : RG_DXF_WHITE; }
 
 /* The name of its pattern of dashes. */
-static rg_slice dash_of(const reader *r, const entity *e)
+static rg_slice dash_of(const entity *e)
 {
-    const rg_layer *l = rg_tables_layer(&r->tables, e->layer);
+    const rg_layer *l = e->on;
     if (e->dash.n && !rg_slice_is(e->dash, "BYLAYER") && !rg_slice_is(e->dash, "ByLayer")) return e->dash;
     return l && l->dash.n ? l->dash : (rg_slice){"CONTINUOUS", 10};
 }
 
-/* What a block leaves open is as the INSERT has it. */
+/* What a block leaves open is as the INSERT has it. Looked for once for an entity: there may be many layers. */
 static void inherit(const reader *r, entity *e)
 {
     const entity *from = r->inserts ? r->inserts->insert : NULL;
     if (from && e->colour == BY_BLOCK && e->rgb < 0) {
-        e->colour = from->colour == BY_LAYER ? layer_colour(r, from->layer) : from->colour;
+        e->colour = from->colour == BY_LAYER ? layer_colour(from) : from->colour;
         e->rgb = from->rgb;
     }
-    if (from && rg_slice_is(e->layer, "0")) e->layer = from->layer;
+    const int is_open = from && rg_slice_is(e->layer, "0");
+    e->on = is_open ? from->on : rg_tables_layer(&r->tables, e->layer);
+    if (is_open) e->layer = from->layer;
 }
 
 /* A colour of 24 bits as CSS writes it, else the number in the index. */
-static rg_slice colour_name(const reader *r, const entity *e, char text[16])
+static rg_slice colour_name(const entity *e, char text[16])
 {
     if (e->rgb >= 0) snprintf(text, 16, "#%06lx", e->rgb & 0xffffffL);
-    else snprintf(text, 16, "%d", (int)(e->colour == BY_LAYER ? layer_colour(r, e->layer) : e->colour));
+    else snprintf(text, 16, "%d", (int)(e->colour == BY_LAYER ? layer_colour(e) : e->colour));
     return (rg_slice){text, strlen(text)};
 }
 
@@ -128,7 +127,7 @@ static rg_slice colour_name(const reader *r, const entity *e, char text[16])
 static char kind_of(const reader *r, const entity *e, int *kind)
 {
     char text[16];
-    const rg_slice name[RG_TRAIT_SORTS] = {colour_name(r, e, text), e->layer, dash_of(r, e)};
+    const rg_slice name[RG_TRAIT_SORTS] = {colour_name(e, text), e->layer, dash_of(e)};
     *kind = -1;
     for (int i = 0; i < RG_TRAIT_SORTS; i++) {
         const int k = rg_kinds_find(r->settings, (rg_trait_sort)i, name[i].s, name[i].n);
@@ -140,7 +139,7 @@ static char kind_of(const reader *r, const entity *e, int *kind)
     if (e->rgb >= 0)
         return rg_colour_assignment((rg_colour){(double)(e->rgb >> 16 & 255) / 255, (double)(e->rgb >> 8 & 255) / 255,
                                                 (double)(e->rgb & 255) / 255});
-    return rg_colour_index_assignment((int)(e->colour == BY_LAYER ? layer_colour(r, e->layer) : e->colour));
+    return rg_colour_index_assignment((int)(e->colour == BY_LAYER ? layer_colour(e) : e->colour));
 }
 
 /* Of what is no crease, a curve does no harm. */
@@ -154,7 +153,7 @@ static int cannot_fold(const reader *r, const entity *e)
 /* Whether it is not to be seen: then it is counted, with its layer or by itself. */
 static int is_hidden(reader *r, const entity *e)
 {
-    rg_layer *l = rg_tables_layer(&r->tables, e->layer);
+    rg_layer *l = e->on;
     if (e->invisible) return tell(&r->invisible, e->where), 1;
     if (!l || !l->hidden) return 0;
     if (!l->lines++) l->where = e->where;
@@ -168,6 +167,8 @@ static rg_vec3 place_point(const reader *r, const entity *e, rg_vec3 x)
     return rg_map3_point(r->place, e->in_space ? x : rg_map3_point(rg_map3_of_normal(e->normal), x));
 }
 
+static int is_finite(rg_vec3 x) { return isfinite(x.x) && isfinite(x.y) && isfinite(x.z); }
+
 /* letter 0: the entity's own. */
 static rg_status segment(reader *r, const entity *e, rg_vec3 a, rg_vec3 b, char letter)
 {
@@ -178,7 +179,7 @@ static rg_status segment(reader *r, const entity *e, rg_vec3 a, rg_vec3 b, char 
     int kind;
     char text[16];
     const char own = kind_of(r, e, &kind), assignment = letter && kind < 0 ? letter : own;
-    const rg_slice colour = colour_name(r, e, text), dash = dash_of(r, e);
+    const rg_slice colour = colour_name(e, text), dash = dash_of(e);
     if (kind >= 0) r->out->kinds_used |= UINT64_C(1) << kind;
     rg_status s = rg_lines_trait(r->out, RG_BY_COLOUR, colour.s, colour.n, assignment);
     if (s == RG_OK) s = rg_lines_trait(r->out, RG_BY_LAYER, e->layer.s, e->layer.n, assignment);
@@ -186,7 +187,7 @@ static rg_status segment(reader *r, const entity *e, rg_vec3 a, rg_vec3 b, char 
     if (assignment == RG_LEFT_OUT) return tell(&r->unwanted, e->where), s;
     a = place_point(r, e, a);
     b = place_point(r, e, b);
-    if (!isfinite(a.x + a.y + a.z + b.x + b.y + b.z))
+    if (!is_finite(a) || !is_finite(b))
         return rg_lines_warn(r->out, e->where, "a line is dropped: a coordinate is not a finite number");
     if (s == RG_OK) s = charge(r, OF_SEGMENT);
     return s == RG_OK ? rg_space_add(&r->space, r->out, a, b, assignment, e->where) : s;
@@ -253,7 +254,7 @@ static rg_status groups(reader *r, entity *e, int corners)
     int32_t bulge_line = 0;
     rg_status s;
     while ((s = next(r)) == RG_OK && r->in.code != 0) {
-        s = common(r, e);
+        if (!corners) s = common(r, e); /* else it is known, with what it inherits */
         if (s == RG_OK && r->in.code == 70) s = whole(r, &e->flags);
         if (s == RG_OK && r->in.code >= 71 && r->in.code <= 74) s = whole(r, &e->corner[r->in.code - 71]);
         if (s == RG_OK && r->in.code == 38) s = number(r, &e->elevation);
@@ -473,7 +474,7 @@ static rg_status read_insert(reader *r, entity *e)
     settle_normal(e);
     if (s != RG_OK || e->on_sheet) return s;
     inherit(r, e);
-    const rg_layer *l = rg_tables_layer(&r->tables, e->layer);
+    const rg_layer *l = e->on;
     /* off alone hides what is on the layer itself */
     if (e->invisible || (l && l->hidden == RG_LAYER_FROZEN)) return is_hidden(r, e), RG_OK;
     for (int k = 0; k < 2; k++)
@@ -630,7 +631,7 @@ rg_status rg_dxf_read(const void *bytes, size_t size, const rg_memory *mem, cons
                       const rg_reading *settings, rg_lines *out, rg_diag *why)
 {
     reader r = {.out = out, .why = why, .settings = settings,
-                .in = {.s = bytes, .end = (const char *)bytes + size, .why = why},
+                .in = {.s = bytes, .end = (const char *)bytes + size, .why = why, .out = out},
                 .place = {rg_mat3_identity(), {0, 0, 0}}};
     rg_lines_init(out, mem);
     out->stop = stop;

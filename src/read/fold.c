@@ -13,6 +13,11 @@
 #include <string.h>
 
 enum { MOST_ELEMENTS = INT32_MAX / 16, MOST_INHERITED = 100, MOST_FRAMES_TRIED = 1000, PATH_ROOM = 40 };
+/* Keys, vertices, edges and sides of faces that are looked at, after the first frame, for one that is flat: each may
+ * inherit what is long. Half a second. */
+enum { MOST_TRIED = 1 << 23 };
+/* Rows that are read before it is asked again whether to go on: a few milliseconds. */
+enum { ROWS_UNASKED = 1 << 14 };
 /* Coordinates in space lie in a plane if they are off it by less than this part of their size: single precision does
  * so. */
 static const double FLATNESS = 1e-6;
@@ -42,6 +47,8 @@ typedef struct reader {
     double *angle; /* degrees, NAN: none */
     int32_t *face_start, *face_vertex;
     side *side;
+    int64_t tried; /* in the frames before */
+    int of_faces;  /* the edges are made of the faces, and nothing of the file is of them */
     int is_state;  /* a frame that says how the sheet of another is folded */
     int is_folded; /* not flat, or turned over: why says which */
 } reader;
@@ -101,8 +108,12 @@ static void forget(reader *r)
 {
     RG_MEM_FREE(&r->out->mem, r->space, r->X, r->E, r->letter, r->angle, r->face_start, r->face_vertex, r->side);
     rg_value_free(r->frame);
-    *r = (reader){.out = r->out, .why = r->why, .s = r->s, .text = r->text, .size = r->size, .root = r->root};
+    *r = (reader){.out = r->out, .why = r->why, .s = r->s, .text = r->text, .size = r->size, .root = r->root,
+                  .tried = r->tried};
 }
+
+/* In each row of what is long. */
+static int is_ended(const reader *r, int32_t row) { return row % ROWS_UNASKED == 0 && rg_stop_asked(r->out->stop); }
 
 /* -------------------------------------------------------------------------------------------------- arrays ---- */
 
@@ -127,6 +138,7 @@ static rg_status coordinates(reader *r)
     if (s == RG_OK && !v) return bad(r, "vertices_coords: there are none");
     if (s == RG_OK && !(r->space = rg_mem_array(&r->out->mem, (size_t)r->nv, sizeof *r->space))) return RG_ENOMEM;
     for (int32_t i = 0; s == RG_OK && i < r->nv; i++) {
+        if (is_ended(r, i)) return RG_ECANCELLED;
         const rg_value *row = rg_value_at(v, (size_t)i);
         double x[3] = {0, 0, 0};
         const size_t n = rg_value_count(row);
@@ -166,6 +178,7 @@ static rg_status edges(reader *r)
     r->E = rg_mem_array(&r->out->mem, (size_t)r->ne, 2 * sizeof *r->E);
     if (!r->E) return RG_ENOMEM;
     for (int32_t i = 0; i < r->ne; i++) {
+        if (is_ended(r, i)) return RG_ECANCELLED;
         const rg_value *row = rg_value_at(v, (size_t)i);
         if (rg_value_count(row) != 2) return bad(r, "edges_vertices[%d]: not two vertices", (int)i);
         for (size_t k = 0; k < 2; k++)
@@ -187,6 +200,7 @@ static rg_status faces(reader *r)
     if (RG_MEM_ARRAYS(&r->out->mem, RG_ARRAY(r->face_start, (size_t)r->nf + 1), RG_ARRAY(r->face_vertex, sides),
                       RG_ARRAY(r->side, sides)) != RG_OK) return RG_ENOMEM;
     for (int32_t f = 0; f < r->nf; f++) {
+        if (is_ended(r, f)) return RG_ECANCELLED;
         const rg_value *row = rg_value_at(v, (size_t)f);
         const size_t n = rg_value_count(row);
         if (n < 3) return bad(r, "faces_vertices[%d]: fewer than three vertices", (int)f);
@@ -198,12 +212,19 @@ static rg_status faces(reader *r)
     return RG_OK;
 }
 
+/* Which edge is meant by a number, only edges_vertices says. */
+static rg_status edges_unknown(const reader *r, const char *key)
+{
+    return bad(r, "%s: there are no edges_vertices to say which edges these are", key);
+}
+
 static rg_status assignments(reader *r)
 {
     const rg_value *v;
     int32_t n;
     rg_status s = list(r, "edges_assignment", &v, &n);
-    if (s != RG_OK || !v) return s;
+    if (s != RG_OK || !v || (r->of_faces && n == 0)) return s;
+    if (r->of_faces) return edges_unknown(r, "edges_assignment");
     if (n != r->ne) return bad(r, "edges_assignment: %d of them for %d edges", (int)n, (int)r->ne);
     if (!(r->letter = rg_mem_array(&r->out->mem, (size_t)n, 1))) return RG_ENOMEM;
     for (int32_t i = 0; i < n; i++) {
@@ -239,7 +260,8 @@ static rg_status angles(reader *r)
     int32_t n;
     rg_status s = list(r, key, &v, &n);
     if (s == RG_OK && !v) s = list(r, key = "edges_foldAngles", &v, &n);
-    if (s != RG_OK || !v) return s;
+    if (s != RG_OK || !v || (r->of_faces && n == 0)) return s;
+    if (r->of_faces) return edges_unknown(r, key);
     if (n != r->ne) return bad(r, "%s: %d of them for %d edges", key, (int)n, (int)r->ne);
     if (!(r->angle = rg_mem_array(&r->out->mem, (size_t)n, sizeof *r->angle))) return RG_ENOMEM;
     double most = 0;
@@ -371,6 +393,7 @@ static rg_status edges_of_faces(reader *r)
         r->E[2 * r->ne] = q->low;
         r->E[2 * r->ne++ + 1] = q->high;
     }
+    r->of_faces = 1;
     return RG_OK;
 }
 
@@ -555,8 +578,8 @@ static rg_value *state_of(const rg_value *frame)
     return one;
 }
 
-/* A frame with what it inherits, in r->frame; as_state: on the drawing of the one that it inherits from in the end. */
-static rg_status resolve(reader *r, int64_t number, int as_state)
+/* The frames that a frame inherits from, itself first. */
+static rg_status trace(reader *r, int64_t number)
 {
     const size_t frames = rg_value_count(rg_value_get(r->root, "file_frames"));
     for (int64_t at = number;;) {
@@ -567,29 +590,42 @@ static rg_status resolve(reader *r, int64_t number, int as_state)
         const rg_value *one = frame_at(r, at);
         r->part[r->parts++] = (int32_t)at;
         if (rg_value_kind(one) != RG_KIND_OBJECT) return bad(last_part(r), "the frame is no object");
-        if (at == 0 || !rg_value_is_true(rg_value_get(one, "frame_inherit"))) break;
+        if (at == 0 || !rg_value_is_true(rg_value_get(one, "frame_inherit"))) return RG_OK;
         const rg_value *parent = rg_value_get(one, "frame_parent");
         at = 0;
         if (parent && !rg_value_integer(parent, &at)) return bad(last_part(r), "frame_parent: no frame number");
     }
+}
+
+/* A frame that was traced with what it inherits, in r->frame; as_state: on the drawing of the one that it inherits from
+ * in the end. */
+static rg_status resolve(reader *r, int as_state)
+{
     for (int32_t i = r->parts - 1; i >= 0; i--) {
         const rg_value *one = frame_at(r, r->part[i]);
         rg_value *state = as_state && i < r->parts - 1 ? state_of(one) : NULL;
         if (as_state && i < r->parts - 1 && !state) return RG_ENOMEM;
-        rg_value *over = rg_value_overlay(r->frame, state ? state : one);
+        const rg_value *over = state ? state : one;
+        r->tried += (int64_t)rg_value_keys(over);
+        const int is_short = r->frame ? !rg_value_add(r->frame, over) : !(r->frame = rg_value_overlay(NULL, over));
         rg_value_free(state);
-        if (!over) return RG_ENOMEM;
-        rg_value_free(r->frame);
-        r->frame = over;
+        if (is_short) return RG_ENOMEM;
     }
     return RG_OK;
 }
 
+/* What a key is in a frame that was traced. */
+static const rg_value *inherited(const reader *r, const char *key)
+{
+    const rg_value *v = NULL;
+    for (int32_t i = 0; !v && i < r->parts; i++) v = rg_value_get(frame_at(r, r->part[i]), key);
+    return v;
+}
+
 static int has_drawing(const reader *r)
 {
-    const rg_value *edges = rg_value_get(r->frame, "edges_vertices"), *faces = rg_value_get(r->frame, "faces_vertices");
-    return rg_value_count(rg_value_get(r->frame, "vertices_coords")) > 0 &&
-           rg_value_count(edges) + rg_value_count(faces) > 0;
+    return rg_value_count(inherited(r, "vertices_coords")) > 0 &&
+           rg_value_count(inherited(r, "edges_vertices")) + rg_value_count(inherited(r, "faces_vertices")) > 0;
 }
 
 /* Whether the frame that was asked for says by itself how far each crease is folded. */
@@ -639,19 +675,26 @@ static rg_status choose(reader *r)
     rg_diag first = {0, ""};
     rg_status s = RG_OK, failed = RG_OK;
     for (int64_t i = from; i <= to; i++) {
+        if (r->tried > MOST_TRIED) break;
+        if (rg_stop_asked(r->out->stop)) return RG_ECANCELLED;
         forget(r);
-        s = resolve(r, i, 0);
+        s = trace(r, i);
+        const int is_one = s == RG_OK && (asked >= 0 || has_drawing(r) || from == to);
         r->is_state = is_state(r, asked);
-        if (s == RG_OK && (asked >= 0 || has_drawing(r) || from == to)) s = read_frame(r);
+        if (is_one) s = resolve(r, 0);
+        if (is_one && s == RG_OK) s = read_frame(r);
         else if (s == RG_OK) s = bad(r, "no vertices_coords, or no edges_vertices and no faces_vertices");
         if (s == RG_EFORMAT && r->is_folded && r->is_state && r->parts > 1) { /* it says where it is folded to, too */
             forget(r);
-            s = resolve(r, i, 1);
+            s = trace(r, i);
+            if (s == RG_OK) s = resolve(r, 1);
             r->is_state = 1;
             if (s == RG_OK) s = read_frame(r);
         }
         const int is_spoilt = !r->is_folded && r->frame && has_drawing(r);
         if (s == RG_OK || s == RG_ENOMEM || s == RG_ECANCELLED || is_spoilt) return s;
+        r->tried += (int64_t)r->nv + r->ne + r->sides;
+        if (failed == RG_OK) r->tried = 0; /* the first one may be as large as it is */
         if (failed == RG_OK && r->why) first = *r->why;
         failed = s;
     }

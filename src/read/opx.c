@@ -138,7 +138,7 @@ static rg_status data_set(reader *r, const rg_xml_node *object)
             name = text(value);
             for (const rg_xml_node *set = next(value); set && s == RG_OK; set = next(set)) {
                 if (strcmp(attribute(set, "method"), "set") != 0) continue;
-                for (const rg_xml_node *given = child(set); given; given = next(given))
+                for (const rg_xml_node *given = child(set); given && s == RG_OK; given = next(given))
                     if (*attribute(given, "idref") == 0) s = property(r, name, given);
             }
         }

@@ -34,18 +34,16 @@ static char assignment(const rg_value *v)
     return number >= 0 && number < 3 ? letters[number] : RG_FLAT;
 }
 
-static rg_status bad(const char *text, size_t size, size_t i, const char *what, rg_diag *why)
+static rg_status bad(const char *text, size_t size, const char *path, const char *what, rg_diag *why)
 {
-    char path[60];
-    snprintf(path, sizeof path, "lineSegments[%zu]", i);
     return rg_fail(RG_EFORMAT, why, rg_locate_line(text, size, path), "%s: %s", path, what);
 }
 
 static rg_status lines(const rg_value *list, const char *text, size_t size, rg_lines *out, rg_diag *why)
 {
     const size_t n = rg_value_count(list);
-    if (rg_value_kind(list) != RG_KIND_LIST) return rg_fail(RG_EFORMAT, why, 1, "lineSegments: there are none");
-    if (n > INT32_MAX / 16) return rg_fail(RG_EFORMAT, why, 1, "lineSegments: too many");
+    if (rg_value_kind(list) != RG_KIND_LIST) return bad(text, size, "lineSegments", "there are none", why);
+    if (n > INT32_MAX / 16) return bad(text, size, "lineSegments", "too many", why);
     int32_t *where = rg_mem_array(&out->mem, n, sizeof *where);
     if (!where) return RG_ENOMEM;
     rg_locate_lines(text, size, "lineSegments", where, (int32_t)n);
@@ -54,23 +52,26 @@ static rg_status lines(const rg_value *list, const char *text, size_t size, rg_l
         const rg_value *one = rg_value_at(list, i);
         rg_vec2 a, b;
         const char letter = assignment(rg_value_get(one, "color"));
-        if (!point(rg_value_get(one, "a"), &a) || !point(rg_value_get(one, "b"), &b))
-            s = bad(text, size, i, "no two points a and b", why);
-        else if (!isfinite(a.x + a.y + b.x + b.y))
+        if (!point(rg_value_get(one, "a"), &a) || !point(rg_value_get(one, "b"), &b)) {
+            char path[60];
+            snprintf(path, sizeof path, "lineSegments[%zu]", i);
+            s = bad(text, size, path, "no two points a and b", why);
+        } else if (!isfinite(a.x) || !isfinite(a.y) || !isfinite(b.x) || !isfinite(b.y))
             s = rg_lines_warn(out, where[i], "a line is dropped: a coordinate is not a finite number");
-        else s = rg_lines_add(out, (rg_vec2){a.x, -a.y}, (rg_vec2){b.x, -b.y}, letter, where[i]);
+        else
+            s = rg_lines_add(out, (rg_vec2){a.x, -a.y}, (rg_vec2){b.x, -b.y}, letter, where[i]);
     }
     rg_mem_free(&out->mem, where);
     return s;
 }
 
 /* Versions "v1", "v1.1"; the first releases gave theirs under another key. */
-static rg_status check_version(const rg_value *root, rg_diag *why)
+static rg_status check_version(const rg_value *root, const char *text, size_t size, rg_diag *why)
 {
     const char *version = rg_value_text(rg_value_get(root, "@version"));
     if (!version || strcmp(version, "v1") == 0 || strncmp(version, "v1.", 3) == 0) return RG_OK;
-    return rg_fail(RG_EFORMAT, why, 1, "@version: \"%.40s\" is not known, v1 is: save it again as .fold or .cp",
-                   version);
+    return rg_fail(RG_EFORMAT, why, rg_locate_line(text, size, "@version"),
+                   "@version: \"%.40s\" is not known, v1 is: save it again as .fold or .cp", version);
 }
 
 rg_status rg_ori_read(const void *bytes, size_t size, const rg_memory *mem, const rg_stop *stop, rg_lines *out,
@@ -82,11 +83,11 @@ rg_status rg_ori_read(const void *bytes, size_t size, const rg_memory *mem, cons
     out->y_down = 1;
     rg_status s = size ? rg_value_parse(bytes, size, stop, &root, why)
                        : rg_fail(RG_EFORMAT, why, 0, "the file is empty");
-    if (s == RG_OK) s = check_version(root, why);
+    if (s == RG_OK) s = check_version(root, bytes, size, why);
     if (s == RG_OK) s = lines(rg_value_get(root, "lineSegments"), bytes, size, out, why);
     const char *title = rg_value_text(rg_value_get(root, "title"));
     if (s == RG_OK && title && *title && !(out->title = rg_mem_string(mem, title))) s = RG_ENOMEM;
-    if (s == RG_OK && out->count == 0) s = rg_fail(RG_EFORMAT, why, 1, "lineSegments: there are none");
+    if (s == RG_OK && out->count == 0) s = bad(bytes, size, "lineSegments", "there are none", why);
     rg_value_free(root);
     if (s != RG_OK) rg_lines_free(out);
     return s;

@@ -12,7 +12,7 @@ static int is(const char *a, const char *b) { return strcmp(a, b) == 0; }
 
 /* ------------------------------------------------------------------------------------------------- colour ---- */
 
-static void opacity(const rg_painting *w, const rg_xml_node *n, const char *name, double *x)
+static void opacity(rg_painting *w, const rg_xml_node *n, const char *name, double *x)
 {
     char value[RG_CSS_VALUE];
     double v;
@@ -26,7 +26,7 @@ static void opacity(const rg_painting *w, const rg_xml_node *n, const char *name
 static int begins(const char *s, const char *word) { return strncmp(s, word, strlen(word)) == 0; }
 
 /* The value of var(--name, otherwise) for an element: its own, or of what is around it, or otherwise. 0: none. */
-static int variable(const rg_painting *w, const rg_xml_node *n, char value[RG_CSS_VALUE])
+static int variable(rg_painting *w, const rg_xml_node *n, char value[RG_CSS_VALUE])
 {
     char name[RG_CSS_VALUE], otherwise[RG_CSS_VALUE] = "";
     const char *s = value + strlen("var(");
@@ -43,8 +43,11 @@ static int variable(const rg_painting *w, const rg_xml_node *n, char value[RG_CS
     return value[0] != 0;
 }
 
+/* What looking at a part of a gradient costs, as its bytes: names of colours are compared. */
+enum { OF_STOP = 128 };
+
 /* The colour of a gradient that has only one, as some programs keep their swatches. 0: it has several, or is none. */
-static int swatch(const rg_painting *w, const char *id, rg_colour *c, double *alpha)
+static int swatch(rg_painting *w, const char *id, rg_colour *c, double *alpha)
 {
     const rg_xml_node *n = rg_ids_find(&w->ids, id);
     for (int step = 0; n && step < MOST_VARIABLES; step++) {
@@ -52,6 +55,8 @@ static int swatch(const rg_painting *w, const char *id, rg_colour *c, double *al
         int stops = 0, same = 1;
         for (const rg_xml_node *stop = rg_xml_child(n); stop; stop = rg_xml_next(stop)) {
             rg_colour one;
+            w->css.work += OF_STOP;
+            if (w->css.work > w->css.most) return 0;
             if (!rg_xml_is(stop, "stop")) continue;
             if (!rg_css_get(&w->css, stop, "stop-color", value) || !rg_colour_parse(value, &one, alpha)) return 0;
             same &= !stops || (one.r == c->r && one.g == c->g && one.b == c->b);
@@ -73,7 +78,7 @@ static size_t first_colour(const char *s)
 }
 
 /* The colour of a paint. 0: none that is plain; -1: nothing is painted. */
-static int plain_colour(const rg_painting *w, const rg_xml_node *n, const rg_paint *p, rg_colour *c, double *alpha)
+static int plain_colour(rg_painting *w, const rg_xml_node *n, const rg_paint *p, rg_colour *c, double *alpha)
 {
     char value[RG_CSS_VALUE], id[RG_CSS_VALUE];
     snprintf(value, sizeof value, "%s", p->paint);
@@ -140,7 +145,7 @@ static void names(const rg_painting *w, const rg_xml_node *n, rg_paint *p)
     }
 }
 
-int rg_paint_inherit(const rg_painting *w, const rg_xml_node *n, rg_paint *p)
+int rg_paint_inherit(rg_painting *w, const rg_xml_node *n, rg_paint *p)
 {
     char value[RG_CSS_VALUE];
     double own = 1;

@@ -31,7 +31,7 @@ typedef struct rg_paint {
 } rg_paint;
 
 /* What n is painted with, after what is around it. 0: it is not there at all. */
-int rg_paint_inherit(const rg_painting *w, const rg_xml_node *n, rg_paint *p);
+int rg_paint_inherit(rg_painting *w, const rg_xml_node *n, rg_paint *p);
 /* The colour's name, the same for all ways to write it. */
 const char *rg_paint_name(const rg_paint *p, char text[RG_CSS_VALUE]);
 /* What a line that is painted so stands for: as the user says, by its own data, by its colour; by a name where the

@@ -5,6 +5,9 @@
 #include <math.h>
 #include <string.h>
 
+/* What a pair costs beside its bytes. */
+enum { OF_PAIR = 16 };
+
 /* Without the blanks around it. */
 static rg_slice next_line(rg_pairs *p)
 {
@@ -32,7 +35,7 @@ rg_status rg_pairs_next(rg_pairs *p)
         return rg_fail(RG_EFORMAT, p->why, p->line, "group code \"%.*s\" is no whole number", RG_SHOWN(code));
     if (p->s >= p->end) return cut_short(p);
     p->value = next_line(p);
-    return RG_OK;
+    return rg_lines_go_on(p->out, code.n + p->value.n + OF_PAIR);
 }
 
 rg_status rg_pairs_whole(const rg_pairs *p, long *x)

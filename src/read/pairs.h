@@ -14,9 +14,10 @@ typedef struct rg_pairs {
     rg_slice value;
     int pending;   /* the last pair is to be read again */
     rg_diag *why;
+    rg_lines *out; /* whose stop is asked */
 } rg_pairs;
 
-/* On to the next pair. A file that just ends is refused: it says EOF where it ends. RG_EFORMAT. */
+/* On to the next pair. A file that just ends is refused: it says EOF where it ends. RG_EFORMAT, RG_ECANCELLED. */
 rg_status rg_pairs_next(rg_pairs *p);
 /* What the last value says. RG_EFORMAT: no whole number; no finite number. */
 rg_status rg_pairs_whole(const rg_pairs *p, long *x);

@@ -8,6 +8,9 @@ enum { MOST_DEEP = 4, MOST_PARTS = 32, MOST_ENCLOSED = 32 };
 /* Elements looked at for one selector and element: `a a a a x` in deep trees could be tried without end. */
 enum { MOST_TRIED = 20000 };
 enum { OF_TAG = 1, OF_CLASS = 1000, OF_ID = 1000000 }; /* no selector has a thousand of one kind */
+enum { MOST_WEIGHT = 1 << 28 };
+/* What looking at an element costs, beside the bytes of its attributes, and what counting it does. */
+enum { OF_LOOKING = 16, OF_COUNTING = 4 };
 
 /* One element's part of a selector, and how it hangs together with the part before it: ' ', '>', '+', '~'; 0: the
  * first. */
@@ -231,7 +234,7 @@ static int32_t weigh(const char *s, size_t n, int deep)
             simple q;
             const int32_t w = next(parts[k].s, parts[k].n, &i, &q) ? weigh_simple(&q, deep) : -1;
             if (w < 0) return -1;
-            sum += w;
+            sum = sum + w < MOST_WEIGHT ? sum + w : MOST_WEIGHT;
         }
     return count > 0 ? sum : -1;
 }
@@ -253,13 +256,14 @@ static int listed(const char *list, const char *word, size_t n)
     return 0;
 }
 
-static int matches_attribute(const simple *q, const rg_xml_node *node)
+static int matches_attribute(const simple *q, const rg_xml_node *node, int64_t *work)
 {
     attribute a;
     if (!read_attribute(q, &a)) return 0;
     const char *has = rg_xml_given(node, a.name);
     if (!has || !a.op) return has != NULL;
     const size_t n = strlen(has);
+    *work += (int64_t)n;
     switch (a.op) {
     case '=': return n == a.value_n && memcmp(has, a.value, n) == 0;
     case '~': return listed(has, a.value, a.value_n);
@@ -271,94 +275,107 @@ static int matches_attribute(const simple *q, const rg_xml_node *node)
     case '$': return a.value_n > 0 && n >= a.value_n && memcmp(has + n - a.value_n, a.value, a.value_n) == 0;
     default: break;
     }
-    for (size_t i = 0; a.value_n > 0 && i + a.value_n <= n; i++)
-        if (memcmp(has + i, a.value, a.value_n) == 0) return 1;
+    for (size_t i = 0; a.value_n > 0 && i + a.value_n <= n; i++) {
+        size_t same = 0;
+        while (same < a.value_n && has[i + same] == a.value[same]) same++;
+        if (same == a.value_n) return 1;
+        *work += (int64_t)same;
+    }
     return 0;
 }
 
 /* Its place among those beside it, from 1; of its own tag only, from the end. */
-static long place(const rg_xml_node *node, int of_type, int from_end)
+static long place(const rg_xml_node *node, int of_type, int from_end, int64_t *work)
 {
     long k = 1;
-    for (const rg_xml_node *c = node; (c = from_end ? rg_xml_next(c) : rg_xml_previous(c));)
+    for (const rg_xml_node *c = node; (c = from_end ? rg_xml_next(c) : rg_xml_previous(c));) {
         k += !of_type || strcmp(rg_xml_name(c), rg_xml_name(node)) == 0;
+        *work += OF_COUNTING;
+    }
     return k;
 }
 
-static int matches_place(const simple *q, const rg_xml_node *node)
+static int matches_place(const simple *q, const rg_xml_node *node, int64_t *work)
 {
     if (same(q->name, q->name_n, "root")) return !rg_xml_parent(node);
     const int of_type = q->name_n > 4 && memcmp(q->name + q->name_n - 4, "type", 4) == 0;
-    const int first = place(node, of_type, 0) == 1, last = place(node, of_type, 1) == 1;
+    const int first = place(node, of_type, 0, work) == 1, last = place(node, of_type, 1, work) == 1;
     return q->name[0] == 'f' ? first : q->name[0] == 'l' ? last : first && last;
 }
 
-static int matches_nth(const simple *q, const rg_xml_node *node)
+static int matches_nth(const simple *q, const rg_xml_node *node, int64_t *work)
 {
     long a, b;
     const int of_type = q->name_n > 4 && memcmp(q->name + q->name_n - 4, "type", 4) == 0;
     if (!progression(q->in, q->in_n, &a, &b)) return 0;
-    const long k = place(node, of_type, q->name_n > 8 && memcmp(q->name + 4, "last", 4) == 0) - b;
+    const long k = place(node, of_type, q->name_n > 8 && memcmp(q->name + 4, "last", 4) == 0, work) - b;
     return a == 0 ? k == 0 : k % a == 0 && k / a >= 0;
 }
 
-static int matches(const char *s, size_t n, const rg_xml_node *node);
+static int matches(const char *s, size_t n, const rg_xml_node *node, int64_t *work);
 
-static int matches_list(const simple *q, const rg_xml_node *node)
+static int matches_list(const simple *q, const rg_xml_node *node, int64_t *work)
 {
     int any = 0;
     for (size_t from = 0; from <= q->in_n && !any;) {
         const size_t length = rg_select_comma(q->in + from, q->in_n - from);
-        any = matches(q->in + from, length, node);
+        any = matches(q->in + from, length, node, work);
         from += length + 1;
     }
     return same(q->name, q->name_n, "not") ? !any : any;
 }
 
-static int matches_simple(const simple *q, const rg_xml_node *node)
+static int matches_simple(const simple *q, const rg_xml_node *node, int64_t *work)
 {
+    const char *name = q->kind == '.' ? "class" : q->kind == '#' ? "id" : "", *has = rg_xml_attribute(node, name);
+    *work += 2 * (int64_t)strlen(has); /* for its length, and for its words */
     switch (q->kind) {
     case 'e': return *q->name == '*' || same(q->name, q->name_n, rg_xml_name(node));
-    case '.': return listed(rg_xml_attribute(node, "class"), q->name, q->name_n);
-    case '#': return same(q->name, q->name_n, rg_xml_attribute(node, "id"));
-    case '[': return matches_attribute(q, node);
+    case '.': return listed(has, q->name, q->name_n);
+    case '#': return same(q->name, q->name_n, has);
+    case '[': return matches_attribute(q, node, work);
     case '!': return 0;
     default: break;
     }
-    if (q->in) return among(q, NTHS) ? matches_nth(q, node) : matches_list(q, node);
-    return among(q, PLACES) && matches_place(q, node);
+    if (q->in) return among(q, NTHS) ? matches_nth(q, node, work) : matches_list(q, node, work);
+    return among(q, PLACES) && matches_place(q, node, work);
 }
 
-static int matches_part(const part *p, const rg_xml_node *node)
+static int matches_part(const part *p, const rg_xml_node *node, int64_t *work)
 {
+    *work += OF_LOOKING + (int64_t)p->n;
     for (size_t i = 0; i < p->n;) {
         simple q;
-        if (!next(p->s, p->n, &i, &q) || !matches_simple(&q, node)) return 0;
+        if (!next(p->s, p->n, &i, &q) || !matches_simple(&q, node, work)) return 0;
     }
     return 1;
 }
 
 /* Whether parts 0 ... last hold, the last of them for that element: from there outwards and backwards. */
-static int holds(const part *parts, int last, const rg_xml_node *node, int *tried)
+static int holds(const part *parts, int last, const rg_xml_node *node, int *tried, int64_t *work)
 {
-    if (++*tried > MOST_TRIED || !matches_part(&parts[last], node)) return 0;
+    if (++*tried > MOST_TRIED || !matches_part(&parts[last], node, work)) return 0;
     if (last == 0) return 1;
     const char joint = parts[last].joint;
     const int up = joint == ' ' || joint == '>';
     const rg_xml_node *c = up ? rg_xml_parent(node) : rg_xml_previous(node);
     for (; c; c = up ? rg_xml_parent(c) : rg_xml_previous(c)) {
-        if (holds(parts, last - 1, c, tried)) return 1;
+        if (holds(parts, last - 1, c, tried, work)) return 1;
         if (joint == '>' || joint == '+') return 0;
     }
     return 0;
 }
 
-static int matches(const char *s, size_t n, const rg_xml_node *node)
+static int matches(const char *s, size_t n, const rg_xml_node *node, int64_t *work)
 {
     part parts[MOST_PARTS];
     const int count = split(s, n, parts);
     int tried = 0;
-    return count > 0 && holds(parts, count - 1, node, &tried);
+    *work += OF_LOOKING + (int64_t)n;
+    return count > 0 && holds(parts, count - 1, node, &tried, work);
 }
 
-int rg_select_matches(const char *s, size_t n, const rg_xml_node *node) { return matches(s, n, node); }
+int rg_select_matches(const char *s, size_t n, const rg_xml_node *node, int64_t *work)
+{
+    return matches(s, n, node, work);
+}

@@ -11,8 +11,9 @@
 
 /* How much a selector (no list) weighs against others; -1: not one that is understood. */
 int32_t rg_select_weigh(const char *s, size_t n);
-/* Whether it is one for that element. The selector is one that weighs. */
-int rg_select_matches(const char *s, size_t n, const rg_xml_node *node);
+/* Whether it is one for that element. The selector is one that weighs. *work grows by the bytes that are looked at, an
+ * element being worth some. */
+int rg_select_matches(const char *s, size_t n, const rg_xml_node *node, int64_t *work);
 /* Where the list of selectors s[0 ... n-1] has its first comma that stands in no bracket; n: nowhere. */
 size_t rg_select_comma(const char *s, size_t n);
 

@@ -16,8 +16,11 @@ static const double STRAIGHT = 1e-6;
 /* What <use> repeats is bounded in sum, counted about as its bytes, and so is how deep the elements stand in each
  * other. */
 enum { MOST_REPEATED = 1 << 24, OF_ELEMENT = 64, OF_SEGMENT = 16, MOST_NESTED = 512 };
-/* So many rules of style, or bytes of attributes, are looked through in the time of one byte of a path. */
-enum { RULES_A_BYTE = 1, OTHERS_A_BYTE = 8 };
+/* So many bytes of attributes are looked through in the time of one byte of a path. */
+enum { OTHERS_A_BYTE = 8 };
+
+/* What styles may cost for each element, beside what they may cost at all: whole drawings may be large. */
+enum { WORK_AN_ELEMENT = 4096, WORK_UNASKED = 1 << 20 };
 
 /* Strokes of no plain colour that are told by name. */
 enum { MOST_UNKNOWN = 16 };
@@ -33,7 +36,7 @@ typedef struct reader {
     rg_diag *why;
     rg_painting with;
     const chain *uses;
-    int64_t repeated;
+    int64_t repeated, asked_at; /* css.work, when it was asked last whether to go on */
     int depth;
     tally hidden, unpainted, rings, curves, unwanted, unknown[MOST_UNKNOWN];
 } reader;
@@ -58,13 +61,25 @@ static const char *skip(const char *s)
     return s;
 }
 
-/* The next number of a list; moves *s on. No list has longer numbers than this looks at. */
+/* The next number of a list; moves *s on. No more is looked at than it has characters, more or less: lists may be as
+ * long as the file. What ends that near to where it was looked at may go on: with an exponent, its sign and a digit. */
 static int next_number(const char **s, double *x)
 {
+    enum { LOOKED_AT = 500, EXPONENT = 3 };
+    size_t used, room = LOOKED_AT;
     *s = skip(*s);
-    const size_t used = rg_number_scan(*s, strnlen(*s, 500), x);
+    while ((used = rg_number_scan(*s, strnlen(*s, room), x)) + EXPONENT > room) room *= 2;
     *s += used;
     return used > 0;
+}
+
+/* A flag of an arc: one character, whatever stands behind it. */
+static int next_flag(const char **s, double *x)
+{
+    *s = skip(*s);
+    if (**s != '0' && **s != '1') return 0;
+    *x = *(*s)++ - '0';
+    return 1;
 }
 
 /* A number and its unit, in pixels; *metric: whether that unit is a length on paper. A percentage is one of `whole`. 0:
@@ -179,7 +194,8 @@ static rg_status segment(reader *r, const rg_xml_node *n, const rg_paint *p, rg_
     const char assignment = rg_paint_kind(&r->with, p, &kind), *colour = rg_paint_name(p, text);
     if (kind >= 0) r->out->kinds_used |= UINT64_C(1) << kind;
     rg_status s = rg_lines_trait(r->out, RG_BY_COLOUR, colour, strlen(colour), assignment);
-    if (s == RG_OK && p->layer) s = rg_lines_trait(r->out, RG_BY_LAYER, p->layer, strlen(p->layer), assignment);
+    if (s == RG_OK && p->layer)
+        s = rg_lines_trait(r->out, RG_BY_LAYER, p->layer, strnlen(p->layer, RG_TRAIT_ROOM), assignment);
     if (s == RG_OK) s = rg_lines_trait(r->out, RG_BY_DASH, p->dash, strlen(p->dash), assignment);
     if (assignment == RG_LEFT_OUT) return tell(&r->unwanted, n), s;
     if (!p->known && kind < 0 && !p->letter && !p->named) tell_unknown(r, n, p);
@@ -247,11 +263,12 @@ static rg_status polyline(reader *r, const rg_xml_node *n, const rg_paint *p, in
 
 /* ---------------------------------------------------------------------------------------------------- path ---- */
 
-/* Whether x lies on the chord from a to b, as far as one can see. */
+/* Whether x lies on the chord from a to b, as far as one can see; a curve back to where it began has none. */
 static int on_chord(rg_vec2 a, rg_vec2 b, rg_vec2 x)
 {
     const rg_vec2 d = rg_vec2_sub(b, a), r = rg_vec2_sub(x, a);
     const double square = rg_vec2_dot(d, d), along = rg_vec2_dot(d, r);
+    if (!(square > 0)) return r.x == 0 && r.y == 0;
     return fabs(rg_vec2_cross(d, r)) <= STRAIGHT * square && along >= -STRAIGHT * square &&
            along <= (1 + STRAIGHT) * square;
 }
@@ -302,8 +319,11 @@ static rg_status path(reader *r, const rg_xml_node *n, const rg_paint *p)
         const int count = numbers(command);
         double v[7];
         rg_vec2 to = start;
-        for (int i = 0; i < count; i++)
-            if (!next_number(&s, &v[i])) return fail(r, n, "path: a number is missing at", here);
+        for (int i = 0; i < count; i++) {
+            const int is_flag = (command | 32) == 'a' && (i == 3 || i == 4);
+            if (!(is_flag ? next_flag(&s, &v[i]) : next_number(&s, &v[i])))
+                return fail(r, n, "path: a number is missing at", here);
+        }
         const int bends = count > 0 && !lead(command, v, at, &to);
         if (bends && !cannot_fold(r, p))
             return fail(r, n, "a curve, where paper folds along straight lines only:", here);
@@ -341,11 +361,13 @@ static int is_shape(const rg_xml_node *n)
 }
 
 /* What is not seen: counted, so that it can be told. The parser bounds the depth. */
-static void tell_hidden(reader *r, const rg_xml_node *n)
+static rg_status tell_hidden(reader *r, const rg_xml_node *n)
 {
+    rg_status s = charge(r, n, OF_ELEMENT);
     if (is_shape(n)) tell(&r->hidden, n);
-    if (rg_xml_is(n, "defs") || rg_xml_is(n, "symbol")) return;
-    for (const rg_xml_node *c = rg_xml_child(n); c; c = rg_xml_next(c)) tell_hidden(r, c);
+    if (rg_xml_is(n, "defs") || rg_xml_is(n, "symbol")) return s;
+    for (const rg_xml_node *c = rg_xml_child(n); s == RG_OK && c; c = rg_xml_next(c)) s = tell_hidden(r, c);
+    return s;
 }
 
 static rg_status shape(reader *r, const rg_xml_node *n, const rg_paint *p)
@@ -482,15 +504,30 @@ static rg_status inside(reader *r, const rg_xml_node *n, const rg_paint *p)
     return s;
 }
 
+/* After an element was looked at. */
+static rg_status go_on(reader *r, const rg_xml_node *n)
+{
+    rg_css *css = &r->with.css;
+    if (css->work > css->most)
+        return rg_fail(RG_EFORMAT, r->why, rg_xml_line(n),
+                       "<%.20s>: its styles are too much to look through, with all rules, variables and gradients",
+                       rg_xml_name(n));
+    css->most += WORK_AN_ELEMENT;
+    if (css->work - r->asked_at < WORK_UNASKED) return RG_OK;
+    r->asked_at = css->work;
+    return rg_stop_asked(r->out->stop) ? RG_ECANCELLED : RG_OK;
+}
+
 /* An element in what is around it; `user`: the <use> that names it. */
 static rg_status element(reader *r, const rg_xml_node *n, rg_paint p, const rg_xml_node *user)
 {
     const char *name = rg_xml_name(n);
     const size_t path = strlen(rg_xml_attribute(n, "d")) + strlen(rg_xml_attribute(n, "points"));
-    const size_t style = rg_xml_attributes_size(n) / OTHERS_A_BYTE + (size_t)r->with.css.rules / RULES_A_BYTE;
-    rg_status s = charge(r, n, OF_ELEMENT + path + style);
+    rg_status s = charge(r, n, OF_ELEMENT + path + rg_xml_attributes_size(n) / OTHERS_A_BYTE);
     if (s != RG_OK) return s;
-    if (!rg_paint_inherit(&r->with, n, &p)) return tell_hidden(r, n), RG_OK;
+    const int is_there = rg_paint_inherit(&r->with, n, &p);
+    if ((s = go_on(r, n)) != RG_OK) return s;
+    if (!is_there) return tell_hidden(r, n);
     if (r->depth == MOST_NESTED) return fail(r, n, "nested too deep:", name);
     r->depth++;
     const int is_viewport = is(name, "svg") || (user && is(name, "symbol"));
@@ -596,6 +633,7 @@ rg_status rg_svg_read(const void *bytes, size_t size, const rg_memory *mem, cons
     rg_xml *doc = NULL;
     reader r = {.out = out, .why = why, .with = {.s = settings}};
     rg_lines_init(out, mem);
+    out->stop = stop;
     rg_css_init(&r.with.css, mem);
     out->merge = MERGE;
     out->y_down = 1;

@@ -4,11 +4,29 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_LAYERS = 4096 };
-
 /* ------------------------------------------------------------------------------------------------- layers ---- */
 
-rg_status rg_tables_read_layers(rg_tables *t, rg_pairs *p, const rg_memory *mem)
+/* Names are the same in small and capital letters; where both are there all the same, each is its own, and of two that
+ * are the same to the byte the later one counts: it comes first. */
+static int by_layer_name(const void *a, const void *b)
+{
+    const rg_layer_name *p = a, *q = b;
+    int order = rg_slice_compare(p->name, q->name);
+    if (!order && p->name.n) order = memcmp(p->name.s, q->name.s, p->name.n);
+    return order ? order : (p->layer < q->layer) - (p->layer > q->layer);
+}
+
+static rg_status sort_layers(rg_tables *t, const rg_memory *mem)
+{
+    if (t->layers == 0) return RG_OK;
+    const rg_status s = RG_MEM_GROW(mem, t->by_name, t->by_name_room, (size_t)t->layers);
+    if (s != RG_OK) return s;
+    for (int32_t i = 0; i < t->layers; i++) t->by_name[i] = (rg_layer_name){t->layer[i].name, i};
+    qsort(t->by_name, (size_t)t->layers, sizeof *t->by_name, by_layer_name);
+    return RG_OK;
+}
+
+static rg_status read_layers(rg_tables *t, rg_pairs *p, const rg_memory *mem)
 {
     rg_layer *l = NULL;
     for (rg_status s;;) {
@@ -16,7 +34,8 @@ rg_status rg_tables_read_layers(rg_tables *t, rg_pairs *p, const rg_memory *mem)
         if (p->code == 0) l = NULL;
         if (p->code == 0 && rg_slice_is(p->value, "ENDSEC")) return RG_OK;
         if (p->code == 0 && rg_slice_is(p->value, "EOF")) return p->pending = 1, RG_OK;
-        if (p->code == 0 && rg_slice_is(p->value, "LAYER") && t->layers < MOST_LAYERS) {
+        if (p->code == 0 && rg_slice_is(p->value, "LAYER")) {
+            if (t->layers == INT32_MAX) return RG_ENOMEM;
             s = RG_MEM_GROW(mem, t->layer, t->layer_room, (size_t)t->layers + 1);
             if (s != RG_OK) return s;
             l = &t->layer[t->layers++];
@@ -38,10 +57,24 @@ rg_status rg_tables_read_layers(rg_tables *t, rg_pairs *p, const rg_memory *mem)
     }
 }
 
+rg_status rg_tables_read_layers(rg_tables *t, rg_pairs *p, const rg_memory *mem)
+{
+    const rg_status s = read_layers(t, p, mem);
+    return s == RG_OK ? sort_layers(t, mem) : s;
+}
+
 rg_layer *rg_tables_layer(const rg_tables *t, rg_slice name)
 {
-    for (int32_t i = t->layers - 1; i >= 0; i--)
-        if (t->layer[i].name.n == name.n && memcmp(t->layer[i].name.s, name.s, name.n) == 0) return &t->layer[i];
+    const rg_layer_name key = {name, INT32_MAX};
+    int32_t low = 0, high = t->layers;
+    while (low < high) {
+        const int32_t middle = low + (high - low) / 2;
+        if (by_layer_name(&t->by_name[middle], &key) < 0) low = middle + 1;
+        else high = middle;
+    }
+    /* there, or else beside it, spelt in another way */
+    for (int32_t i = low; i >= 0 && i >= low - 1; i--)
+        if (i < t->layers && rg_slice_compare(t->by_name[i].name, name) == 0) return &t->layer[t->by_name[i].layer];
     return NULL;
 }
 
@@ -98,5 +131,5 @@ rg_status rg_tables_read_blocks(rg_tables *t, rg_pairs *p, const rg_memory *mem)
 
 void rg_tables_free(rg_tables *t, const rg_memory *mem)
 {
-    RG_MEM_FREE(mem, t->layer, t->block);
+    RG_MEM_FREE(mem, t->layer, t->by_name, t->block);
 }

@@ -17,6 +17,8 @@ typedef struct rg_layer {
     int32_t lines, where; /* the reader's: how many were left out, the first at `where` */
 } rg_layer;
 
+typedef struct rg_layer_name { rg_slice name; int32_t layer; } rg_layer_name;
+
 typedef struct rg_block {
     rg_slice name;
     rg_vec3 base;
@@ -28,6 +30,8 @@ typedef struct rg_tables {
     rg_layer *layer;
     int32_t layers;
     size_t layer_room;
+    rg_layer_name *by_name; /* sorted */
+    size_t by_name_room;
     rg_block *block; /* sorted by name */
     int32_t blocks;
     size_t block_room;
@@ -37,7 +41,7 @@ typedef struct rg_tables {
  * entities begin. Up to its end. RG_EFORMAT, RG_ENOMEM. */
 rg_status rg_tables_read_layers(rg_tables *t, rg_pairs *p, const rg_memory *mem);
 rg_status rg_tables_read_blocks(rg_tables *t, rg_pairs *p, const rg_memory *mem);
-/* NULL: there is none of that name. Names of blocks are the same in small and capital letters. */
+/* NULL: there is none of that name. Names are the same in small and capital letters. */
 rg_layer *rg_tables_layer(const rg_tables *t, rg_slice name);
 const rg_block *rg_tables_block(const rg_tables *t, rg_slice name);
 void rg_tables_free(rg_tables *t, const rg_memory *mem);

@@ -257,4 +257,6 @@ rg_value *rg_value_overlay(const rg_value *parent, const rg_value *child)
     return v;
 }
 
+int rg_value_add(rg_value *v, const rg_value *other) { return json_object_update(v, (json_t *)other) == 0; }
+size_t rg_value_keys(const rg_value *v) { return json_object_size(v); }
 void rg_value_drop(rg_value *v, const char *key) { json_object_del(v, key); }

@@ -45,6 +45,10 @@ const rg_value *rg_value_under(const void *k);
 /* A new object with all of `parent` (an object or NULL) and over it all of `child`; values are shared. NULL: no
  * memory. */
 rg_value *rg_value_overlay(const rg_value *parent, const rg_value *child);
+/* All of another object is put into one, over what is there; values are shared. 0: no memory. */
+int rg_value_add(rg_value *v, const rg_value *other);
+/* How many an object has. */
+size_t rg_value_keys(const rg_value *v);
 /* Takes a key out of an object. */
 void rg_value_drop(rg_value *v, const char *key);
 

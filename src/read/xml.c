@@ -12,12 +12,95 @@
 /* Elements that are read before it is asked again whether to go on: a few milliseconds. */
 enum { ELEMENTS_UNASKED = 2000 };
 
+/* Bytes that entities may open into, all together: a small file could stand for gigabytes. */
+enum { MOST_OPENED = 1 << 24 };
+
 /* What the parser hands on to the functions below. */
 typedef struct asked {
-    int document_type; /* the line it is declared at */
+    const char *refusal; /* NULL: the file is not refused */
+    int refused_at;      /* line */
+    size_t opened;
     const rg_stop *stop;
-    int unasked, is_stopped;
+    int unasked, is_stopped, is_short; /* of memory */
 } asked;
+
+static void refuse(xmlParserCtxt *parser, const char *why)
+{
+    asked *q = parser->_private;
+    if (!q->refusal) q->refusal = why, q->refused_at = parser->input ? parser->input->line : 1;
+    xmlStopParser(parser);
+}
+
+/* ------------------------------------------------------------------------------------------------ entities ---- */
+
+/* The parser leaves references to entities where they stand, and opens none. Those that the file itself declares as
+ * plain text are opened here: programs keep styles in them. With others, a value would not be what the file says. */
+
+/* NULL: it is no plain text. */
+static const xmlChar *text_of(const xmlDoc *doc, const xmlChar *name)
+{
+    const xmlEntity *e = xmlGetDocEntity(doc, name);
+    const int is_text = e && e->etype == XML_INTERNAL_GENERAL_ENTITY && e->content;
+    return is_text && !strpbrk((const char *)e->content, "&<") ? e->content : NULL;
+}
+
+/* 0: it is too much. */
+static int count_opened(xmlParserCtxt *parser, size_t n)
+{
+    asked *q = parser->_private;
+    q->opened += n;
+    if (q->opened > MOST_OPENED) refuse(parser, "entities open into more text than any drawing has");
+    return q->opened <= MOST_OPENED;
+}
+
+/* The value of an attribute becomes one text. */
+static void open_value(xmlParserCtxt *parser, xmlAttr *a)
+{
+    size_t n = 0, at = 0;
+    for (const xmlNode *c = a->children; c; c = c->next) {
+        const xmlChar *text = c->type == XML_ENTITY_REF_NODE ? text_of(parser->myDoc, c->name) : c->content;
+        if (!text && c->type == XML_ENTITY_REF_NODE) {
+            refuse(parser, "an entity in a value that is no plain text declared in the file");
+            return;
+        }
+        n += text ? strlen((const char *)text) : 0;
+    }
+    if (!count_opened(parser, n)) return;
+    xmlChar *all = xmlMalloc(n + 1);
+    for (const xmlNode *c = a->children; all && c; c = c->next) {
+        const xmlChar *text = c->type == XML_ENTITY_REF_NODE ? text_of(parser->myDoc, c->name) : c->content;
+        const size_t bytes = text ? strlen((const char *)text) : 0;
+        if (bytes) memcpy(all + at, text, bytes);
+        at += bytes;
+    }
+    xmlNode *one = all ? xmlNewDocTextLen(parser->myDoc, all, (int)n) : NULL;
+    xmlFree(all);
+    if (!one) {
+        ((asked *)parser->_private)->is_short = 1;
+        xmlStopParser(parser);
+        return;
+    }
+    xmlFreeNodeList(a->children);
+    a->children = a->last = one;
+    one->parent = (xmlNode *)a;
+}
+
+/* Outside of values. In other texts than styles nothing is looked for but words for people. */
+static void open_reference(void *ctx, const xmlChar *name)
+{
+    xmlParserCtxt *parser = ctx;
+    const xmlChar *text = text_of(parser->myDoc, name);
+    const xmlEntity *e = xmlGetDocEntity(parser->myDoc, name);
+    const int is_style = parser->node && xmlStrcmp(parser->node->name, (const xmlChar *)"style") == 0;
+    if (text) {
+        const size_t n = strlen((const char *)text);
+        if (count_opened(parser, n)) xmlSAX2Characters(ctx, text, (int)n);
+    } else if (is_style || (e && e->content)) {
+        refuse(parser, "an entity that is no plain text declared in the file");
+    }
+}
+
+/* ------------------------------------------------------------------------------------------------ elements ---- */
 
 /* libxml2's own number of a line ends at 65535. */
 static void start_element(void *ctx, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri, int namespaces,
@@ -26,6 +109,8 @@ static void start_element(void *ctx, const xmlChar *name, const xmlChar *prefix,
     xmlParserCtxt *parser = ctx;
     xmlSAX2StartElementNs(ctx, name, prefix, uri, namespaces, namespace, attributes, defaulted, values);
     if (parser->node && parser->input) parser->node->_private = (void *)(intptr_t)parser->input->line;
+    for (xmlAttr *a = parser->node ? parser->node->properties : NULL; a; a = a->next)
+        if (a->children && (a->children->next || a->children->type != XML_TEXT_NODE)) open_value(parser, a);
     asked *q = parser->_private;
     if (++q->unasked < ELEMENTS_UNASKED) return;
     q->unasked = 0;
@@ -35,26 +120,27 @@ static void start_element(void *ctx, const xmlChar *name, const xmlChar *prefix,
 /* Entities that open into gigabytes, files from elsewhere: where no document type is usual, its line is enough. */
 static void refuse_document_type(void *ctx, const xmlChar *name, const xmlChar *public_id, const xmlChar *system_id)
 {
-    xmlParserCtxt *parser = ctx;
-    asked *q = parser->_private;
     (void)name, (void)public_id, (void)system_id;
-    q->document_type = parser->input ? parser->input->line : 1;
-    xmlStopParser(parser);
+    refuse(ctx, "a document type is declared: no ORIPA file has one");
 }
 
 /* Want of memory is not always told to the parser that it happens to, but to the thread; with nobody there, it is
- * printed. */
+ * printed. A text beyond the parser's limit of ten megabytes is told in the same way, though by other words. */
+typedef struct heard { int none_left, long_text; } heard; /* long_text: its line */
+
 #if LIBXML_VERSION >= 21200
 static void note_memory(void *ctx, const xmlError *e)
 #else
 static void note_memory(void *ctx, xmlError *e)
 #endif
 {
-    int *none_left = ctx;
-    if (e->code == XML_ERR_NO_MEMORY) *none_left = 1;
+    heard *h = ctx;
+    if (e->code != XML_ERR_NO_MEMORY) return;
+    if (e->message && strstr(e->message, "huge text")) h->long_text = e->line > 0 ? e->line : 1;
+    else h->none_left = 1;
 }
 
-static rg_status parse(const void *bytes, size_t size, rg_xml_type type, const rg_stop *stop, const int *none_left,
+static rg_status parse(const void *bytes, size_t size, rg_xml_type type, const rg_stop *stop, const heard *h,
                        rg_xml **doc, rg_diag *why)
 {
     xmlParserCtxt *parser = xmlNewParserCtxt();
@@ -63,17 +149,20 @@ static rg_status parse(const void *bytes, size_t size, rg_xml_type type, const r
     parser->_private = &q;
     if (type == RG_XML_NO_TYPE) parser->sax->internalSubset = refuse_document_type;
     parser->sax->startElementNs = start_element;
+    parser->sax->reference = open_reference;
     parser->sax->comment = NULL; /* so that a text is one node, whatever stands in it */
     parser->sax->processingInstruction = NULL;
     const int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_NOCDATA;
     xmlDoc *read = xmlCtxtReadMemory(parser, bytes, (int)size, NULL, NULL, options);
     rg_status s = RG_OK;
-    if (*none_left) {
+    if (h->none_left || q.is_short) {
         s = RG_ENOMEM;
     } else if (q.is_stopped) {
         s = RG_ECANCELLED;
-    } else if (q.document_type) {
-        s = rg_fail(RG_EFORMAT, why, q.document_type, "a document type is declared: no ORIPA file has one");
+    } else if (q.refusal) {
+        s = rg_fail(RG_EFORMAT, why, q.refused_at, "%s", q.refusal);
+    } else if (h->long_text) {
+        s = rg_fail(RG_EFORMAT, why, h->long_text, "a text of more than ten megabytes");
     } else if (!read) {
         const xmlError *e = xmlCtxtGetLastError(parser);
         const int n = e && e->message ? (int)strcspn(e->message, "\n") : 0;
@@ -93,11 +182,11 @@ rg_status rg_xml_parse(const void *bytes, size_t size, rg_xml_type type, const r
 {
     if (size == 0) return rg_fail(RG_EFORMAT, why, 0, "the file is empty");
     if (size > INT_MAX) return rg_fail(RG_EFORMAT, why, 0, "the file is larger than 2 GB");
-    int none_left = 0;
+    heard h = {0, 0};
     const xmlStructuredErrorFunc listener = xmlStructuredError;
     void *his = xmlStructuredErrorContext;
-    xmlSetStructuredErrorFunc(&none_left, note_memory);
-    const rg_status s = parse(bytes, size, type, stop, &none_left, doc, why);
+    xmlSetStructuredErrorFunc(&h, note_memory);
+    const rg_status s = parse(bytes, size, type, stop, &h, doc, why);
     xmlSetStructuredErrorFunc(his, listener);
     return s;
 }
@@ -143,7 +232,7 @@ const char *rg_xml_name(const rg_xml_node *n) { return n->name ? (const char *)n
 
 int rg_xml_line(const rg_xml_node *n) { return (int)(intptr_t)n->_private; }
 
-/* Entities are not expanded, so that a value is one text node in all that is read here. */
+/* A value is one text, with what entities in it stand for. */
 size_t rg_xml_attributes_size(const rg_xml_node *n)
 {
     size_t size = 0;

@@ -1,8 +1,9 @@
 /* xml.h -- an XML file as a tree of elements.
  * Uses  libxml2        Used by  css.c ids.c opx.c select.c
  *
- * Loads nothing from anywhere and expands no entities; depth and length of names are bounded by the parser, the rest by
- * the size of the input. */
+ * Loads nothing from anywhere. Of entities only plain text that the file itself declares is opened, and in sum no more
+ * than 16 MB; other ones are refused where what they stand for would matter. Depth and length of names are bounded by
+ * the parser, the rest by the size of the input. */
 #ifndef RG_XML_H
 #define RG_XML_H
 

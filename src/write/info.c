@@ -202,9 +202,10 @@ static const char *plural(int32_t n, const char *one, const char *more) { return
 
 static void title(const rg_pattern_info *i, FILE *out)
 {
-    if (*i->title) rg_text_to(out, "%s", i->title);
+    rg_text_shown(out, i->title);
     if (*i->title && *i->author) rg_text_to(out, ", ");
-    if (*i->author) rg_text_to(out, "by %s", i->author);
+    if (*i->author) rg_text_to(out, "by ");
+    rg_text_shown(out, i->author);
     if (*i->title || *i->author) fputc('\n', out);
 }
 
@@ -392,9 +393,10 @@ static void traits(const rg_pattern *p, FILE *out)
         int n = 0;
         for (int32_t k = 0; k < p->lines.traits; k++) {
             const rg_trait *t = &p->lines.trait[k];
-            if ((int)t->sort == sort)
-                rg_text_to(out, "%s%s: %d %s", n++ ? ", " : names[sort], t->name, (int)t->count,
-                           letter_name(t->assignment));
+            if ((int)t->sort != sort) continue;
+            rg_text_to(out, "%s", n++ ? ", " : names[sort]);
+            rg_text_shown(out, t->name);
+            rg_text_to(out, ": %d %s", (int)t->count, letter_name(t->assignment));
         }
         if (n) fputc('\n', out);
     }
