@@ -268,6 +268,36 @@ static void what_is_shown_moves_no_cursor(void **state)
     }
 }
 
+/* Frames in which the sheet is a point were drawn with a row of points without an end; such as are larger than any sheet took
+ * all memory, or left numbers that are none. */
+static void frames_have_a_size(void **state)
+{
+    (void)state;
+    static const struct { const char *name, *words; } tries[] = {
+        {"one-point.fold", NULL}, {"large-frame.fold", "1e+12 times as large"}, {"largest-frame.fold", "too large to compute with"}};
+    for (int k = 0; k < 3; k++) {
+        char path[80], folder[] = "/tmp/rigami-bad-XXXXXX", out[60];
+        const rg_reading r = rg_reading_default();
+        rg_motion *m = NULL;
+        rg_diag why = {0, ""};
+        snprintf(path, sizeof path, "%s/%s", FOLDER, tries[k].name);
+        const rg_status s = rg_motion_read(path, &r, &m, &why);
+        if (tries[k].words) {
+            assert_int_equal(s, RG_EFORMAT);
+            if (!strstr(why.text, tries[k].words)) fail_msg("%s: %s", path, why.text);
+            one_line(&why, path);
+            continue;
+        }
+        assert_int_equal(s, RG_OK);
+        assert_non_null(mkdtemp(folder));
+        snprintf(out, sizeof out, "%s/x.html", folder);
+        assert_int_equal(rg_motion_write(m, out, NULL, &why), RG_OK);
+        unlink(out);
+        rmdir(folder);
+        rg_motion_destroy(m);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -285,6 +315,7 @@ int main(void)
         cmocka_unit_test(numbers_of_drawings_are_whole),
         cmocka_unit_test(lines_have_the_colour_of_what_they_are_in),
         cmocka_unit_test(what_is_shown_moves_no_cursor),
+        cmocka_unit_test(frames_have_a_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

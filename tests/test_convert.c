@@ -381,6 +381,20 @@ static void extras(void **state)
     free(now);
 }
 
+/* Two lines that cross are four edges, and two that lie on others none: as many as before, and yet others. */
+static void as_many_edges_are_not_the_same(void **state)
+{
+    (void)state;
+    write_text("e.fold", "{\"vertices_coords\":[[0,0],[4,0],[4,4],[0,4]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0],[0,2],[1,3],[0,2],[3,1]],"
+               "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"M\",\"V\",\"M\",\"V\"],\"edges_a:name\":[1,2,3,4,5,6,7,8]}");
+    const told t = convert(at("e.fold"), at("e2.fold"), NULL);
+    char *now = load(at("e2.fold"));
+    assert_null(strstr(now, "edges_a:name"));
+    assert_non_null(strstr(now, "\"rigami:edges_source\": [0, 1, 2, 3, 4, 4, 5, 5]"));
+    assert_true(heard(&t, "1 keys"));
+    free(now);
+}
+
 /* Ends that miss each other: kept apart to the last digit, unless asked, or where the format is drawn roughly. */
 static void gaps(void **state)
 {
@@ -578,7 +592,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(formats_keep_what_they_can), cmocka_unit_test(losses_are_told), cmocka_unit_test(a_chain_of_all_formats),
-        cmocka_unit_test(faces), cmocka_unit_test(extras), cmocka_unit_test(gaps), cmocka_unit_test(files_are_whole_or_not_there),
+        cmocka_unit_test(faces), cmocka_unit_test(extras), cmocka_unit_test(as_many_edges_are_not_the_same), cmocka_unit_test(gaps), cmocka_unit_test(files_are_whole_or_not_there),
         cmocka_unit_test(what_is_written_can_be_read),
         cmocka_unit_test(few_degrees_stay_degrees), cmocka_unit_test(long_texts_are_cut), cmocka_unit_test(memory_runs_short)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

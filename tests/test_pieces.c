@@ -209,11 +209,30 @@ static void numbers_stay(void **state)
     rg_pattern_destroy(p);
 }
 
+/* Squares in squares, the inmost first: each asked all others, and those what lies around them. */
+static void many_parts_in_each_other(void **state)
+{
+    (void)state;
+    enum { SQUARES = 10000 };
+    rg_lines l = drawing();
+    rg_reading s = rg_reading_default();
+    for (int i = 1; i <= SQUARES; i++) draw_box(&l, -i, -i, i, i);
+    draw_box(&l, 2 * SQUARES, 0, 2 * SQUARES + 9, 9);
+    s.merge = 1e-7;
+    rg_pattern *p = pattern_with(&l, &s);
+    const rg_piece *piece;
+    assert_int_equal(rg_pattern_pieces(p, &piece), 2);
+    assert_int_equal(piece[0].lines, 4 * SQUARES);
+    assert_int_equal(piece[1].lines, 4);
+    near(piece[0].high[0], SQUARES, 0);
+    rg_pattern_destroy(p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(one_of_several), cmocka_unit_test(loose_ends), cmocka_unit_test(slits_are_counted),
                                        cmocka_unit_test(numbers_stay),
                                        cmocka_unit_test(size_is_that_of_the_sheet_taken), cmocka_unit_test(doubles_are_told_where_they_begin),
-                                       cmocka_unit_test(more_doubles_are_counted)};
+                                       cmocka_unit_test(more_doubles_are_counted), cmocka_unit_test(many_parts_in_each_other)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -133,11 +133,19 @@ static rg_status letter_edges(plane *p, const rg_memory *mem)
 /* ----------------------------------------------------------------------------------------- numbers of the old frame
  * ---- */
 
+/* Whether each line is an edge: where some are cut and as many lie on others, they are as many as they were, too. */
+static int lines_are_edges(const plane *p, const rg_lines *l)
+{
+    int same = l->vertex && p->g.ne == l->count;
+    for (int32_t e = 0; same && e < p->g.ne; e++) same = p->g.E[e].line == e;
+    return same;
+}
+
 /* The number that each vertex had; 0: they were others. */
 static int old_numbers(const plane *p, const rg_lines *l, int32_t *old)
 {
     const size_t were = rg_value_count(rg_value_get(l->frame, "vertices_coords"));
-    if (!l->vertex || p->g.ne != l->count || were != (size_t)p->g.nv) return 0;
+    if (!lines_are_edges(p, l) || were != (size_t)p->g.nv) return 0;
     for (int32_t v = 0; v < p->g.nv; v++) old[v] = -1;
     for (int32_t e = 0; e < p->g.ne; e++)
         for (int i = 0; i < 2; i++) {
@@ -158,13 +166,13 @@ static rg_status number(plane *p, const rg_lines *l)
                                 RG_ARRAY(old, (size_t)p->g.nv), RG_ARRAY(taken, (size_t)p->g.nv));
     if (s == RG_OK) {
         int same = old_numbers(p, l, old);
-        for (int32_t v = 0; same && v < p->g.nv; v++) same = !taken[old[v]]++;
+        for (int32_t v = 0; same && v < p->g.nv; v++) same = old[v] >= 0 && !taken[old[v]]++;
         for (int32_t v = 0; !same && v < p->g.nv; v++) old[v] = v;
         for (int32_t v = 0; v < p->g.nv; v++) p->X[old[v]] = p->g.X[v];
         for (int32_t i = 0; i < 2 * p->g.ne; i++) p->E[i] = old[p->g.E[i / 2].v[i % 2]];
         for (int32_t i = 0; i < p->face_start[p->sheet.nf]; i++) p->face_vertex[i] = old[p->face_vertex[i]];
         p->sheet.same_vertices = same;
-        p->sheet.same_edges = l->vertex && p->g.ne == l->count &&
+        p->sheet.same_edges = lines_are_edges(p, l) &&
                               rg_value_count(rg_value_get(l->frame, "edges_vertices")) == (size_t)p->g.ne;
     }
     RG_MEM_FREE(mem, old, taken);

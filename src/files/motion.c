@@ -17,6 +17,8 @@
 
 /* Positions that plates do not reach by this part of the size are kept: single precision is that good. */
 static const double RIGID = 1e-6;
+/* Sheets that stretch do so by less: what is so many times as long, or as large, is no sheet any more. */
+static const double MOST_STRETCHED = 10;
 /* A facet that moves less than this part of the size all the way stays where it is. */
 static const double AT_REST = 1e-9;
 
@@ -79,10 +81,36 @@ static rg_status positions(const given *g, int32_t k, rg_vec3 *x)
         if (!good)
             return rg_fail(RG_EFORMAT, g->why, 0, "file_frames[%d].vertices_coords[%d]: not two or three numbers",
                            (int)g->frame[k], (int)m->source.vertex[v]);
+        if (!(fmax(fabs(q[0]), fmax(fabs(q[1]), fabs(q[2]))) <= RG_LARGEST_COORDINATE))
+            return rg_fail(RG_EFORMAT, g->why, 0,
+                           "file_frames[%d].vertices_coords[%d]: a coordinate is too large to compute with",
+                           (int)g->frame[k], (int)m->source.vertex[v]);
         /* A file that draws downwards is turned over, as its pattern was: half a turn about x. */
         x[v] = m->source.y_down ? (rg_vec3){q[0], -q[1], -q[2]} : (rg_vec3){q[0], q[1], q[2]};
     }
     return RG_OK;
+}
+
+static double area_of(const rg_mesh *m, int32_t f, const rg_vec3 *x)
+{
+    const int32_t *v = m->facet_vertex + m->facet_start[f], n = m->facet_start[f + 1] - m->facet_start[f];
+    double area = 0;
+    for (int32_t k = 1; k + 1 < n; k++)
+        area += rg_vec3_length(rg_vec3_cross(rg_vec3_sub(x[v[k]], x[v[0]]), rg_vec3_sub(x[v[k + 1]], x[v[0]]))) / 2;
+    return area;
+}
+
+static rg_status check_size(const given *g, int32_t k, const rg_vec3 *x)
+{
+    const rg_mesh *m = &g->m->mesh;
+    double far = 0, area = 0, flat = 0;
+    for (int32_t v = 1; v < m->nv; v++) far = fmax(far, rg_vec3_length(rg_vec3_sub(x[v], x[0])));
+    for (int32_t f = 0; f < m->nf; f++) area += area_of(m, f, x), flat += rg_mesh_twice_area(m, f, m->X) / 2;
+    const double times = fmax(far / m->size, area / flat);
+    if (times <= MOST_STRETCHED || g->frame[k] < 0) return RG_OK;
+    return rg_fail(RG_EFORMAT, g->why, 0,
+                   "file_frames[%d].vertices_coords: %.3g times as large as the crease pattern: no motion of that sheet",
+                   (int)g->frame[k], times);
 }
 
 /* Where creases were adjusted, the pattern of the frame. */
@@ -100,8 +128,10 @@ static rg_status pattern_of(given *g, int32_t k)
     for (int32_t v = 0; v < m->mesh.nv; v++) {
         const rg_value *row = rg_value_at(list, (size_t)m->source.vertex[v]);
         rg_vec2 q;
-        if (!rg_value_number(rg_value_at(row, 0), &q.x) || !rg_value_number(rg_value_at(row, 1), &q.y))
-            return rg_fail(RG_EFORMAT, g->why, 0, "file_frames[%d].rigami:vertices_flatCoords: not two numbers",
+        if (!rg_value_number(rg_value_at(row, 0), &q.x) || !rg_value_number(rg_value_at(row, 1), &q.y) ||
+            !(fmax(fabs(q.x), fabs(q.y)) <= RG_LARGEST_COORDINATE))
+            return rg_fail(RG_EFORMAT, g->why, 0,
+                           "file_frames[%d].rigami:vertices_flatCoords: not two numbers to compute with",
                            (int)g->frame[k]);
         m->flat[(size_t)k * nv + (size_t)v] = q;
     }
@@ -120,6 +150,7 @@ static rg_status read_frames(given *g)
         rg_vec3 *x = m->space + (size_t)k * nv;
         double *rho = m->rho + (size_t)k * N;
         s = positions(g, k, x);
+        if (s == RG_OK) s = check_size(g, k, x);
         if (s == RG_OK) s = pattern_of(g, k);
         if (s != RG_OK) break;
         rg_lie_angles(&m->mesh, x, k ? rho - N : NULL, normal, rho);

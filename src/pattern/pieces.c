@@ -3,6 +3,7 @@
 #include "base/status.h"
 #include "pattern/faces.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* What hangs together, by the lowest of its vertices. */
@@ -10,6 +11,7 @@ typedef struct part {
     int32_t lowest;
     int32_t outside; /* a half-edge of its outer border; -1: it has none */
     int32_t sheet;   /* the piece that it belongs to, from 0; -1: none */
+    int32_t around;  /* the part around it that lies in no other; itself: there is none */
     rg_vec2 low, high;
     double area;
 } part;
@@ -52,7 +54,7 @@ static rg_status find_parts(drawing *d)
         const int is_first = d->of[v] == v;
         d->of[v] = is_first ? parts++ : d->of[d->of[v]];
         part *p = &d->part[d->of[v]];
-        if (is_first) *p = (part){v, -1, -1, g->X[v], g->X[v], 0};
+        if (is_first) *p = (part){v, -1, -1, d->of[v], g->X[v], g->X[v], 0};
         p->low = (rg_vec2){fmin(p->low.x, g->X[v].x), fmin(p->low.y, g->X[v].y)};
         p->high = (rg_vec2){fmax(p->high.x, g->X[v].x), fmax(p->high.y, g->X[v].y)};
     }
@@ -64,38 +66,45 @@ static rg_status find_parts(drawing *d)
     return RG_OK;
 }
 
-/* The part around part k that lies in no other; itself: there is none. */
-static int32_t outmost(const drawing *d, const int32_t *parts, int32_t count, int32_t k)
+typedef struct sized { double area; int32_t k; } sized;
+
+static int by_area(const void *a, const void *b)
 {
-    for (int32_t i = 0; i < count; i++) {
-        const part *q = &d->part[parts[i]];
-        const part *own = &d->part[k];
-        if (parts[i] == k || !(q->area < own->area) || !encloses(d, q, d->g->X[own->lowest])) continue;
-        int inside = 0;
-        for (int32_t j = 0; j < count && !inside; j++) {
-            const part *other = &d->part[parts[j]];
-            inside = parts[j] != parts[i] && other->area < q->area && encloses(d, other, d->g->X[q->lowest]);
+    const sized *p = a, *q = b;
+    return p->area != q->area ? (p->area < q->area ? -1 : 1) : (p->k > q->k) - (p->k < q->k);
+}
+
+/* The largest come first: what is around a part is known before it, and is asked of the outmost ones only. */
+static rg_status find_outmost(drawing *d)
+{
+    sized *all;
+    int32_t *outmost, count = 0;
+    const rg_status s = RG_MEM_ARRAYS(&d->g->mem, RG_ARRAY(all, (size_t)d->parts), RG_ARRAY(outmost, (size_t)d->parts));
+    for (int32_t k = 0; s == RG_OK && k < d->parts; k++) all[k] = (sized){d->part[k].area, k};
+    if (s == RG_OK && d->parts > 0) qsort(all, (size_t)d->parts, sizeof *all, by_area);
+    for (int32_t n = 0; s == RG_OK && n < d->parts; n++) {
+        part *own = &d->part[all[n].k];
+        for (int32_t i = 0; own->around == all[n].k && i < count; i++) {
+            const part *q = &d->part[outmost[i]];
+            if (q->area < own->area && encloses(d, q, d->g->X[own->lowest])) own->around = outmost[i];
         }
-        if (!inside) return parts[i];
+        if (own->around == all[n].k && own->outside >= 0) outmost[count++] = all[n].k;
     }
-    return k;
+    RG_MEM_FREE(&d->g->mem, all, outmost);
+    return s;
 }
 
 /* Sheets are numbered as their first lines come in the file. */
 static rg_status number(drawing *d, const rg_lines *lines, rg_piece **piece, int32_t *pieces)
 {
     const rg_graph *g = d->g;
-    int32_t count = 0;
     size_t room = 0;
-    int32_t *parts = rg_mem_array(&g->mem, (size_t)d->parts, sizeof *parts);
-    rg_status s = parts ? RG_OK : RG_ENOMEM;
-    for (int32_t k = 0; s == RG_OK && k < d->parts; k++)
-        if (d->part[k].outside >= 0) parts[count++] = k;
+    rg_status s = RG_OK;
     for (int32_t e = 0; s == RG_OK && e < g->ne; e++) {
         const int32_t k = d->of[g->E[e].v[0]];
         part *own = &d->part[k];
         if (own->sheet < 0) {
-            part *p = &d->part[outmost(d, parts, count, k)];
+            part *p = &d->part[own->around];
             if (p->outside >= 0 && p->sheet < 0) {
                 s = RG_MEM_GROW(&g->mem, *piece, room, (size_t)*pieces + 1);
                 if (s != RG_OK) break;
@@ -107,7 +116,6 @@ static rg_status number(drawing *d, const rg_lines *lines, rg_piece **piece, int
         }
         if (own->sheet >= 0) (*piece)[own->sheet].lines++;
     }
-    rg_mem_free(&g->mem, parts);
     return s;
 }
 
@@ -137,6 +145,7 @@ rg_status rg_pieces_find(rg_graph *g, const rg_lines *lines, int32_t take, rg_wa
     rg_status s = RG_MEM_ARRAYS(&g->mem, RG_ARRAY(d.of, (size_t)g->nv));
     if (s == RG_OK) s = rg_walk_make(walk, &g->mem, g->nv, g->ne, g->X, g->E);
     if (s == RG_OK) s = find_parts(&d);
+    if (s == RG_OK) s = find_outmost(&d);
     if (s == RG_OK) s = number(&d, lines, piece, pieces);
     if (s == RG_OK && take > *pieces)
         s = rg_fail(RG_EARG, why, 0, "there is no sheet %d: the drawing has %d", (int)take, (int)*pieces);

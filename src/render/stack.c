@@ -69,7 +69,7 @@ static rg_status add_triangle(rg_stack *s, int32_t f, const rg_vec2 p[3])
     for (double row = ceil(low / s->spacing); row <= floor(high / s->spacing); row++) {
         double first, last;
         span(e, row * s->spacing, s->spacing, &first, &last);
-        if (!(last >= first)) continue;
+        if (!(last >= first) || !isfinite(last - first)) continue; /* three corners in one point bound nothing */
         const size_t need = (size_t)s->samples + (size_t)(last - first) + 1;
         if (need > INT32_MAX) return RG_ENOMEM;
         const rg_status ok = RG_MEM_GROW(&s->mem, s->sample, s->sample_room, need);
