@@ -614,6 +614,23 @@ static void driven_and_ended(void **state)
     }
 }
 
+/* A search that goes on with other ways, unfolding among them, tells no less than it did. */
+static void what_is_told_rises(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("frog", 0);
+    rg_settings s = rg_settings_default();
+    patience q = {0, 0, 0};
+    rg_motion *m = NULL;
+    s.frames = 5;
+    assert_int_equal(rg_motion_create(p, &s, lose_patience, &q, &m, NULL), RG_OK);
+    assert_string_equal(rg_motion_report(m)->rung, "unfolded without contact");
+    assert_int_equal(q.fell, 0);
+    near(q.last, 1, 0);
+    rg_motion_destroy(m);
+    rg_pattern_destroy(p);
+}
+
 /* What is lent of a state is that of the frame that it is. */
 static void positions_and_transforms(void **state)
 {
@@ -899,7 +916,7 @@ int main(void)
         cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames), cmocka_unit_test(frames_do_not_matter), cmocka_unit_test(to_and_fro), cmocka_unit_test(forgotten_on_the_way), cmocka_unit_test(flat_paper_to_its_end), cmocka_unit_test(not_by_a_whole_turn),
         cmocka_unit_test(kept_states), cmocka_unit_test(positions_and_transforms), cmocka_unit_test(recorded),
         cmocka_unit_test(records_are_verified), cmocka_unit_test(restored_to_before_it_was_steered),
-        cmocka_unit_test(nothing_to_fold), cmocka_unit_test(sent_to_where_it_is), cmocka_unit_test(driven_and_ended),
+        cmocka_unit_test(nothing_to_fold), cmocka_unit_test(sent_to_where_it_is), cmocka_unit_test(driven_and_ended), cmocka_unit_test(what_is_told_rises),
         cmocka_unit_test(steps_ask_for_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,8 +25,8 @@ static void draw(progress *p, double now)
     char bar[BAR + 1] = "", left[60] = "";
     memset(bar, '#', (size_t)full);
     memset(bar + full, '.', (size_t)(BAR - full));
-    /* What a search still takes, nobody knows. */
-    if (p->tries) snprintf(left, sizeof left, ", looking for another way: try %d", p->tries + 1);
+    /* What comes after the end, of looking at it and for other ways, nobody knows. */
+    if (p->reached >= 1) snprintf(left, sizeof left, ", looking at it, and for other ways");
     else if (gone >= BEFORE_GUESSING && p->reached > 0.01)
         snprintf(left, sizeof left, ", %.0f s left", gone * (1 - p->reached) / p->reached);
     fprintf(stderr, "\r%5.1f %% folded [%s]%s\033[K", 100 * p->reached, bar, left);
@@ -40,8 +40,6 @@ int progress_show(void *ctx, double part)
     progress *p = ctx;
     if (p->shown && part >= 0 && part <= 1) {
         const double now = seconds_now();
-        p->tries += part < p->last; /* from flat again */
-        p->last = part;
         if (part > p->reached) p->reached = part;
         if (now - p->drawn >= BETWEEN_DRAWINGS) draw(p, now);
     }

@@ -7,8 +7,6 @@ typedef struct progress {
     int shown;           /* non-zero: draw it */
     double began, drawn; /* seconds; when this run began, when it was last drawn */
     double reached;      /* 0 ... 1, the farthest of all tries: a bar that runs backwards tells nobody anything */
-    double last;         /* of the try that runs */
-    int tries;           /* begun after the first one */
     int on_screen;
 } progress;
 

@@ -273,8 +273,9 @@ rg_status rg_motion_create_states(const rg_pattern *const *states, int32_t count
     m->settings = *settings;
     m->source.y_down = states[0]->lines.y_down;
     rg_states q;
-    rg_watch watch = {.progress = progress, .ctx = ctx};
-    s = rg_states_run(&q, states, count, settings, progress, ctx, why);
+    rg_rising told = {progress, ctx, 0};
+    rg_watch watch = {.progress = progress ? rg_watch_rising : NULL, .ctx = &told};
+    s = rg_states_run(&q, states, count, settings, watch.progress, &told, why);
     if (s == RG_OK) s = make(m, &q, states[count - 1], &watch, why);
     rg_states_free(&q);
     if (s != RG_OK) {

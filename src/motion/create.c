@@ -217,7 +217,8 @@ rg_status rg_motion_with_path(const rg_pattern *p, const rg_settings *given, rg_
     m->mem = mem;
     m->settings = *settings;
     const rg_report *r = &m->report;
-    rg_watch watch = {.progress = progress, .ctx = ctx};
+    rg_rising told = {progress, ctx, 0};
+    rg_watch watch = {.progress = progress ? rg_watch_rising : NULL, .ctx = &told};
     s = rg_motion_name(m, rg_pattern_get_info(p));
     if (s == RG_OK) s = rg_source_copy(&p->source, &mem, &m->source);
     if (s == RG_OK) s = find(m, p, &watch, path, why);

@@ -345,16 +345,6 @@ static rg_status drive_edges(rg_fold *f, const rg_pattern *p, int32_t count, con
     return s;
 }
 
-/* Two tries are told as one: never less than before. */
-typedef struct told { rg_progress progress; void *ctx; double most; } told;
-
-static int tell(void *ctx, double done)
-{
-    told *t = ctx;
-    t->most = fmax(t->most, done);
-    return t->progress ? t->progress(t->ctx, t->most) : 0;
-}
-
 /* One try, on facets as drawn or cut. */
 static rg_status drive(const rg_pattern *p, int32_t count, const rg_driven *driven, const rg_settings *s,
                        rg_watch *watch, rg_motion **motion, rg_diag *why)
@@ -385,8 +375,8 @@ rg_status rg_motion_create_driven(const rg_pattern *p, int32_t count, const rg_d
     const double begun = rg_seconds();
     rg_settings s;
     rg_motion *m = NULL, *cut = NULL;
-    told to = {progress, ctx, 0};
-    rg_watch watch = {.progress = tell, .ctx = &to};
+    rg_rising told = {progress, ctx, 0};
+    rg_watch watch = {.progress = rg_watch_rising, .ctx = &told};
     rg_status status = rg_settings_take(given, &s, why);
     if (status == RG_OK && count < 1) status = rg_fail(RG_EARG, why, 0, "nothing is driven");
     if (status == RG_OK) status = drive(p, count, driven, &s, &watch, &m, why);

@@ -2,6 +2,13 @@
 
 #include <math.h>
 
+int rg_watch_rising(void *rising, double done)
+{
+    rg_rising *r = rising;
+    r->most = fmax(r->most, done);
+    return r->progress ? r->progress(r->ctx, r->most) : 0;
+}
+
 int rg_watch_tell(rg_watch *w, double done)
 {
     if (w->given_up && w->given_up(w->given_up_ctx)) w->cancelled = 1;

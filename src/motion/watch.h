@@ -1,5 +1,5 @@
 /* watch.h -- who is told how far it is, and asked whether to go on.
- * Used by  attempt.c forth.c search.c and what they are called by */
+ * Used by  attempt.c forth.c search.c and what they are called by; assemble.c create.c keeping.c */
 #ifndef RG_WATCH_H
 #define RG_WATCH_H
 
@@ -13,6 +13,15 @@ typedef struct rg_watch {
     void *given_up_ctx;
     int cancelled;
 } rg_watch;
+
+/* A caller who is told how far it is, never less than before: what is tried in several ways begins anew. Its
+ * rg_progress is rg_watch_rising. */
+typedef struct rg_rising {
+    rg_progress progress; /* NULL: nobody is told */
+    void *ctx;
+    double most; /* that was told */
+} rg_rising;
+int rg_watch_rising(void *rising, double done);
 
 /* Tells that so much is done. Non-zero: it is to end. */
 int rg_watch_tell(rg_watch *w, double done);
