@@ -691,6 +691,43 @@ static void recorded(void **state)
     rg_pattern_destroy(p);
 }
 
+/* Percents of a record, and that the last is the report's. */
+static void has_percents(const rg_fold *f, int32_t count, const double *percent)
+{
+    rg_motion *m = NULL;
+    assert_int_equal(rg_fold_record(f, &m, NULL), RG_OK);
+    const rg_report *r = rg_motion_report(m);
+    assert_int_equal(r->frame_count, count);
+    for (int32_t k = 0; k < count; k++) near(r->frames[k].percent, percent[k], 1e-9);
+    near(r->folded_percent, percent[count - 1], 1e-9);
+    near(r->least_folded_percent, percent[count - 1], 1e-9);
+    rg_motion_destroy(m);
+}
+
+/* A leg that was set and has not begun counts for nothing of its own way, and for a leg: what was passed before it is
+ * not measured by where it is to go. */
+static void recorded_before_it_begins(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("miura", 4);
+    rg_fold *f = flat_fold(p, 5);
+    const int32_t first = 0, second = 5;
+    const double to = letter(f, first) == 'V' ? 1 : -1, back = letter(f, second) == 'V' ? 0.2 : -0.2;
+    has_percents(f, 1, (const double[]){0});
+    assert_int_equal(rg_fold_drive(f, 1, &first, &to), RG_OK);
+    has_percents(f, 1, (const double[]){0});
+    while (rg_fold_step(f)->outcome == RG_RUNNING) {}
+    has_percents(f, 5, (const double[]){0, 25, 50, 75, 100});
+    assert_int_equal(rg_fold_drive(f, 1, &second, &back), RG_OK);
+    has_percents(f, 5, (const double[]){0, 12.5, 25, 37.5, 50});
+    rg_fold_step(f);
+    has_percents(f, 6, (const double[]){0, 12.5, 25, 37.5, 50, 62.5});
+    assert_int_equal(rg_fold_forget(f), RG_OK);
+    has_percents(f, 1, (const double[]){0});
+    rg_fold_destroy(f);
+    rg_pattern_destroy(p);
+}
+
 /* Bytes that a sink was handed. */
 typedef struct handed { char *bytes; size_t size; } handed;
 
@@ -916,7 +953,7 @@ int main(void)
         cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames), cmocka_unit_test(frames_do_not_matter), cmocka_unit_test(to_and_fro), cmocka_unit_test(forgotten_on_the_way), cmocka_unit_test(flat_paper_to_its_end), cmocka_unit_test(not_by_a_whole_turn),
         cmocka_unit_test(kept_states), cmocka_unit_test(positions_and_transforms), cmocka_unit_test(recorded),
         cmocka_unit_test(records_are_verified), cmocka_unit_test(restored_to_before_it_was_steered),
-        cmocka_unit_test(nothing_to_fold), cmocka_unit_test(sent_to_where_it_is), cmocka_unit_test(driven_and_ended), cmocka_unit_test(what_is_told_rises),
+        cmocka_unit_test(nothing_to_fold), cmocka_unit_test(sent_to_where_it_is), cmocka_unit_test(driven_and_ended), cmocka_unit_test(recorded_before_it_begins), cmocka_unit_test(what_is_told_rises),
         cmocka_unit_test(steps_ask_for_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -119,16 +119,18 @@ static int32_t legs_of(const rg_fold *f)
 {
     int32_t legs = 0;
     for (int32_t k = 0; f->steered && k < rg_fold_states(f); k++) legs += begins_leg(f, k);
-    return legs;
+    /* one that was set, and no step has begun, goes on from the last state */
+    return legs + (f->steered && f->aimed && !begins_leg(f, rg_fold_states(f) - 1));
 }
 
 /* What its creases aim at, and from where. Of several legs each aims elsewhere, and nothing is aimed at by all. */
 static void set_aims(rg_motion *m, const rg_fold *f)
 {
     const rg_motion *old = f->shared->motion;
+    const double *last = rg_fold_state(f, rg_fold_states(f) - 1);
     const int one = legs_of(f) == 1;
     for (int32_t i = 0; i < m->mesh.N; i++) {
-        m->from[i] = f->steered ? f->steer->from[i] : old->from[i];
+        m->from[i] = !f->steered ? old->from[i] : f->aimed ? last[i] : f->steer->from[i];
         m->target[i] = old->target[i];
         if (!f->steered) continue;
         const int counts = f->steer->role[i] == RG_ROLE_WISHES || f->steer->role[i] == RG_ROLE_DRIVEN;

@@ -73,7 +73,7 @@ static void measure_angles(rg_motion *m, int32_t k)
         driven++;
     }
     m->frame[k].percent = r->folded_percent = rg_measure_percent(m, rho, k ? 100 : 0);
-    r->least_folded_percent = driven ? least : r->folded_percent;
+    r->least_folded_percent = driven ? least + 0 : r->folded_percent; /* 0, never -0 */
     r->max_wrong_side_deg = larger(r->max_wrong_side_deg, wrong);
     r->wrong_side_frames += !(wrong <= WRONG_SIDE);
     r->wrong_side_creases = creases;
