@@ -285,6 +285,7 @@ static void frames_have_a_size(void **state)
         if (tries[k].words) {
             assert_int_equal(s, RG_EFORMAT);
             if (!strstr(why.text, tries[k].words)) fail_msg("%s: %s", path, why.text);
+            assert_true(why.line > 1);
             one_line(&why, path);
             continue;
         }

@@ -9,6 +9,7 @@
 #include "motion/motion.h"
 #include "pattern/source.h"
 #include "pose/lie.h"
+#include "read/locate.h"
 #include "read/read.h"
 #include "read/value.h"
 
@@ -280,6 +281,8 @@ rg_status rg_motion_read(const char *path, const rg_reading *reading, rg_motion 
         m->settings = rg_settings_default();
         m->settings.memory = with.memory;
         s = build(m, root, p, why);
+        const int is_of_frames = s == RG_EFORMAT && why && strncmp(why->text, "file_frames", strlen("file_frames")) == 0;
+        if (is_of_frames) why->line = rg_locate_told(bytes, size, why->text);
     }
     rg_value_free(root);
     rg_pattern_destroy(p);

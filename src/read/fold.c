@@ -97,11 +97,7 @@ static rg_status warn(const reader *r, const char *format, ...)
 
 static void find_line(const reader *r, rg_diag *d)
 {
-    if (d->line) return;
-    const char *end = strstr(d->text, ": ");
-    char path[sizeof d->text];
-    snprintf(path, sizeof path, "%.*s", end ? (int)(end - d->text) : (int)sizeof path, d->text);
-    d->line = rg_locate_line(r->text, r->size, path);
+    if (!d->line) d->line = rg_locate_told(r->text, r->size, d->text);
 }
 
 static void forget(reader *r)

@@ -1,5 +1,6 @@
 #include "read/locate.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -99,6 +100,14 @@ int32_t rg_locate_line(const char *text, size_t size, const char *path)
     cursor c = {text, text + size};
     go(&c, path);
     return 1 + count(text, c.s);
+}
+
+int32_t rg_locate_told(const char *text, size_t size, const char *message)
+{
+    char path[160];
+    const char *end = strstr(message, ": ");
+    snprintf(path, sizeof path, "%.*s", end ? (int)(end - message) : (int)sizeof path, message);
+    return rg_locate_line(text, size, path);
 }
 
 void rg_locate_lines(const char *text, size_t size, const char *path, int32_t *line, int32_t n)

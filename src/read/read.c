@@ -32,7 +32,10 @@ static text skip_blanks(text t)
 
 static text skip_to(text t, const char *word)
 {
-    while (t.s < t.end && !begins(t, word)) t.s++;
+    while (t.s < t.end && !begins(t, word)) {
+        const char *next = memchr(t.s + 1, *word, (size_t)(t.end - t.s - 1));
+        t.s = next ? next : t.end;
+    }
     return t;
 }
 
