@@ -151,6 +151,27 @@ static void repeats_of_what_is_long(void **state)
     free(text);
 }
 
+/* What a style moves was read where it is drawn without. */
+static void transforms_of_styles(void **state)
+{
+    (void)state;
+    rg_lines l = read_svg(SVG("<style>.t{transform: translate(10px, 0px) rotate(90deg)} .n{transform:none}</style>"
+                              "<g style='transform: translate(50px,0)'><line stroke='red' x2='1' y2='2'/></g>"
+                              "<line class='t' stroke='red' x2='1' y2='2'/>"
+                              "<line class='n' transform='translate(3)' stroke='red' x2='1' y2='2'/>"
+                              "<line transform-origin='1 1' transform='rotate(180)' stroke='red' x2='1' y2='2'/>"
+                              "<line style='transform-origin:1px 1px' transform='rotate(180deg)' stroke='red' x2='1' y2='2'/>"));
+    assert_int_equal(l.count, 5);
+    is_line(&l, 0, 'M', 50, 0, 51, -2, NAN);
+    is_line(&l, 1, 'M', 10, 0, 8, -1, NAN);
+    is_line(&l, 2, 'M', 0, 0, 1, -2, NAN);
+    is_line(&l, 3, 'M', 2, -2, 1, 0, NAN);
+    is_line(&l, 4, 'M', 2, -2, 1, 0, NAN);
+    rg_lines_free(&l);
+    refused(SVG("<line style='transform: rotate(1turn)' stroke='red' x2='1'/>"), RG_FORMAT_SVG, NULL, -1, "transform \"rotate(1turn)");
+    refused(SVG("<line style='transform-origin:center' transform='scale(2)' stroke='red' x2='1'/>"), RG_FORMAT_SVG, NULL, -1, "transform-origin \"center");
+}
+
 /* A text of a head, a part so many times, a middle, another part so many times, and an end. The caller's. */
 static char *repeated(const char *head, const char *one, int ones, const char *middle, const char *two, int twos, const char *end)
 {
@@ -464,7 +485,7 @@ static void nesting_and_rules_end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shapes), cmocka_unit_test(paths), cmocka_unit_test(transforms), cmocka_unit_test(repeats), cmocka_unit_test(repeats_that_do_not_end), cmocka_unit_test(repeats_of_what_is_long),
+        cmocka_unit_test(shapes), cmocka_unit_test(paths), cmocka_unit_test(transforms), cmocka_unit_test(transforms_of_styles), cmocka_unit_test(repeats), cmocka_unit_test(repeats_that_do_not_end), cmocka_unit_test(repeats_of_what_is_long),
         cmocka_unit_test(what_multiplies_ends), cmocka_unit_test(places_among_many), cmocka_unit_test(a_text_too_long_is_no_want_of_memory),
         cmocka_unit_test(entities_in_sum), cmocka_unit_test(styles),
         cmocka_unit_test(colours), cmocka_unit_test(selectors), cmocka_unit_test(paints), cmocka_unit_test(names_dashes_data), cmocka_unit_test(sizes),

@@ -211,9 +211,9 @@ enum { OF_LOOKING = 16 };
 /* A style of its own weighs more than any rule, and what is important more than what is not. */
 enum { OF_STYLE = 1 << 29, OF_IMPORTANT = 1 << 30 };
 
-int rg_css_get(rg_css *css, const rg_xml_node *n, const char *property, char value[RG_CSS_VALUE])
+int rg_css_said(rg_css *css, const rg_xml_node *n, const char *property, char value[RG_CSS_VALUE])
 {
-    const char *style = rg_xml_attribute(n, "style"), *attribute = rg_xml_attribute(n, property);
+    const char *style = rg_xml_attribute(n, "style");
     css->work += OF_LOOKING + css->rules + (int64_t)strlen(style);
     const int own = declared(style, strlen(style), property, value);
     const uint64_t name = bit_of(property, strlen(property));
@@ -229,7 +229,13 @@ int rg_css_get(rg_css *css, const rg_xml_node *n, const char *property, char val
         best = weight;
         memcpy(value, found, sizeof found);
     }
-    if (best >= 0) return 1;
+    return best >= 0;
+}
+
+int rg_css_get(rg_css *css, const rg_xml_node *n, const char *property, char value[RG_CSS_VALUE])
+{
+    const char *attribute = rg_xml_attribute(n, property);
+    if (rg_css_said(css, n, property, value)) return 1;
     if (*attribute) copy(value, attribute, strlen(attribute));
     return *attribute != 0;
 }

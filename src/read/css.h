@@ -37,5 +37,7 @@ rg_status rg_css_add(rg_css *css, const rg_xml_node *style, rg_lines *l, rg_diag
  * A longer value than there is room for is cut. Where css->work is above css->most, not all rules were looked at: the
  * drawing is to be refused. */
 int rg_css_get(rg_css *css, const rg_xml_node *n, const char *property, char value[RG_CSS_VALUE]);
+/* The same without the attribute. */
+int rg_css_said(rg_css *css, const rg_xml_node *n, const char *property, char value[RG_CSS_VALUE]);
 
 #endif

@@ -138,9 +138,31 @@ static int function(const char *name, size_t n, const double *v, int count, rg_a
     return 1;
 }
 
-static rg_status transform(const reader *r, const rg_xml_node *n, rg_affine *m)
+/* The units that a style has to have, and an attribute may. */
+static const char *skip_unit(const char *s)
 {
-    const char *all = rg_xml_attribute(n, "transform"), *s = skip(all);
+    return strncmp(s, "px", 2) == 0 ? s + 2 : strncmp(s, "deg", 3) == 0 ? s + 3 : s;
+}
+
+/* The point that all of an element's transform goes round. 0: it is none that is understood. */
+static int origin(const char *s, rg_vec2 *x)
+{
+    if (!next_number(&s, &x->x)) return 0;
+    s = skip_unit(s);
+    if (!next_number(&s, &x->y)) return 0;
+    return *skip(skip_unit(s)) == 0;
+}
+
+static rg_status transform(reader *r, const rg_xml_node *n, rg_affine *m)
+{
+    char said[RG_CSS_VALUE], at[RG_CSS_VALUE];
+    const int is_style = rg_css_said(&r->with.css, n, "transform", said);
+    const char *s = skip(is_style ? said : rg_xml_attribute(n, "transform"));
+    rg_vec2 o = {0, 0};
+    if (!*s || is(s, "none")) return RG_OK;
+    if (rg_css_get(&r->with.css, n, "transform-origin", at) && !origin(at, &o))
+        return fail(r, n, "transform-origin", at);
+    *m = rg_affine_mul(*m, rg_affine_shift(o.x, o.y));
     while (*s) {
         const char *name = s;
         const size_t name_n = strcspn(s, "( \t\r\n");
@@ -151,10 +173,12 @@ static rg_status transform(const reader *r, const rg_xml_node *n, rg_affine *m)
         if (*s++ != '(') return fail(r, n, "transform", name);
         for (s = skip(s); *s && *s != ')'; s = skip(s))
             if (count == 6 || !next_number(&s, &v[count++])) return fail(r, n, "transform", name);
+            else s = skip_unit(s);
         if (*s != ')' || !function(name, name_n, v, count, &one)) return fail(r, n, "transform", name);
         *m = rg_affine_mul(*m, one);
         s = skip(s + 1);
     }
+    *m = rg_affine_mul(*m, rg_affine_shift(-o.x, -o.y));
     return RG_OK;
 }
 
