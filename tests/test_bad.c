@@ -268,6 +268,14 @@ static void what_is_shown_moves_no_cursor(void **state)
     }
 }
 
+/* The parser compares each with all others, and a hundred thousand took it ten seconds. UTF-16 without a mark is no other text. */
+static void what_the_parser_is_slow_at(void **state)
+{
+    (void)state;
+    is_refused_at("attributes.svg", 2, "more than 1000 attributes");
+    is_refused("wide.svg", "UTF-16");
+}
+
 /* Frames in which the sheet is a point were drawn with a row of points without an end; such as are larger than any sheet took
  * all memory, or left numbers that are none. */
 static void frames_have_a_size(void **state)
@@ -317,6 +325,7 @@ int main(void)
         cmocka_unit_test(lines_have_the_colour_of_what_they_are_in),
         cmocka_unit_test(what_is_shown_moves_no_cursor),
         cmocka_unit_test(frames_have_a_size),
+        cmocka_unit_test(what_the_parser_is_slow_at),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,13 +20,15 @@ static inline size_t rg_utf8_character(const unsigned char *s)
 }
 
 /* The same of a character that a terminal shows and does not obey: no control, whether of ASCII or of the 32 that
- * Latin-1 has besides, and no end of a line or paragraph. */
+ * Latin-1 has besides, no end of a line or paragraph, and none that turns round the way in which others are read. */
 static inline size_t rg_utf8_shown(const unsigned char *s)
 {
     const size_t n = rg_utf8_character(s);
     const int is_control = (n == 1 && (s[0] < 0x20 || s[0] == 0x7f)) || (n == 2 && s[0] == 0xc2 && s[1] < 0xa0);
-    const int is_end = n == 3 && s[0] == 0xe2 && s[1] == 0x80 && (s[2] == 0xa8 || s[2] == 0xa9);
-    return is_control || is_end ? 0 : n;
+    /* U+2028 and U+2029, U+202A to U+202E, U+2066 to U+2069 */
+    const int is_end = n == 3 && s[0] == 0xe2 && s[1] == 0x80 && s[2] >= 0xa8 && s[2] <= 0xae;
+    const int is_way = n == 3 && s[0] == 0xe2 && s[1] == 0x81 && s[2] >= 0xa6 && s[2] <= 0xa9;
+    return is_control || is_end || is_way ? 0 : n;
 }
 
 /* Whether XML 1.0 can hold that character, of so many bytes. */

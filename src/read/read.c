@@ -155,7 +155,8 @@ static const char *refusal(text t, const char *path)
 {
     if (has_extension(path, "orh")) return "an Orihime .orh file is not read: save it as .fold or .cp";
     if (begins(t, "AutoCAD Binary DXF")) return "a binary DXF file is not read: save it as text (ASCII)";
-    if (begins(t, "\xFF\xFE") || begins(t, "\xFE\xFF")) return "the text is UTF-16: save it as UTF-8";
+    const int is_wide = t.end - t.s > 1 && !t.s[0] != !t.s[1]; /* without a mark, but no text has a zero */
+    if (begins(t, "\xFF\xFE") || begins(t, "\xFE\xFF") || is_wide) return "the text is UTF-16: save it as UTF-8";
     if (begins(t, "%PDF") || begins(t, "%!PS")) return "a PDF or PostScript file is not read: save it as .svg";
     if (begins(t, "PK\x03\x04") || begins(t, "\x1F\x8B")) return "a compressed file: unpack it first";
     if (begins(t, "\x89PNG") || begins(t, "\xFF\xD8\xFF") || begins(t, "GIF8"))

@@ -31,6 +31,58 @@ static void refuse(xmlParserCtxt *parser, const char *why)
     xmlStopParser(parser);
 }
 
+/* ---------------------------------------------------------------------------------------------- attributes ---- */
+
+/* The parser compares each attribute of an element with all others, and asks nobody meanwhile: a megabyte of them takes it
+ * ten seconds. No drawing has a tenth of these. */
+enum { MOST_ATTRIBUTES = 1000 };
+
+/* Behind the word; the end: it is not there. */
+static const char *behind(const char *s, const char *end, const char *word)
+{
+    const size_t n = strlen(word);
+    while (s < end && (s = memchr(s, *word, (size_t)(end - s)))) {
+        if ((size_t)(end - s) >= n && memcmp(s, word, n) == 0) return s + n;
+        s++;
+    }
+    return end;
+}
+
+static int begins(const char *s, const char *end, const char *word)
+{
+    return (size_t)(end - s) >= strlen(word) && memcmp(s, word, strlen(word)) == 0;
+}
+
+/* From behind the < of an element to behind its >; *attributes: how many it has, as far as that. */
+static const char *pass_tag(const char *s, const char *end, int *attributes)
+{
+    for (*attributes = 0; s < end && *s != '>' && *attributes <= MOST_ATTRIBUTES; s++) {
+        *attributes += *s == '=';
+        if (*s != '"' && *s != '\'') continue;
+        s = memchr(s + 1, *s, (size_t)(end - s - 1));
+        if (!s) return end;
+    }
+    return s;
+}
+
+/* The line of the first element with more attributes than may be; 0: there is none. */
+static int crowded_line(const char *text, const char *end)
+{
+    int attributes = 0, line = 1;
+    const char *s = text;
+    while (attributes <= MOST_ATTRIBUTES) {
+        s = s < end ? memchr(s, '<', (size_t)(end - s)) : NULL;
+        if (!s) return 0;
+        s++;
+        if (begins(s, end, "!--")) s = behind(s, end, "-->");
+        else if (begins(s, end, "![CDATA[")) s = behind(s, end, "]]>");
+        else if (begins(s, end, "?")) s = behind(s, end, "?>");
+        else if (!begins(s, end, "!")) s = pass_tag(s, end, &attributes);
+    }
+    for (const char *c = text; c < s; c++) line += *c == '\n';
+    return line;
+}
+
 /* ------------------------------------------------------------------------------------------------ entities ---- */
 
 /* The parser leaves references to entities where they stand, and opens none. Those that the file itself declares as
@@ -182,6 +234,8 @@ rg_status rg_xml_parse(const void *bytes, size_t size, rg_xml_type type, const r
 {
     if (size == 0) return rg_fail(RG_EFORMAT, why, 0, "the file is empty");
     if (size > INT_MAX) return rg_fail(RG_EFORMAT, why, 0, "the file is larger than 2 GB");
+    const int crowded = crowded_line(bytes, (const char *)bytes + size);
+    if (crowded) return rg_fail(RG_EFORMAT, why, crowded, "an element has more than %d attributes", MOST_ATTRIBUTES);
     heard h = {0, 0};
     const xmlStructuredErrorFunc listener = xmlStructuredError;
     void *his = xmlStructuredErrorContext;

@@ -3,7 +3,7 @@
  *
  * Loads nothing from anywhere. Of entities only plain text that the file itself declares is opened, and in sum no more
  * than 16 MB; other ones are refused where what they stand for would matter. Depth and length of names are bounded by
- * the parser, the rest by the size of the input. */
+ * the parser, attributes of an element to 1000, the rest by the size of the input. */
 #ifndef RG_XML_H
 #define RG_XML_H
 
