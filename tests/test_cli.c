@@ -363,6 +363,37 @@ static void what_does_not_move_is_told(void **state)
     assert_string_equal(r->err, "");
 }
 
+/* Frames of others may put a facet into a point, or the sheet a long way off: what there is is drawn, or it is refused,
+ * in a time that does not go by how far that is. */
+static void a_motion_of_any_size_is_drawn(void **state)
+{
+    (void)state;
+    static const char head[] =
+        "{\"vertices_coords\":[[0,0],[1,0],[2,0],[2,1],[1,1],[0,1]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,4],[4,5],[5,0],[1,4]],"
+        "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"B\",\"B\",\"V\"],\"file_frames\":[";
+    static const struct { const char *frame; int ends; } tried[] = {
+        {"[[0,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0],[0,1,0]]", 0},
+        {"[[0,0,1e99],[1,0,1e99],[2,0,1e99],[2,1,1e99],[1,1,1e99],[0,1,1e99]]", 0},
+        {"[[0,0,0],[1e30,0,0],[2e30,0,0],[2e30,1e30,0],[1e30,1e30,0],[0,1e30,0]]", 2},
+        {"[[0,0,0],[1e99,0,0],[-1e99,0,0],[2,1,0],[1,1,0],[0,1,0]]", 2},
+        {"[[0,0,0],[1e101,0,0],[2,0,0],[2,1,0],[1,1,0],[0,1,0]]", 2}};
+    static char text[2000], table[ROOM];
+    for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {
+        snprintf(text, sizeof text, "%s{\"vertices_coords\":%s},{\"vertices_coords\":%s}]}", head, tried[i].frame, tried[i].frame);
+        write_file("far.fold", text);
+        const ran *r = run("draw", "far.fold", "-q", "-o", "far.html", "-o", "far.glb", "--max-seconds", "30");
+        ends(tried[i].ends, r);
+        if (tried[i].ends) says(r, "rigami: far.fold: ", "large");
+    }
+    /* A percent of any size is a number. */
+    snprintf(text, sizeof text, "%s{\"rigami:percent\":1e308,\"vertices_coords\":[[0,0,0],[1,0,0],[2,0,0],[2,1,0],[1,1,0],[0,1,0]]}]}", head);
+    write_file("far.fold", text);
+    ends(0, run("draw", "far.fold", "-q", "-o", "far.csv"));
+    assert_null(strstr(slurp("far.csv", table), "inf"));
+    const char *const made[] = {"far.html", "far.glb", "far.csv"};
+    for (int i = 0; i < 3; i++) unlink(made[i]);
+}
+
 /* A motion is drawn again from its file: what is drawn is the same, and nothing is folded. */
 static void a_motion_is_drawn_again(void **state)
 {
@@ -1349,6 +1380,29 @@ static void a_chart_that_is_ended_says_so(void **state)
     assert_false(is_empty("charts/charted.md"));
 }
 
+/* What has the name and the beginning of a frame is one only if it is whole. */
+static void a_frame_that_is_cut_off_is_drawn_again(void **state)
+{
+    (void)state;
+    static char whole[ROOM];
+    struct stat is;
+    for (int k = 0; k < 2; k++) {
+        ends(0, run("fold", "good.opx", "-q", "--frames", "2", "--size", "60x40", "-o", "cut-%d.png", "--resume"));
+        assert_int_equal(stat("cut-1.png", &is), 0);
+        assert_true(is.st_size > 300);
+        if (k == 1) break;
+        FILE *f = fopen("cut-1.png", "rb");
+        assert_true(f && fread(whole, 1, (size_t)is.st_size, f) == (size_t)is.st_size);
+        fclose(f);
+        assert_int_equal(truncate("cut-1.png", 280), 0);
+    }
+    FILE *f = fopen("cut-1.png", "rb");
+    static char again[ROOM];
+    assert_true(f && fread(again, 1, (size_t)is.st_size, f) == (size_t)is.st_size);
+    fclose(f);
+    assert_memory_equal(whole, again, (size_t)is.st_size);
+}
+
 /* One place under two names is one output, and an input is not written over. */
 static void one_place_is_written_once(void **state)
 {
@@ -1466,6 +1520,8 @@ int main(void)
         cmocka_unit_test(a_fold_that_stops_short_is_written_and_explained),
         cmocka_unit_test(the_verdict_comes_first), cmocka_unit_test(states_in_frames), cmocka_unit_test(tables_are_tidy), cmocka_unit_test(what_does_not_move_is_told),
         cmocka_unit_test(what_was_meant), cmocka_unit_test(a_motion_is_drawn_again),
+        cmocka_unit_test(a_motion_of_any_size_is_drawn),
+        cmocka_unit_test(a_frame_that_is_cut_off_is_drawn_again),
         cmocka_unit_test(a_batch),
         cmocka_unit_test(names_of_a_batch),
         cmocka_unit_test(a_batch_goes_on),

@@ -300,5 +300,6 @@ double rg_number_degrees(double radians)
 double rg_number_tidy(double value)
 {
     const double decimals = 1e11;
-    return round(value * decimals) / decimals;
+    const double tidy = round(value * decimals) / decimals;
+    return isfinite(tidy) ? tidy : value; /* so large that it has no decimals */
 }

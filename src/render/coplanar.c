@@ -6,6 +6,8 @@
 /* Cells of the hash table: of a normal's coordinates, and of a plane's distance from the origin in parts of the sheet's
  * size. A facet is sought within half a cell, so that normals may differ by 0.01. */
 #define CELL 0.02
+/* Sizes from the origin, from where on all planes have one cell. */
+#define FARTHEST 1e9
 /* For small facets, which are in many planes by their thickness alone. */
 #define MOST_TURN (0.5 * CELL)
 
@@ -104,7 +106,8 @@ void rg_coplanar_find(rg_coplanar *c, const rg_place *place, const rg_vec3 *x)
     for (int32_t i = 0; i < m->nf; i++) {
         const int32_t f = c->by_area[i];
         const rg_vec3 n = place[f].R.c[2];
-        const double d = rg_vec3_dot(n, first_corner(m, f, x)) / m->size;
+        /* Positions that are read may be anywhere; cells are counted by whole numbers. */
+        const double d = fmax(-FARTHEST, fmin(FARTHEST, rg_vec3_dot(n, first_corner(m, f, x)) / m->size));
         const plane up = {{n.x, n.y, n.z, d}}, down = {{-n.x, -n.y, -n.z, -d}};
         int32_t g = seek(c, f, &up, place, x);
         if (g < 0) g = seek(c, f, &down, place, x);

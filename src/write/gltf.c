@@ -449,7 +449,7 @@ static rg_status write_chunks(rg_scene *g, FILE *out)
     const size_t json = describe(g, NULL, NULL), padding = (4 - json % 4) % 4;
     const size_t total = 12 + 8 + json + padding + 8 + g->start[RG_PARTS];
     unsigned char head[12] = "glTF";
-    if (total > UINT32_MAX) return RG_EARG;
+    if (total > UINT32_MAX) return RG_EWRITE; /* the format counts no further */
     rg_bytes_u32(rg_bytes_u32(head + 4, 2), (uint32_t)total);
     fwrite(head, 1, sizeof head, out);
     chunk_head((uint32_t)(json + padding), "JSON", out);

@@ -211,7 +211,7 @@ rg_status rg_scene_init(rg_scene *g, const rg_motion *m, const rg_picture *p)
     if (s == RG_OK && p->image) s = rg_png_load(mem, p->image, &g->image, &g->image_bytes, NULL);
     if (s != RG_OK) return s;
     lay_out(g);
-    if (g->start[RG_PARTS] > UINT32_MAX / 2) return RG_EARG;
+    if (g->start[RG_PARTS] > UINT32_MAX / 2) return RG_EWRITE; /* the format counts no further */
     s = RG_MEM_ARRAYS(mem, RG_ARRAY(g->bytes, g->start[RG_PARTS]), RG_ARRAY(g->centre, nf), RG_ARRAY(g->place, nf),
                       RG_ARRAY(g->x, nv), RG_ARRAY(g->last, nv), RG_ARRAY(g->last_turn, nf),
                       RG_ARRAY(g->last_shift, nf), RG_ARRAY(g->normals_of, (size_t)g->most + 1));

@@ -1,9 +1,18 @@
-/* A motion that was written before, read by both who read one: to draw it, and to judge it. */
+/* A motion that was written before, read by both who read one: to draw it, and to judge it. It is written as a page and
+ * as a model, for which facets are laid on each other as they are for pictures. */
 #include "fuzz.h"
 
 #include <math.h>
 
 static const double SECONDS = 4; /* it is read twice, and looked at for facets that cross */
+
+static int lose(void *ctx, const void *bytes, size_t n)
+{
+    (void)ctx, (void)bytes, (void)n;
+    return 0;
+}
+
+static const rg_sink nowhere = {lose, NULL};
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -21,6 +30,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         promise(r->frame_count >= 1);
         promise(isfinite(r->frames[r->frame_count - 1].percent));
         sound(rg_report_write(m, 0, 0, "/dev/null", &why), &why);
+        sound(rg_motion_write_to(m, ".html", -1, &nowhere, NULL, &why), &why);
+        sound(rg_motion_write_to(m, ".glb", -1, &nowhere, NULL, &why), &why);
     }
     rg_motion_destroy(m);
     status = rg_certificate_create(path, NULL, NULL, &c, &why);
