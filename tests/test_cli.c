@@ -510,6 +510,8 @@ static void a_batch(void **state)
     assert_non_null(strstr(table, "not done within 1 second"));
     says(ends(2, run("batch", "good.opx", "-o", "parts", "--part", "3/2")), "rigami: --part: ", "3/2");
     says(ends(2, run("batch", "good.opx", "-o", "parts", "--write", "xyz")), "rigami: ", "xyz");
+    says(ends(2, run("batch", "good.opx", "-o", "parts", "--write", "gif", "--write", "gif")), "rigami: --write: ", "twice");
+    says(ends(2, run("batch", "good.opx", "-o", "parts", "--write", "/../../x.gif")), "rigami: --write: ", "no ending");
     says(ends(2, run("batch", "good.opx")), "rigami: ", "-o DIR/");
 }
 
@@ -734,6 +736,17 @@ static void messages_stay_on_one_line(void **state)
 
 /* --------------------------------------------------------------------------------------------- outputs ---- */
 
+/* What a file calls itself is told on one line, and no terminal is told to do anything. */
+static void titles_stay_on_one_line(void **state)
+{
+    (void)state;
+    write_file("titled.fold", "{\"file_title\":\"a\\nIt is likely to fold\\u001b[2J\",\"file_author\":\"b\\r\","
+               "\"vertices_coords\":[[0,0],[3,0],[3,2],[0,2]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0],[0,2]],"
+               "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"V\"]}");
+    const ran *r = ends(0, run("info", "titled.fold"));
+    assert_non_null(strstr(r->out, "\na?It is likely to fold?[2J, by b?\n"));
+}
+
 static void outputs_that_cannot_be_are_refused_before_folding(void **state)
 {
     (void)state;
@@ -746,6 +759,10 @@ static void outputs_that_cannot_be_are_refused_before_folding(void **state)
     says(ends(3, run("fold", "good.opx", "-o", "x.csv", "-o", "nowhere/x.csv")), "rigami: nowhere/x.csv: ", strerror(ENOENT));
     says(ends(3, run("fold", "good.opx", "-o", "x.csv", "--report", "nowhere/x")), "rigami: nowhere/x: ", strerror(ENOENT));
     says(ends(3, run("fold", "good.opx", "-o", "x.csv", "--report", ".")), "rigami: .: ", strerror(EISDIR));
+    char longer[310];
+    memset(longer, 'x', 300);
+    strcpy(longer + 300, ".csv");
+    says(ends(3, run("fold", "good.opx", "-o", "x.csv", "-o", longer)), "rigami: xxx", strerror(ENAMETOOLONG));
     says(ends(3, run("gen", "miura", "-o", "nowhere/x.opx")), "rigami: nowhere/x.opx", strerror(ENOENT));
     assert_int_equal(names("x."), 0);
     assert_int_equal(names("noext"), 0);
@@ -1522,6 +1539,7 @@ int main(void)
         cmocka_unit_test(what_was_meant), cmocka_unit_test(a_motion_is_drawn_again),
         cmocka_unit_test(a_motion_of_any_size_is_drawn),
         cmocka_unit_test(a_frame_that_is_cut_off_is_drawn_again),
+        cmocka_unit_test(titles_stay_on_one_line),
         cmocka_unit_test(a_batch),
         cmocka_unit_test(names_of_a_batch),
         cmocka_unit_test(a_batch_goes_on),

@@ -224,9 +224,9 @@ static void verify(const outcome *c, char text[300])
 /* The signal that ends this process after so many seconds; 0: none. */
 static void set_limit(double seconds)
 {
-    const double whole = floor(seconds);
+    const double full = floor(seconds);
     const struct itimerval timer = {
-        .it_value = {.tv_sec = (time_t)whole, .tv_usec = (suseconds_t)(1e6 * (seconds - whole))}};
+        .it_value = {.tv_sec = (time_t)full, .tv_usec = (suseconds_t)(1e6 * (seconds - full))}};
     setitimer(ITIMER_REAL, &timer, NULL);
 }
 
@@ -548,6 +548,12 @@ int cmd_batch(const options *o)
     }
     while (strlen(folder) > 1 && folder[strlen(folder) - 1] == '/') folder[strlen(folder) - 1] = 0;
     for (int i = 0; i < o->forms; i++) {
+        int twice = 0;
+        for (int k = 0; k < i; k++) twice |= strcmp(o->form[i], o->form[k]) == 0;
+        if (twice || strchr(o->form[i], '/')) {
+            say("--write: \"%s\" %s", o->form[i], twice ? "is asked for twice" : "is no ending of a name");
+            return ENDS_USAGE;
+        }
         char file[300];
         rg_diag why = {0, ""};
         snprintf(file, sizeof file, "x.%.200s", o->form[i]);

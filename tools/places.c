@@ -111,9 +111,9 @@ static int check_place(const char *name)
     struct stat is;
     if (slash && !slash[1]) return ENDS_WELL;
     if (slash) snprintf(folder, sizeof folder, "%.*s", slash == name ? 1 : (int)(slash - name), name);
-    const int there = strcmp(name, "-") == 0 || stat(name, &is) == 0;
+    const int there = strcmp(name, "-") == 0 || stat(name, &is) == 0, too_long = !there && errno == ENAMETOOLONG;
     if (there && strcmp(name, "-") != 0 && S_ISDIR(is.st_mode)) errno = EISDIR;
-    else if (there || access(folder, W_OK | X_OK) == 0) return ENDS_WELL;
+    else if (!too_long && (there || access(folder, W_OK | X_OK) == 0)) return ENDS_WELL;
     say("%s: %s", name, strerror(errno));
     return ENDS_UNWRITTEN;
 }
