@@ -744,7 +744,7 @@ static void titles_stay_on_one_line(void **state)
                "\"vertices_coords\":[[0,0],[3,0],[3,2],[0,2]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0],[0,2]],"
                "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"V\"]}");
     const ran *r = ends(0, run("info", "titled.fold"));
-    assert_non_null(strstr(r->out, "\na?It is likely to fold?[2J, by b?\n"));
+    assert_non_null(strstr(r->out, "\na It is likely to fold [2J, by b \n"));
 }
 
 static void outputs_that_cannot_be_are_refused_before_folding(void **state)
