@@ -306,6 +306,29 @@ static void long_lines_on_a_grid(void **state)
     rg_lines_free(&l);
 }
 
+/* What is left out does not count for the size, which contact and layers of what is left are measured by. */
+static void what_is_left_out_has_no_size(void **state)
+{
+    (void)state;
+    rg_lines l = drawing();
+    draw_box(&l, 0, 0, 3, 2);
+    draw(&l, RG_VALLEY, 0, 0, 3, 2);
+    draw(&l, RG_VALLEY, 5000, 5000, 5100, 5000);
+    rg_graph g = graph_of(&l, 2e-5);
+    assert_int_equal(g.nv, 4);
+    assert_true(g.size == 3);
+    rg_graph_free(&g);
+    rg_lines_free(&l);
+    /* Nothing is left: points, and no edge between them. */
+    rg_vec2 X[2] = {{0, 0}, {1, 0}};
+    l = drawing();
+    rg_star star;
+    assert_int_equal(rg_star_init(&star, &l.mem, 2, 0, X, NULL), RG_OK);
+    for (int v = 0; v <= 2; v++) assert_int_equal(star.start[v], 0);
+    rg_star_free(&star);
+    rg_lines_free(&l);
+}
+
 /* Lines that meet at thousandths of a degree, from left to right: two of them cross where their order is turned over. */
 static void nearly_parallel_lines(void **state)
 {
@@ -919,7 +942,7 @@ int main(void)
         cmocka_unit_test(it_can_be_ended_in_the_middle), cmocka_unit_test(what_is_plane_stays_as_it_is),
         cmocka_unit_test(what_is_left_out_is_said),
         cmocka_unit_test(gaps_are_told_with_what_joins_them), cmocka_unit_test(faults_do_not_flood),
-        cmocka_unit_test(no_lines_and_hopeless_ones), cmocka_unit_test(contact_does_not_depend_on_size),
+        cmocka_unit_test(what_is_left_out_has_no_size), cmocka_unit_test(no_lines_and_hopeless_ones), cmocka_unit_test(contact_does_not_depend_on_size),
         cmocka_unit_test(merge_out_of_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -32,7 +32,7 @@ rg_status rg_star_init(rg_star *s, const rg_memory *mem, int32_t nv, int32_t ne,
             rg_vec2 d = rg_vec2_sub(X[E[e].v[!i]], X[E[e].v[i]]);
             spokes[cursor[E[e].v[i]]++] = (rg_keyed){turn_of(d), e, 0};
         }
-    for (int32_t v = 0; v < nv; v++)
+    for (int32_t v = 0; ne > 0 && v < nv; v++)
         rg_order_few(spokes + s->start[v], s->start[v + 1] - s->start[v]);
     for (int32_t j = 0; j < 2 * ne; j++) s->edge[j] = spokes[j].v;
     rg_mem_free(mem, spokes);

@@ -1,7 +1,20 @@
 #include "pattern/graph.h"
 #include "base/memory.h"
 
+#include <math.h>
 #include <string.h>
+
+/* Nothing left: as it was. */
+static void measure(rg_graph *g)
+{
+    if (g->nv == 0) return;
+    rg_vec2 low = g->X[0], high = low;
+    for (int32_t v = 1; v < g->nv; v++) {
+        low = (rg_vec2){fmin(low.x, g->X[v].x), fmin(low.y, g->X[v].y)};
+        high = (rg_vec2){fmax(high.x, g->X[v].x), fmax(high.y, g->X[v].y)};
+    }
+    g->size = fmax(high.x - low.x, high.y - low.y);
+}
 
 rg_status rg_graph_compact(rg_graph *g, const unsigned char *drop)
 {
@@ -28,6 +41,7 @@ rg_status rg_graph_compact(rg_graph *g, const unsigned char *drop)
             g->E[e].v[i] = number[g->E[e].v[i]];
         }
     rg_mem_free(&g->mem, number);
+    measure(g);
     return RG_OK;
 }
 

@@ -16,7 +16,8 @@ typedef struct rg_graph {
     double merged_max; /* largest distance merged, file units */
 } rg_graph;
 
-/* Takes out the edges marked drop[e] != 0 and the vertices that then have none. RG_ENOMEM. */
+/* Takes out the edges marked drop[e] != 0 and the vertices that then have none; the size becomes that of what is left.
+ * RG_ENOMEM. */
 rg_status rg_graph_compact(rg_graph *g, const unsigned char *drop);
 void rg_graph_free(rg_graph *g);
 

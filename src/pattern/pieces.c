@@ -126,14 +126,7 @@ static rg_status take_one(drawing *d, rg_graph *g, int32_t sheet)
     for (int32_t e = 0; e < g->ne; e++) drop[e] = d->part[d->of[g->E[e].v[0]]].sheet != sheet;
     const rg_status s = rg_graph_compact(g, drop);
     rg_mem_free(&g->mem, drop);
-    if (s != RG_OK || g->nv == 0) return s;
-    rg_vec2 low = g->X[0], high = low;
-    for (int32_t v = 1; v < g->nv; v++) {
-        low = (rg_vec2){fmin(low.x, g->X[v].x), fmin(low.y, g->X[v].y)};
-        high = (rg_vec2){fmax(high.x, g->X[v].x), fmax(high.y, g->X[v].y)};
-    }
-    g->size = fmax(high.x - low.x, high.y - low.y);
-    return RG_OK;
+    return s;
 }
 
 rg_status rg_pieces_find(rg_graph *g, const rg_lines *lines, int32_t take, rg_walk *walk, rg_piece **piece,

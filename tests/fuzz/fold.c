@@ -16,20 +16,20 @@ static int count_down(void *left, double progress)
     return --*(int *)left < 0;
 }
 
-static rg_settings settings_of(dice d)
+static rg_settings settings_of(dice *d)
 {
     rg_settings s = rg_settings_default();
     s.frames = 12;
     s.threads = 1;
-    s.effort = dice_below(&d, 4) ? RG_EFFORT_FAST : RG_EFFORT_NORMAL;
-    s.contact = dice_below(&d, 4) ? RG_CONTACT_AVOID : dice_below(&d, 2) ? RG_CONTACT_REPORT : RG_CONTACT_IGNORE;
-    s.method = dice_below(&d, 2) ? RG_METHOD_AUTO : (rg_method)dice_below(&d, 6);
-    s.solver = dice_below(&d, 2) ? RG_SOLVER_AUTO : (rg_solver)dice_below(&d, 4);
-    s.triangulate = dice_below(&d, 2) ? RG_TRIANGULATE_AUTO : (rg_triangulation)dice_below(&d, 3);
-    s.adjust = dice_below(&d, 2) ? RG_ADJUST_AUTO : 0;
-    s.symmetry = dice_below(&d, 4) ? RG_SYMMETRY_AUTO : RG_SYMMETRY_OFF;
-    s.pace = dice_below(&d, 2) ? RG_PACE_PERCENT : RG_PACE_STEADY;
-    s.to = dice_below(&d, 4) ? 1 : (const double[]){-1, 0.5, -0.3, 0.01}[dice_below(&d, 4)];
+    s.effort = dice_below(d, 4) ? RG_EFFORT_FAST : RG_EFFORT_NORMAL;
+    s.contact = dice_below(d, 4) ? RG_CONTACT_AVOID : dice_below(d, 2) ? RG_CONTACT_REPORT : RG_CONTACT_IGNORE;
+    s.method = dice_below(d, 2) ? RG_METHOD_AUTO : (rg_method)dice_below(d, 6);
+    s.solver = dice_below(d, 2) ? RG_SOLVER_AUTO : (rg_solver)dice_below(d, 4);
+    s.triangulate = dice_below(d, 2) ? RG_TRIANGULATE_AUTO : (rg_triangulation)dice_below(d, 3);
+    s.adjust = dice_below(d, 2) ? RG_ADJUST_AUTO : 0;
+    s.symmetry = dice_below(d, 4) ? RG_SYMMETRY_AUTO : RG_SYMMETRY_OFF;
+    s.pace = dice_below(d, 2) ? RG_PACE_PERCENT : RG_PACE_STEADY;
+    s.to = dice_below(d, 4) ? 1 : (const double[]){-1, 0.5, -0.3, 0.01}[dice_below(d, 4)];
     return s;
 }
 
@@ -73,7 +73,8 @@ static void check_verdict(const rg_motion *m, const rg_pattern *p, const char *p
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    const rg_settings s = settings_of(dice_of(data, size));
+    dice d = dice_of(data, size);
+    const rg_settings s = settings_of(&d);
     rg_pattern *p = NULL;
     rg_motion *m = NULL;
     rg_diag why = {0, ""};
@@ -97,6 +98,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         if (status == RG_OK) {
             check_report(m, &s);
             check_verdict(m, p, scratch("motion.fold"));
+            if (dice_below(&d, 16) == 0) sound(rg_info_text(p, 1, "/dev/null", &why), &why);
         }
     }
     rg_motion_destroy(m);

@@ -57,8 +57,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         if (status == RG_OK) {
             check_pattern(p);
             sound(rg_info_write(p, "/dev/null", &why), &why);
-            /* The sentence for people is of a motion, which the target `fold` is for. */
-            if (dice_below(&d, 64) == 0) sound(rg_info_text(p, 1, "/dev/null", &why), &why);
+            /* The text for people moves the sheet a little, which is dear, and what the target `fold` is for: seldom. */
+            if (dice_below(&d, 2048) == 0) sound(rg_info_text(p, 1, "/dev/null", &why), &why);
         }
         rg_pattern_destroy(p);
     }
