@@ -110,8 +110,8 @@ static rg_status check_size(const given *g, int32_t k, const rg_vec3 *x)
     const double times = fmax(far / m->size, area / flat);
     if (times <= MOST_STRETCHED || g->frame[k] < 0) return RG_OK;
     return rg_fail(RG_EFORMAT, g->why, 0,
-                   "file_frames[%d].vertices_coords: %.3g times as large as the crease pattern: no motion of that sheet",
-                   (int)g->frame[k], times);
+                   "file_frames[%d].vertices_coords: %.3g times as large as the crease pattern: no motion of that "
+                   "sheet", (int)g->frame[k], times);
 }
 
 /* Where creases were adjusted, the pattern of the frame. */
@@ -281,8 +281,9 @@ rg_status rg_motion_read(const char *path, const rg_reading *reading, rg_motion 
         m->settings = rg_settings_default();
         m->settings.memory = with.memory;
         s = build(m, root, p, why);
-        const int is_of_frames = s == RG_EFORMAT && why && strncmp(why->text, "file_frames", strlen("file_frames")) == 0;
-        if (is_of_frames) why->line = rg_locate_told(bytes, size, why->text);
+        static const char frames[] = "file_frames";
+        if (s == RG_EFORMAT && why && strncmp(why->text, frames, strlen(frames)) == 0)
+            why->line = rg_locate_told(bytes, size, why->text);
     }
     rg_value_free(root);
     rg_pattern_destroy(p);

@@ -33,8 +33,8 @@ static void refuse(xmlParserCtxt *parser, const char *why)
 
 /* ---------------------------------------------------------------------------------------------- attributes ---- */
 
-/* The parser compares each attribute of an element with all others, and asks nobody meanwhile: a megabyte of them takes it
- * ten seconds. No drawing has a tenth of these. */
+/* The parser compares each attribute of an element with all others, and asks nobody meanwhile: a megabyte of them takes
+ * it ten seconds. No drawing has a tenth of these. */
 enum { MOST_ATTRIBUTES = 1000 };
 
 /* Behind the word; the end: it is not there. */
