@@ -2,6 +2,8 @@
 #include "read/colour.h"
 #include "reading.h"
 
+#include <pthread.h>
+
 #define SVG(inside) "<svg xmlns=\"http://www.w3.org/2000/svg\">\n" inside "\n</svg>\n"
 
 static rg_lines read_svg(const char *text) { return read_ok(text, RG_FORMAT_SVG, NULL); }
@@ -482,6 +484,37 @@ static void nesting_and_rules_end(void **state)
     free(text);
 }
 
+static void *read_deep(void *text)
+{
+    refused(text, RG_FORMAT_SVG, NULL, -1, "nested too deep");
+    return NULL;
+}
+
+/* Threads have half a megabyte of stack in some systems, and each level took two kilobytes. */
+static void depth_fits_a_small_stack(void **state)
+{
+    (void)state;
+    enum { LEVELS = 250, ROOM = 100 * LEVELS };
+#ifdef __SANITIZE_ADDRESS__
+    const size_t stack = (size_t)4 << 20;
+#else
+    const size_t stack = (size_t)1 << 19;
+#endif
+    char *text = malloc(ROOM);
+    assert_non_null(text);
+    size_t n = (size_t)sprintf(text, "<svg><defs>");
+    for (int i = 0; i < LEVELS; i++) n += (size_t)sprintf(text + n, "<g id='a%d'><use href='#a%d'/></g>", i, i + 1);
+    sprintf(text + n, "<line id='a%d' stroke='red' x2='1'/></defs><use href='#a0'/></svg>", LEVELS);
+    pthread_attr_t small;
+    pthread_t thread;
+    assert_int_equal(pthread_attr_init(&small), 0);
+    assert_int_equal(pthread_attr_setstacksize(&small, stack), 0);
+    assert_int_equal(pthread_create(&thread, &small, read_deep, text), 0);
+    assert_int_equal(pthread_join(thread, NULL), 0);
+    pthread_attr_destroy(&small);
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -490,6 +523,6 @@ int main(void)
         cmocka_unit_test(entities_in_sum), cmocka_unit_test(styles),
         cmocka_unit_test(colours), cmocka_unit_test(selectors), cmocka_unit_test(paints), cmocka_unit_test(names_dashes_data), cmocka_unit_test(sizes),
                                        cmocka_unit_test(refusals), cmocka_unit_test(marks_and_numbers_too_large),
-        cmocka_unit_test(texts), cmocka_unit_test(entities_stay_closed), cmocka_unit_test(nesting_and_rules_end)};
+        cmocka_unit_test(texts), cmocka_unit_test(entities_stay_closed), cmocka_unit_test(nesting_and_rules_end), cmocka_unit_test(depth_fits_a_small_stack)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

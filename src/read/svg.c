@@ -15,7 +15,7 @@ static const double STRAIGHT = 1e-6;
 
 /* What <use> repeats is bounded in sum, counted about as its bytes, and so is how deep the elements stand in each
  * other. */
-enum { MOST_REPEATED = 1 << 24, OF_ELEMENT = 64, OF_SEGMENT = 16, MOST_NESTED = 512 };
+enum { MOST_REPEATED = 1 << 24, OF_ELEMENT = 64, OF_SEGMENT = 16, MOST_NESTED = 256 };
 /* So many bytes of attributes are looked through in the time of one byte of a path. */
 enum { OTHERS_A_BYTE = 8 };
 
@@ -489,10 +489,10 @@ static rg_status enter_viewport(const reader *r, const rg_xml_node *n, const rg_
     return RG_OK;
 }
 
-static rg_status element(reader *r, const rg_xml_node *n, rg_paint p, const rg_xml_node *user);
+static rg_status element(reader *r, const rg_xml_node *n, const rg_paint *around, const rg_xml_node *user);
 
-/* <use>: draws what it names as if it stood here. */
-static rg_status repeat(reader *r, const rg_xml_node *n, rg_paint p)
+/* <use>: draws what it names as if it stood here. p: its own, which is moved there. */
+static rg_status repeat(reader *r, const rg_xml_node *n, rg_paint *p)
 {
     const char *name = rg_xml_attribute(n, "href");
     const rg_xml_node *target = *name == '#' ? rg_ids_find(&r->with.ids, name + 1) : NULL;
@@ -503,9 +503,9 @@ static rg_status repeat(reader *r, const rg_xml_node *n, rg_paint p)
     for (const chain *c = r->uses; c; c = c->out)
         if (c->target == target) return fail(r, n, "it repeats itself:", name);
     double x = 0, y = 0;
-    rg_status s = length(r, n, &p, "x", &x);
-    if (s == RG_OK) s = length(r, n, &p, "y", &y);
-    p.m = rg_affine_mul(p.m, rg_affine_shift(x, y));
+    rg_status s = length(r, n, p, "x", &x);
+    if (s == RG_OK) s = length(r, n, p, "y", &y);
+    p->m = rg_affine_mul(p->m, rg_affine_shift(x, y));
     const chain here = {n, target, r->uses};
     r->uses = &here;
     if (s == RG_OK) s = element(r, target, p, n);
@@ -524,7 +524,7 @@ static int is_group(const rg_xml_node *n, const rg_xml_node *user)
 static rg_status inside(reader *r, const rg_xml_node *n, const rg_paint *p)
 {
     rg_status s = RG_OK;
-    for (const rg_xml_node *c = rg_xml_child(n); s == RG_OK && c; c = rg_xml_next(c)) s = element(r, c, *p, NULL);
+    for (const rg_xml_node *c = rg_xml_child(n); s == RG_OK && c; c = rg_xml_next(c)) s = element(r, c, p, NULL);
     return s;
 }
 
@@ -543,8 +543,9 @@ static rg_status go_on(reader *r, const rg_xml_node *n)
 }
 
 /* An element in what is around it; `user`: the <use> that names it. */
-static rg_status element(reader *r, const rg_xml_node *n, rg_paint p, const rg_xml_node *user)
+static rg_status element(reader *r, const rg_xml_node *n, const rg_paint *around, const rg_xml_node *user)
 {
+    rg_paint p = *around; /* one for each level: threads may have small stacks */
     const char *name = rg_xml_name(n);
     const size_t path = strlen(rg_xml_attribute(n, "d")) + strlen(rg_xml_attribute(n, "points"));
     rg_status s = charge(r, n, OF_ELEMENT + path + rg_xml_attributes_size(n) / OTHERS_A_BYTE);
@@ -557,7 +558,7 @@ static rg_status element(reader *r, const rg_xml_node *n, rg_paint p, const rg_x
     const int is_viewport = is(name, "svg") || (user && is(name, "symbol"));
     s = transform(r, n, &p.m);
     if (s == RG_OK && is_viewport) s = enter_viewport(r, n, user, &p);
-    if (s == RG_OK) s = is(name, "use") ? repeat(r, n, p) : is_group(n, user) ? inside(r, n, &p) : shape(r, n, &p);
+    if (s == RG_OK) s = is(name, "use") ? repeat(r, n, &p) : is_group(n, user) ? inside(r, n, &p) : shape(r, n, &p);
     r->depth--;
     return s;
 }
@@ -646,7 +647,7 @@ static rg_status document(reader *r, const rg_xml_node *root)
     rg_status s = metadata(r->out, root);
     if (s == RG_OK) s = styles(r, root);
     if (s == RG_OK) s = rg_ids_init(&r->with.ids, &r->out->mem, root);
-    if (s == RG_OK) s = element(r, root, plain, NULL);
+    if (s == RG_OK) s = element(r, root, &plain, NULL);
     if (s == RG_OK) s = tell_all(r);
     return s == RG_OK && r->out->count == 0 ? nothing_drawn(r, root) : s;
 }
