@@ -157,8 +157,8 @@ static const rule rules[] = {
     {PICTURES, "thickness", 0, "T", REAL, AT(picture.thickness), 0, 1e9, 1, NULL,
      ".stl: plates so thick, in units of the file, joined at the creases: one closed solid to print (0: a surface)"},
     {READS | FOR_DRAW, "unit", 0, "UNIT", CHOICE, AT(unit), 0, 0, 1, units,
-     "what a unit of the file is, where it does not say so; models, drawings and cutters' files come out in that size "
-     "(file):"},
+     "what a unit of the file is, where it does not say so or says it wrongly; models, drawings and cutters' files "
+     "come out in that size (file):"},
     {PICTURES, "fps", 0, "N", REAL, AT(picture.fps), 0.01, 1000, 1, NULL, "animations: frames a second (30)"},
     {PICTURES, "loop", 0, "HOW", CHOICE, AT(loop), 0, 0, 1, loops,
      "animations: there and back, forward over and over, or once (back):"},
