@@ -536,7 +536,6 @@ static rg_status go_on(reader *r, const rg_xml_node *n)
         return rg_fail(RG_EFORMAT, r->why, rg_xml_line(n),
                        "<%.20s>: its styles are too much to look through, with all rules, variables and gradients",
                        rg_xml_name(n));
-    css->most += WORK_AN_ELEMENT;
     if (css->work - r->asked_at < WORK_UNASKED) return RG_OK;
     r->asked_at = css->work;
     return rg_stop_asked(r->out->stop) ? RG_ECANCELLED : RG_OK;
@@ -550,6 +549,7 @@ static rg_status element(reader *r, const rg_xml_node *n, const rg_paint *around
     const size_t path = strlen(rg_xml_attribute(n, "d")) + strlen(rg_xml_attribute(n, "points"));
     rg_status s = charge(r, n, OF_ELEMENT + path + rg_xml_attributes_size(n) / OTHERS_A_BYTE);
     if (s != RG_OK) return s;
+    r->with.css.most += WORK_AN_ELEMENT;
     const int is_there = rg_paint_inherit(&r->with, n, &p);
     if ((s = go_on(r, n)) != RG_OK) return s;
     if (!is_there) return tell_hidden(r, n);
@@ -557,6 +557,7 @@ static rg_status element(reader *r, const rg_xml_node *n, const rg_paint *around
     r->depth++;
     const int is_viewport = is(name, "svg") || (user && is(name, "symbol"));
     s = transform(r, n, &p.m);
+    if (s == RG_OK) s = go_on(r, n);
     if (s == RG_OK && is_viewport) s = enter_viewport(r, n, user, &p);
     if (s == RG_OK) s = is(name, "use") ? repeat(r, n, &p) : is_group(n, user) ? inside(r, n, &p) : shape(r, n, &p);
     r->depth--;
