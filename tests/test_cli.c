@@ -383,7 +383,7 @@ static void a_motion_of_any_size_is_drawn(void **state)
         write_file("far.fold", text);
         const ran *r = run("draw", "far.fold", "-q", "-o", "far.html", "-o", "far.glb", "--max-seconds", "30");
         ends(tried[i].ends, r);
-        if (tried[i].ends) says(r, "rigami: far.fold: ", "large");
+        if (tried[i].ends) says(r, "rigami: far.fold:1: ", "large");
     }
     /* A percent of any size is a number. */
     snprintf(text, sizeof text, "%s{\"rigami:percent\":1e308,\"vertices_coords\":[[0,0,0],[1,0,0],[2,0,0],[2,1,0],[1,1,0],[0,1,0]]}]}", head);
@@ -417,7 +417,7 @@ static void a_motion_is_drawn_again(void **state)
     says(ends(2, run("draw", "good.opx", "-o", "again.png")), "rigami: good.opx", "");
     write_file("flat.fold", "{\"vertices_coords\":[[0,0],[3,0],[3,2],[0,2]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0],[0,2]],"
                "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"V\"]}");
-    says(ends(2, run("draw", "flat.fold", "-o", "again.csv")), "rigami: flat.fold: ", "no frame has vertices_coords");
+    says(ends(2, run("draw", "flat.fold", "-o", "again.csv")), "rigami: flat.fold:1: ", "no frame has vertices_coords");
     says(ends(2, run("draw", "good.fold")), "rigami: ", "-o");
     /* A sheet that stretches, as other programs' do: half of it turns by 30 degrees and gets longer; angles are those that it lies at. */
     write_file("soft.fold", "{\"vertices_coords\":[[0,0],[1,0],[2,0],[2,1],[1,1],[0,1]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,4],[4,5],[5,0],[1,4]],"
