@@ -747,6 +747,17 @@ static void titles_stay_on_one_line(void **state)
     assert_non_null(strstr(r->out, "\na It is likely to fold [2J, by b \n"));
 }
 
+/* An order of layers that there is not is no reason to fold through oneself. */
+static void an_order_of_layers_has_to_be_there(void **state)
+{
+    (void)state;
+    ends(0, run("gen", "miura", "2", "-o", "ordered.opx"));
+    ends(0, run("fold", "ordered.opx", "-q", "--layers", "0", "--frames", "2"));
+    says(ends(2, run("fold", "ordered.opx", "--layers", "1", "-o", "ordered.csv")), "rigami: ordered.opx: ", "no layer order 1: it has 1 ");
+    says(ends(2, run("fold", "ordered.opx", "--layers", "2147483647")), "rigami: ordered.opx: ", "no layer order 2147483647");
+    assert_int_equal(names("ordered.csv"), 0);
+}
+
 static void outputs_that_cannot_be_are_refused_before_folding(void **state)
 {
     (void)state;
@@ -1540,6 +1551,7 @@ int main(void)
         cmocka_unit_test(a_motion_of_any_size_is_drawn),
         cmocka_unit_test(a_frame_that_is_cut_off_is_drawn_again),
         cmocka_unit_test(titles_stay_on_one_line),
+        cmocka_unit_test(an_order_of_layers_has_to_be_there),
         cmocka_unit_test(a_batch),
         cmocka_unit_test(names_of_a_batch),
         cmocka_unit_test(a_batch_goes_on),

@@ -140,6 +140,31 @@ static void tell_details(const rg_motion *m)
                r->adjust_gain, r->max_adjustment, r->max_strain_from_original);
 }
 
+/* That there is such an order of layers as is asked for; where there is none at all, folding says why. */
+static int check_layers(const options *o, const states *q)
+{
+    rg_diag why = {0, ""};
+    rg_layers *l = NULL;
+    const char *name = o->operand[q->operand[0]];
+    if (o->settings.layer_order < 1 || q->count > 1) return ENDS_WELL;
+    rg_status s = rg_layers_create(q->pattern[0], NULL, &l, &why);
+    int status = s == RG_ENOMEM ? say_status(s, name, &why) : ENDS_WELL;
+    const rg_layers_info *i = s == RG_OK ? rg_layers_get_info(l) : NULL;
+    if (i && i->state == RG_LAYERS_VALID) {
+        uint64_t *which = calloc((size_t)i->parts + 1, sizeof *which);
+        s = which ? rg_layers_which(l, (uint64_t)o->settings.layer_order, which) : RG_ENOMEM;
+        if (s == RG_ENOMEM) status = say_status(s, name, &(rg_diag){0, ""});
+        else if (s != RG_OK) {
+            say("%s: there is no layer order %d: it has %s of them, counted from 0 (--layers)", name,
+                (int)o->settings.layer_order, i->count);
+            status = ENDS_USAGE;
+        }
+        free(which);
+    }
+    rg_layers_destroy(l);
+    return status;
+}
+
 /* Several patterns: a sequence of states of one sheet. */
 static int fold_states(const options *o, const states *q, progress *bar, rg_motion **m)
 {
@@ -184,6 +209,7 @@ int fold_one(const options *o, fold_seen seen, void *ctx)
     options written = {.output = calloc((size_t)o->outputs + 1, sizeof *written.output)};
     if (!written.output) status = say_status(RG_ENOMEM, o->operand[0], &(rg_diag){0, ""});
     if (status == ENDS_WELL) status = states_read(o, &q);
+    if (status == ENDS_WELL) status = check_layers(o, &q);
     if (status == ENDS_WELL) status = fold_states(o, &q, &bar, &m);
     if (status == ENDS_WELL) {
         const rg_report *r = rg_motion_report(m);
