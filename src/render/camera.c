@@ -13,8 +13,10 @@ static const double MARGIN = 0.06;
 static const double DEPTH_ROOM = 0.02;
 /* The floor is that part of the sheet's size below its lowest point: a sheet that lies flat has a soft seam. */
 static const double FLOOR = 0.01;
-/* Frames before and after that have a say in where the camera is, in parts of all frames. */
+/* Frames before and after that have a say in where the camera is, in parts of all frames; and no more than so many,
+ * half a minute of a film, so that time goes by the frames and not by their square. */
 static const double REACH = 0.1;
+enum { MOST_REACH = 1000 };
 /* ---- where the sheet is seen */
 
 /* Along the camera's axes: what is seen of a point at (r, u, b) from the eye at (0, 0, d) is at r / (d - b), u / (d -
@@ -155,7 +157,7 @@ static rg_status pose(const track *t, int32_t k)
 static rg_status follow(track *t, const rg_picture *p, rg_camera *camera, rg_diag *why)
 {
     const rg_mesh *m = &t->stage->motion->mesh;
-    const int32_t reach = (int32_t)(REACH * t->frames);
+    const int32_t reach = (int32_t)fmin(MOST_REACH, REACH * t->frames);
     const rg_vec2 target = {p->target[0], p->target[1]};
     const int32_t facet = p->targeted ? facet_with(m, target) : -1;
     if (p->targeted && facet < 0)
