@@ -53,7 +53,7 @@ static void make(const char *path, flat_end *w)
     assert_int_equal(rg_layers_choose(w->layers, 0), RG_OK);
     assert_int_equal(rg_linkage_init(&w->P, &mem, &w->mesh), RG_OK);
     assert_true(w->P.n <= 2000);
-    assert_int_equal(rg_end_init(&w->end, &mem, &w->P, z, &rules, lies_over, w), RG_OK);
+    assert_int_equal(rg_end_init(&w->end, &mem, &w->P, z, &rules, &(rg_end_order){lies_over, w, NULL}), RG_OK);
     rg_mesh_free(&drawn);
     rg_pattern_destroy(p);
 }
@@ -236,7 +236,7 @@ static void layers_that_have_passed_each_other(void **state)
     }
     const int turned = height[P.tree.order[0]] == 0 ? 1 : -1; /* seen with the front of that facet up */
     for (int32_t f = 0; f < m.nf; f++) height[f] *= turned;
-    assert_int_equal(rg_end_init(&end, &mem, &P, flat, &rules, second_over_first, height), RG_OK);
+    assert_int_equal(rg_end_init(&end, &mem, &P, flat, &rules, &(rg_end_order){second_over_first, height, NULL}), RG_OK);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         memcpy(z, flat, sizeof z);
         z[first] += cases[k].first, z[second] += cases[k].second;

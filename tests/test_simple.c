@@ -148,7 +148,7 @@ static int compare(rg_pattern *p, int most_orders)
     for (int k = 0; k < most_orders && rg_layers_which(l, (uint64_t)k, which) == RG_OK; k++) {
         rg_simple q;
         assert_int_equal(rg_layers_choose(l, which), RG_OK);
-        assert_int_equal(rg_simple_find(&q, &mem, l), RG_OK);
+        assert_int_equal(rg_simple_find(&q, &mem, l, NULL), RG_OK);
         const int brute = brute_force(l, angle);
         if (q.base != brute) fail_msg("%d creases are left, %d need not be; order %d of %s", (int)q.base, brute, k, l->info.count);
         if (q.base < least) least = q.base;
@@ -240,7 +240,7 @@ static void what_is_left_is_valid(void **state)
         rg_layers *l = layers_of(p);
         rg_simple q;
         assert_int_equal(rg_layers_choose(l, NULL), RG_OK);
-        assert_int_equal(rg_simple_find(&q, &mem, l), RG_OK);
+        assert_int_equal(rg_simple_find(&q, &mem, l, NULL), RG_OK);
         double *angle = angles(&l->mesh);
         int made = 0, last = 1;
         for (int32_t i = 0; i < q.folds; i++) {
@@ -273,6 +273,39 @@ static void what_is_left_is_valid(void **state)
     print_message("%d of 12 leave something in their first order\n", some);
 }
 
+/* Non-zero from the time on that it has been asked so often. */
+static int enough(void *left) { return --*(int *)left < 0; }
+
+/* Ended before the k-th question, k = 0, 1, 2, ..., there are none; else they are the same. */
+static void ended_at_any_time(void **state)
+{
+    (void)state;
+    rg_pattern *p = strip("VVMMV", 0.5);
+    rg_layers *l = layers_of(p);
+    rg_simple all;
+    int asked = 0;
+    assert_int_equal(rg_layers_choose(l, NULL), RG_OK);
+    const rg_memory usual = rg_mem_default(NULL);
+    assert_int_equal(rg_simple_find(&all, &usual, l, NULL), RG_OK);
+    assert_true(all.folds > 1);
+    for (int ended = 1; ended; asked++) {
+        counted c = {1000000, 0, 0};
+        const rg_memory mem = {counted_resize, &c};
+        int left = asked;
+        rg_simple q;
+        assert_int_equal(rg_simple_find(&q, &mem, l, &(rg_stop){enough, &left}), RG_OK);
+        ended = left < 0;
+        assert_int_equal(q.folds, ended ? 0 : all.folds);
+        for (int32_t k = 0; k < q.folds; k++) assert_int_equal(q.fold[k].stage, all.fold[k].stage);
+        rg_simple_free(&q);
+        assert_int_equal(c.out, 0);
+    }
+    assert_true(asked > 10);
+    rg_simple_free(&all);
+    rg_layers_destroy(l);
+    rg_pattern_destroy(p);
+}
+
 static void starves(void **state)
 {
     (void)state;
@@ -283,7 +316,7 @@ static void starves(void **state)
         counted c = {left, 0, 0};
         const rg_memory mem = {counted_resize, &c};
         rg_simple q;
-        const rg_status s = rg_simple_find(&q, &mem, l);
+        const rg_status s = rg_simple_find(&q, &mem, l, NULL);
         rg_simple_free(&q);
         assert_int_equal(c.out, 0);
         if (s == RG_OK) break;
@@ -296,6 +329,7 @@ static void starves(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(strips), cmocka_unit_test(any_folds), cmocka_unit_test(bases),
-                                       cmocka_unit_test(what_is_left_is_valid), cmocka_unit_test(starves)};
+                                       cmocka_unit_test(what_is_left_is_valid), cmocka_unit_test(starves),
+                                       cmocka_unit_test(ended_at_any_time)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

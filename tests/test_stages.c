@@ -40,7 +40,7 @@ static void take_apart(apart *a, rg_pattern *p)
     assert_int_equal(rg_layers_create(p, NULL, &a->layers, &why), RG_OK);
     assert_int_equal(a->layers->info.state, RG_LAYERS_VALID);
     assert_int_equal(rg_layers_choose(a->layers, NULL), RG_OK);
-    assert_int_equal(rg_simple_find(&a->simple, &mem, a->layers), RG_OK);
+    assert_int_equal(rg_simple_find(&a->simple, &mem, a->layers, NULL), RG_OK);
     assert_int_equal(rg_mesh_from_pattern(p, &mem, &a->mesh, &why), RG_OK);
 }
 

@@ -395,7 +395,8 @@ rg_status rg_stages_try(rg_stages *q, rg_search *c, const rg_mesh *none, const r
     work w = {.mem = rg_mem_default(s->memory), .settings = s};
     memset(q, 0, sizeof *q);
     if (fabs(s->to) != 1 || watch->cancelled) return RG_OK;
-    rg_status status = rg_undone_init(&w.u, none, s);
+    const rg_stop stop = {rg_watch_asked, watch};
+    rg_status status = rg_undone_init(&w.u, none, s, &stop);
     const double most = s->adjust != 0 ? ON_THE_PATTERN * none->size : 0; /* that vertices may move by */
     const int closes = w.u.off <= RG_RECTIFIED && w.u.moved <= most;
     if (status == RG_OK && w.u.simple.folds > 0 && closes) status = fold(&w, q, c, watch, why);

@@ -13,7 +13,7 @@ static rg_status take_apart(rg_undone *u, rg_simple *now)
 {
     const rg_status s = rg_layers_choose(u->layers, u->which);
     memset(now, 0, sizeof *now);
-    return s == RG_OK ? rg_simple_find(now, &u->mem, u->layers) : s;
+    return s == RG_OK ? rg_simple_find(now, &u->mem, u->layers, u->stop) : s;
 }
 
 /* The order u->which is kept where `now`, which is taken over, is better. */
@@ -56,7 +56,7 @@ static rg_status find_layers(rg_undone *u, int32_t order)
     u->angle = rg_mem_array(&u->mem, (size_t)u->none->N, sizeof *u->angle);
     if (!u->angle) return RG_ENOMEM;
     for (int32_t i = 0; i < u->none->N; i++) u->angle[i] = u->sign * u->none->target[u->none->crease_edge[i]];
-    rg_status s = rg_layers_of_mesh(u->none, u->angle, 0, &u->mem, NULL, &u->layers, &why);
+    rg_status s = rg_layers_of_mesh(u->none, u->angle, 0, &u->mem, u->stop, &u->layers, &why);
     if (s != RG_OK || u->layers->info.state != RG_LAYERS_VALID) return s;
     u->which = rg_mem_array(&u->mem, (size_t)u->layers->parts.count + 1, sizeof *u->which);
     s = u->which ? find_folds(u, order) : RG_ENOMEM;
@@ -72,10 +72,10 @@ static rg_status find_layers(rg_undone *u, int32_t order)
     return s;
 }
 
-rg_status rg_undone_init(rg_undone *u, const rg_mesh *none, const rg_settings *settings)
+rg_status rg_undone_init(rg_undone *u, const rg_mesh *none, const rg_settings *settings, const rg_stop *stop)
 {
     *u = (rg_undone){.mem = rg_mem_default(settings->memory), .none = none, .sign = settings->to < 0 ? -1 : 1,
-                     .chooses = settings->layer_order < 0};
+                     .chooses = settings->layer_order < 0, .stop = stop};
     rg_status s = find_layers(u, settings->layer_order);
     if (s != RG_OK || u->simple.folds == 0) return s;
     s = rg_mesh_copy(none, &u->drawn);
@@ -151,7 +151,7 @@ static rg_status layers_of(const rg_undone *u, const rg_mesh *m, rg_layers **l)
     double *angle = rg_mem_array(&u->mem, (size_t)m->N, sizeof *angle);
     if (!angle) return RG_ENOMEM;
     for (int32_t i = 0; i < m->N; i++) angle[i] = i < m->N - m->added ? u->sign * m->target[m->crease_edge[i]] : 0;
-    const rg_status s = rg_layers_of_mesh(m, angle, 0, &u->mem, NULL, l, &why);
+    const rg_status s = rg_layers_of_mesh(m, angle, 0, &u->mem, u->stop, l, &why);
     rg_mem_free(&u->mem, angle);
     return s;
 }
@@ -212,6 +212,10 @@ static rg_status follow(rg_undone *u, const rg_layers *l, const double *is, doub
             if (tries++ >= MOST_TRIES || (int64_t)tries * u->layers->flat.nf > MOST_FACETS) return RG_OK;
             u->which[i] = k;
             s = take_apart(u, &now);
+            if (rg_stop_asked(u->stop)) {
+                rg_simple_free(&now);
+                return s;
+            }
             const int32_t n = s == RG_OK && is_same_base(&now, &u->simple) ? differ(u, &now, l, is, want) : least;
             keep_if(u, &now, n < least);
             if (n < least) least = n;

@@ -12,6 +12,7 @@ typedef struct rg_undone {
     const rg_mesh *none;         /* borrowed: the facets as drawn */
     double sign;                 /* -1: mountain and valley exchanged */
     int chooses;                 /* non-zero: the order of the end is not given */
+    const rg_stop *stop;         /* borrowed; once it was asked for, there are none */
     double *angle;               /* [none N] of the end */
     rg_layers *layers;
     uint64_t *which;             /* [parts] the order chosen */
@@ -21,7 +22,7 @@ typedef struct rg_undone {
 } rg_undone;
 
 /* RG_OK also where there are no simple folds. Owner: the caller, rg_undone_free, also after a failure. RG_ENOMEM. */
-rg_status rg_undone_init(rg_undone *u, const rg_mesh *none, const rg_settings *s);
+rg_status rg_undone_init(rg_undone *u, const rg_mesh *none, const rg_settings *s, const rg_stop *stop);
 void rg_undone_free(rg_undone *u);
 /* The number that the order to be folded to has, of those of `base`'s triangles; -1: none. RG_ENOMEM. */
 rg_status rg_undone_number(const rg_undone *u, const rg_mesh *base, int64_t *number);

@@ -14,6 +14,9 @@
 static const double MOST_WORK[] = {0, 5e10, 3e12};
 static const int32_t TRIANGLES = 250;
 static const double MOST_TIMES = 4;
+/* Of more triangles it is not looked for: that work gets nowhere then, setting out takes seconds that nobody can end,
+ * and tables of pairs of edges grow to gigabytes. The most that was unfolded so far has some 400. */
+static const int32_t MOST_TRIANGLES = 2500;
 
 /* As a part of that: for facets cut by short diagonals, where nothing came of long ones. */
 static const double PART_OF_SHORT = 0.5;
@@ -206,6 +209,7 @@ rg_status rg_unfolding_run(rg_search *c, const rg_mesh *none, const rg_settings 
     const rg_memory mem = rg_mem_default(s->memory);
     const double begun = rg_seconds();
     const int32_t triangles = none->facet_start[none->nf] - 2 * none->nf;
+    if (triangles > MOST_TRIANGLES) return RG_OK;
     const double most = part * MOST_WORK[s->effort] * fmin(MOST_TIMES, fmax(1, (double)triangles / TRIANGLES));
     taker k = {.none = none, .settings = s, .watch = watch, .why = why};
     int two;

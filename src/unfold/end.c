@@ -34,8 +34,7 @@ typedef struct builder {
     rg_linkage *P;
     const rg_mesh *m;
     const rg_end_rules *rules;
-    rg_end_above above;
-    void *ctx;
+    const rg_end_order *order;
     shape *triangle;      /* [nf] in the plane, counter-clockwise */
     int32_t (*corner)[3]; /* [nf] its vertices in that order */
     line *line;
@@ -47,8 +46,10 @@ static int over(const builder *w, int32_t f, int32_t g)
     return w->e->sides.over[(size_t)f * (size_t)w->m->nf + (size_t)g];
 }
 
+static int is_stopped(const builder *w) { return rg_stop_asked(w->order->stop); }
+
 /* Where the order says so, whether they overlap there or not. */
-static int above(const builder *w, int32_t f, int32_t g) { return w->above(w->ctx, f, g); }
+static int above(const builder *w, int32_t f, int32_t g) { return w->order->above(w->order->ctx, f, g); }
 
 static rg_vec2 towards(rg_vec2 a, rg_vec2 b, double t)
 {
@@ -236,14 +237,14 @@ static void find_behind(builder *w)
     const rg_tree *t = &w->P->tree;
     rg_sides *sides = &w->e->sides;
     const rg_vec2 *x = w->e->x;
-    for (int32_t v = 0; v < m->nv; v++)
+    for (int32_t v = 0; v < m->nv && !is_stopped(w); v++)
         for (int32_t g = 0; g < m->nf; g++) {
             unsigned char *flag = &sides->corner_behind[(size_t)v * (size_t)m->nf + (size_t)g];
             const int32_t both[2] = {v, v};
             for (int32_t k = t->corner_start[v]; k < t->corner_start[v + 1] && !*flag && !has(w, g, v, v); k++)
                 *flag = (unsigned char)third_between(w, t->corner_facet[k], both, g, NULL, x[v]);
         }
-    for (int32_t a = 0; a < m->ne; a++)
+    for (int32_t a = 0; a < m->ne && !is_stopped(w); a++)
         for (int32_t b = 0; b < a; b++) {
             const int32_t *v = m->edge[a], *u = m->edge[b];
             const double p = rg_vec2_turn(x[v[0]], x[v[1]], x[u[0]]), q = rg_vec2_turn(x[v[0]], x[v[1]], x[u[1]]);
@@ -272,7 +273,7 @@ static rg_status overlaps(builder *w)
             to[(size_t)f * (size_t)nf + (size_t)g] = (signed char)order;
             to[(size_t)g * (size_t)nf + (size_t)f] = (signed char)-order;
         }
-    for (int32_t f = 0; f < nf; f++)
+    for (int32_t f = 0; f < nf && status == RG_OK && !is_stopped(w); f++)
         for (int32_t g = 0; g < nf && status == RG_OK; g++)
             if (over(w, f, g) > 0) status = layer_rows(w, f, g);
     return status;
@@ -437,7 +438,7 @@ static rg_status corner_rows(builder *w, const line *k)
 static rg_status in_plane(builder *w)
 {
     rg_status status = RG_OK;
-    for (int32_t i = 0; i < w->lines; i++)
+    for (int32_t i = 0; i < w->lines && status == RG_OK && !is_stopped(w); i++)
         for (int32_t k = 0; k < i && status == RG_OK; k++) status = edge_rows(w, &w->line[i], &w->line[k]);
     for (int32_t i = 0; i < w->lines && status == RG_OK; i++) status = corner_rows(w, &w->line[i]);
     return status;
@@ -461,10 +462,10 @@ static void lay_out(builder *w)
 }
 
 rg_status rg_end_init(rg_end *e, const rg_memory *mem, rg_linkage *P, const double *z, const rg_end_rules *rules,
-                      rg_end_above above_, void *ctx)
+                      const rg_end_order *order)
 {
     const rg_mesh *m = P->mesh;
-    builder w = {.e = e, .P = P, .m = m, .rules = rules, .above = above_, .ctx = ctx};
+    builder w = {.e = e, .P = P, .m = m, .rules = rules, .order = order};
     memset(e, 0, sizeof *e);
     e->mem = *mem;
     e->keep = rules->keep;
@@ -482,7 +483,7 @@ rg_status rg_end_init(rg_end *e, const rg_memory *mem, rg_linkage *P, const doub
         find_lines(&w);
         s = in_plane(&w);
         find_behind(&w);
-        rg_sides_finish(&e->sides, e->x);
+        rg_sides_finish(&e->sides, e->x, order->stop);
     }
     RG_MEM_FREE(mem, w.triangle, w.corner, w.line);
     return s;

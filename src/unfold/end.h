@@ -18,6 +18,7 @@
 #ifndef RG_END_H
 #define RG_END_H
 
+#include "base/stop.h"
 #include "unfold/linkage.h"
 #include "unfold/nearest.h"
 #include "unfold/sides.h"
@@ -52,13 +53,17 @@ typedef struct rg_end {
     rg_vec2 *x;          /* [nv] positions in the plane */
 } rg_end;
 
-/* The order between facets of the linkage's mesh: +1: f lies over g, seen with the front of the linkage's first facet
- * up; 0: no overlap. */
-typedef int (*rg_end_above)(void *ctx, int32_t f, int32_t g);
+/* The order between facets of the linkage's mesh. */
+typedef struct rg_end_order {
+    /* +1: f lies over g, seen with the front of the linkage's first facet up; 0: no overlap */
+    int (*above)(void *ctx, int32_t f, int32_t g);
+    void *ctx;
+    const rg_stop *stop; /* NULL: nobody can end it; once it was asked for, not all of the end is there */
+} rg_end_order;
 
 /* z[n]: the flat end, fold angles 0 or half a turn. RG_ENOMEM. Owner: the caller, rg_end_free, also after a failure. */
 rg_status rg_end_init(rg_end *e, const rg_memory *mem, rg_linkage *P, const double *z, const rg_end_rules *rules,
-                      rg_end_above above, void *ctx);
+                      const rg_end_order *order);
 void rg_end_free(rg_end *e);
 
 /* Rows are of fixed places, which slide on each other later: they speak as long as what they are about still lies

@@ -69,20 +69,28 @@ static void find_end(rg_passage *w)
     close_end(w);
 }
 
+static int is_stopped(const rg_passage *w, double done) { return w->stop && w->stop(w->ctx, done); }
+
+static int asked(void *passage) { return is_stopped(passage, 0); }
+
 static rg_status find_layers(rg_passage *w, double sign)
 {
+    const rg_stop stop = {asked, w};
     rg_diag why;
     double *rho = w->track.scratch;
     const int32_t drawn = w->P.N - w->mesh.added;
     for (int32_t i = 0; i < w->P.N; i++) rho[i] = i < drawn ? sign * w->mesh.target[w->mesh.crease_edge[i]] : 0;
-    const rg_status s = rg_layers_of_mesh(&w->mesh, rho, 0, &w->mem, NULL, &w->layers, &why);
+    const rg_status s = rg_layers_of_mesh(&w->mesh, rho, 0, &w->mem, &stop, &w->layers, &why);
     return s == RG_EFORMAT || s == RG_ESHEET ? RG_OK : s;
 }
 
-rg_status rg_passage_init(rg_passage *w, const rg_memory *mem, const rg_mesh *none, double sign, int shorter)
+rg_status rg_passage_init(rg_passage *w, const rg_memory *mem, const rg_mesh *none, double sign, int shorter,
+                          int (*stop)(void *ctx, double done), void *ctx)
 {
     memset(w, 0, sizeof *w);
     w->mem = *mem;
+    w->stop = stop;
+    w->ctx = ctx;
     rg_status s = shorter ? rg_triangulate_short(none, &w->mesh) : rg_triangulate_all(none, &w->mesh);
     if (s != RG_OK) return s;
     for (int32_t v = 0; v < w->mesh.nv; v++) {
@@ -110,8 +118,6 @@ void rg_passage_free(rg_passage *w)
 }
 
 /* ---- work */
-
-static int is_stopped(const rg_passage *w, double done) { return w->stop && w->stop(w->ctx, done); }
 
 /* What this try has spent: what was counted, and by w->q since. */
 static void count(rg_passage *w)
@@ -271,10 +277,15 @@ static rg_status land_as_seen(rg_passage *w, int32_t at, int *through)
         s = choose_as_seen(w);
         for (int32_t i = 0; i < w->P.N; i++) target[i] = w->track.end[i] == 0 ? NAN : 0;
     }
-    for (int k = 0; s == RG_OK && !*through && k < LANDINGS; k++) {
+    const rg_stop stop = {asked, w};
+    for (int k = 0; s == RG_OK && !*through && k < LANDINGS && !rg_stop_asked(&stop); k++) {
         rg_end end = {0};
         w->track.count = at + 1;
-        s = rg_end_init(&end, &w->mem, &w->P, w->track.end, &LANDING[k], lies_over, w);
+        s = rg_end_init(&end, &w->mem, &w->P, w->track.end, &LANDING[k], &(rg_end_order){lies_over, w, &stop});
+        if (rg_stop_asked(&stop)) {
+            rg_end_free(&end);
+            break;
+        }
         rg_linkage_put(&w->P, z);
         const int upset = s == RG_OK && w->track.progress[at] > NEAR_THE_END && rg_end_is_upset(&end, &w->P);
         if (s == RG_OK && !upset) s = land(w, &end, z, target, left(w) / (LANDINGS - k));
@@ -354,16 +365,19 @@ rg_status rg_passage_from_end(rg_passage *w, const rg_passage_way *way, double b
     begin(w, budget);
     find_end(w);
     rg_status s = RG_MEM_ARRAYS(&w->mem, RG_ARRAY(o.z, n), RG_ARRAY(target, n));
-    if (s == RG_OK) s = rg_end_init(&end, &w->mem, &w->P, w->track.end, &way->rules, lies_over, w);
+    const rg_stop stop = {asked, w};
+    if (s == RG_OK)
+        s = rg_end_init(&end, &w->mem, &w->P, w->track.end, &way->rules, &(rg_end_order){lies_over, w, &stop});
     if (s == RG_OK) s = rg_proximity_init(&near, &w->mem, &w->mesh);
     if (s == RG_OK) s = rg_track_keep(&w->track, end.z);
-    if (s == RG_OK) {
+    const int goes_on = s == RG_OK && !rg_stop_asked(&stop);
+    if (goes_on) {
         for (int32_t i = 0; i < w->P.N; i++) target[i] = w->track.end[i] == 0 ? NAN : 0;
         o.until = left(w); /* w->q has been counted */
         s = rg_open(&o);
     }
     rg_proximity_free(&near);
-    if (s == RG_OK && is_open(&o)) s = walk(w, &end, o.z, target, way->open.grow, through);
+    if (goes_on && s == RG_OK && is_open(&o)) s = walk(w, &end, o.z, target, way->open.grow, through);
     count(w);
     rg_end_free(&end);
     RG_MEM_FREE(&w->mem, o.z, target);

@@ -37,9 +37,10 @@ typedef struct rg_passage {
 } rg_passage;
 
 /* none: the facets as drawn. sign: +1, -1: mountain and valley exchanged. shorter: non-zero: facets are cut by short
- * diagonals. RG_OK also where there is no flat end. RG_ENOMEM. Owner: the caller, rg_passage_free, also after a
- * failure. */
-rg_status rg_passage_init(rg_passage *w, const rg_memory *mem, const rg_mesh *none, double sign, int shorter);
+ * diagonals. stop, ctx: as above. RG_OK also where there is no flat end. RG_ENOMEM. Owner: the caller,
+ * rg_passage_free, also after a failure. */
+rg_status rg_passage_init(rg_passage *w, const rg_memory *mem, const rg_mesh *none, double sign, int shorter,
+                          int (*stop)(void *ctx, double done), void *ctx);
 void rg_passage_free(rg_passage *w);
 /* *through: out, w->track is a motion. RG_ENOMEM. */
 rg_status rg_passage_from_end(rg_passage *w, const rg_passage_way *way, double budget, int *through);

@@ -144,7 +144,7 @@ static signed char lies_inside(const rg_sides *s, int32_t v, int32_t f, signed c
     return side;
 }
 
-void rg_sides_finish(rg_sides *s, const rg_vec2 *x)
+void rg_sides_finish(rg_sides *s, const rg_vec2 *x, const rg_stop *stop)
 {
     const rg_mesh *m = s->mesh;
     const size_t nf = (size_t)m->nf;
@@ -155,7 +155,7 @@ void rg_sides_finish(rg_sides *s, const rg_vec2 *x)
                 signed char *c = &s->corner[(size_t)m->facet_vertex[j] * nf + (size_t)g];
                 *c = both(*c, over(s, f, g));
             }
-    for (int32_t v = 0; v < m->nv; v++)
+    for (int32_t v = 0; v < m->nv && !rg_stop_asked(stop); v++)
         for (int32_t f = 0; f < m->nf; f++) {
             signed char *c = &s->corner[(size_t)v * nf + (size_t)f];
             *c = *c == 2 ? goes_round(s, v, f, x) : *c == 0 ? 0 : lies_inside(s, v, f, *c, x);

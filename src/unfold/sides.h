@@ -6,6 +6,7 @@
 #ifndef RG_SIDES_H
 #define RG_SIDES_H
 
+#include "base/stop.h"
 #include "unfold/proximity.h"
 #include "unfold/linkage.h"
 
@@ -27,7 +28,7 @@ typedef struct rg_sides {
 /* up and over are zero, to be filled, then rg_sides_finish with the positions x[nv] in the plane. RG_ENOMEM. Owner: the
  * caller, rg_sides_free. */
 rg_status rg_sides_init(rg_sides *s, const rg_memory *mem, const rg_mesh *m);
-void rg_sides_finish(rg_sides *s, const rg_vec2 *x);
+void rg_sides_finish(rg_sides *s, const rg_vec2 *x, const rg_stop *stop);
 void rg_sides_free(rg_sides *s);
 
 /* Non-zero: the pair, found at P->p, has a side: *n, out, points from its second part to the first in the order's

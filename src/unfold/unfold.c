@@ -101,12 +101,11 @@ rg_status rg_unfold_run(rg_unfold *u, const rg_memory *mem, const rg_mesh *none,
     u->size = none->size;
     u->most = wish->budget;
     u->outcome = RG_UNFOLD_NO_END;
-    rg_status s = rg_passage_init(&u->pass, mem, none, wish->sign, wish->shorter);
+    rg_status s = rg_passage_init(&u->pass, mem, none, wish->sign, wish->shorter, wish->stop, wish->ctx);
     const rg_layers *l = u->pass.layers;
+    if (l && l->info.state == RG_LAYERS_UNSOLVED) u->outcome = RG_UNFOLD_FAILED; /* ended, or too much work */
     if (s != RG_OK || !l || l->info.state != RG_LAYERS_VALID || u->pass.P.N == 0) return s;
     u->pass.any_order = wish->order < 0;
-    u->pass.stop = wish->stop;
-    u->pass.ctx = wish->ctx;
     u->which = rg_mem_array(mem, (size_t)l->parts.count + 1, sizeof *u->which);
     return u->which ? search(u, wish) : RG_ENOMEM;
 }
