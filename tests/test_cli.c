@@ -1441,9 +1441,9 @@ static void one_place_is_written_once(void **state)
     /* Frames, each in its file, are many places. */
     mkdir("many_frames", 0777);
     says(ends(2, run("fold", "good.opx", "-o", "many_frames/", "-o", "many_frames/0001.png")), "rigami: many_frames/0001.png: ", "twice");
-    says(ends(2, run("fold", "good.opx", "-o", "once-7.obj", "-o", "./once-%04d.obj")), "rigami: ./once-%04d.obj: ", "twice");
+    says(ends(2, run("fold", "good.opx", "-o", "once-0007.obj", "-o", "./once-%04d.obj")), "rigami: ./once-%04d.obj: ", "twice");
     says(ends(2, run("fold", "good.opx", "-o", "once-%d.obj", "-o", "once-%04d.obj")), "rigami: once-%04d.obj: ", "twice");
-    ends(0, run("fold", "good.opx", "-q", "--frames", "2", "-o", "twice-%04d.obj", "-o", "twice-a.obj", "-o", "twice-b%04d.obj"));
+    ends(0, run("fold", "good.opx", "-q", "--frames", "2", "-o", "twice-%04d.obj", "-o", "twice-7.obj", "-o", "twice-a.obj", "-o", "twice-b%04d.obj"));
     /* A picture to be printed is an input, and so is what a chart is of. */
     ends(0, run("fold", "good.opx", "-q", "--frames", "2", "--size", "40x40", "-o", "print.png", "-o", "many_frames/"));
     says(ends(2, run("fold", "good.opx", "--image", "print.png", "-o", "./print.png")), "rigami: ./print.png: ", "written over");

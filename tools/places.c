@@ -36,18 +36,22 @@ static int same_place(const char *a, const char *b)
            is.st_ino == other.st_ino;
 }
 
-/* Where the number of a frame stands in a name of many: the length before it, and what comes after. 0: it is one file.
- */
-static int find_number(const char *each, size_t *before, const char **after)
+/* Where the number of a frame stands in a name of many: the length before it, its least digits, and what comes after. */
+typedef struct many { size_t before, digits; const char *after; } many;
+
+/* 0: it is one file. */
+static int find_number(const char *each, many *m)
 {
+    enum { IN_FOLDERS = 4 };
     size_t n;
     const char *name = last_part(each, &n);
-    *before = strlen(each), *after = ".png";
-    if (*before > 0 && each[*before - 1] == '/') return 1;
+    *m = (many){strlen(each), IN_FOLDERS, ".png"};
+    if (m->before > 0 && each[m->before - 1] == '/') return 1;
     for (const char *c = strchr(name, '%'); c; c = strchr(c + 1, '%')) {
-        const char *d = c + 1 + (c[1] == '0' && c[2] >= '1' && c[2] <= '9' ? 2 : 0);
+        const int padded = c[1] == '0' && c[2] >= '1' && c[2] <= '9';
+        const char *d = c + (padded ? 3 : 1);
         if (*d != 'd') continue;
-        *before = (size_t)(c - each), *after = d + 1;
+        *m = (many){(size_t)(c - each), padded ? (size_t)(c[2] - '0') : 1, d + 1};
         return 1;
     }
     return 0;
@@ -58,17 +62,19 @@ static int is_one_of(const char *each, const char *file)
 {
     enum { LONGEST = 4096 };
     char first[LONGEST], own[LONGEST];
-    size_t before, of_file, n;
-    const char *after, *end;
-    if (!find_number(each, &before, &after)) return 0;
-    if (find_number(file, &of_file, &end)) snprintf(own, sizeof own, "%.*s0%s", (int)of_file, file, end);
+    many m, of;
+    size_t n;
+    if (!find_number(each, &m)) return 0;
+    /* So many frames have no padding in either name. */
+    if (find_number(file, &of)) snprintf(own, sizeof own, "%.*s1000000000%s", (int)of.before, file, of.after);
     else snprintf(own, sizeof own, "%s", file);
-    const char *name = each + before, *its = last_part(own, &n);
+    const char *name = each + m.before, *its = last_part(own, &n);
     while (name > each && name[-1] != '/') name--;
-    const size_t lead = before - (size_t)(name - each);
+    const size_t lead = m.before - (size_t)(name - each);
     if (strncmp(its, name, lead) != 0) return 0;
     const size_t digits = strspn(its + lead, "0123456789");
-    if (digits == 0 || strcmp(its + lead + digits, after) != 0) return 0;
+    if (digits < m.digits || (digits > m.digits && its[lead] == '0') || strcmp(its + lead + digits, m.after) != 0)
+        return 0;
     snprintf(first, sizeof first, "%.*s%s", (int)(name - each), each, its);
     return same_place(first, own);
 }
