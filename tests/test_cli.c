@@ -592,6 +592,11 @@ static void a_batch_goes_on(void **state)
     assert_true(r->status < 3);
     assert_non_null(strstr(r->out, "good.opx: folded, 1.0 %, ")); /* is kept */
     assert_null(strstr(slurp("fails/table.csv", text), "failed"));
+    /* So is what somebody took away. */
+    assert_non_null(strstr(run_with(&(streams){0}, args)->out, "good.opx: folded, 1.0 %, "));
+    assert_int_equal(unlink("fails/good.json"), 0);
+    run_with(&(streams){0}, args);
+    assert_false(is_empty("fails/good.json"));
     /* Options are told apart however many there are; one limit is not another one. */
     const char *many[MOST_ARGS] = {"batch", "good.opx", "-o", "many", "--frames", "2"};
     static char line[12][120];

@@ -183,14 +183,28 @@ static void say_late(const options *o, char why[FIELD])
     snprintf(why, FIELD, "not done within %.10g seconds", o->limit);
 }
 
+/* Report and outputs are there; of frames, each in its file, nothing is known. */
+static int has_outputs(const options *o, const char *folder, const task *t)
+{
+    char path[ROOM];
+    int all = 1;
+    for (int i = -1; i < o->forms && all; i++) {
+        if (i >= 0 && strchr(o->form[i], '%')) continue;
+        snprintf(path, sizeof path, "%s/%s.%s", folder, t->name, i < 0 ? "json" : o->form[i]);
+        all = access(path, F_OK) == 0;
+    }
+    return all;
+}
+
 /* Whether a row says all that there is to say: not what was cut off by another limit, killed, or for want of memory or
- * of room. */
-static int is_done(const options *o, const char *text)
+ * of room, and not what is no longer there. */
+static int is_done(const options *o, const char *folder, const task *t, const char *text)
 {
     char one[FIELD], late[FIELD];
     say_late(o, late);
     if (strcmp(field(text, OUTCOME, one), "timeout") == 0) return strcmp(field(text, REASON, one), late) == 0;
-    return atoi(field(text, EXIT, one)) < ENDS_UNWRITTEN;
+    const int status = atoi(field(text, EXIT, one));
+    return status == ENDS_USAGE || (status < ENDS_USAGE && has_outputs(o, folder, t));
 }
 
 /* ---------------------------------------------------------------------------------------------------- a child ---- */
@@ -416,7 +430,7 @@ static int await(pool *p, int *status)
 static int tell_kept(const options *o, const char *folder, const tasks *q, int i, int *done, int again)
 {
     char *text = kept(folder, &q->task[i]);
-    const int counts = text && (!again || is_done(o, text));
+    const int counts = text && (!again || is_done(o, folder, &q->task[i], text));
     if (counts) tell(o, &q->task[i], text, ++*done, q->count, again);
     free(text);
     return counts;
