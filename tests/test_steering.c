@@ -575,6 +575,34 @@ static void sent_to_where_it_is(void **state)
     rg_pattern_destroy(p);
 }
 
+/* A way so short that rounding is longer has a progress like any other. */
+static void next_to_no_way(void **state)
+{
+    (void)state;
+    rg_pattern *p = generated("miura", 4);
+    rg_fold *f = flat_fold(p, 5);
+    rg_snapshot *s = NULL;
+    const int32_t N = rg_motion_get_sheet(rg_fold_motion(f))->creases, first = 0;
+    const double to = letter(f, first) == 'V' ? 1.25 : -1.25;
+    assert_int_equal(rg_fold_drive(f, 1, &first, &to), RG_OK);
+    while (rg_fold_step(f)->outcome == RG_RUNNING) {}
+    assert_int_equal(rg_fold_snapshot(f, &s), RG_OK);
+    for (int32_t c = 0; c < N; c++)
+        for (int way = -1; way <= 1; way += 2) {
+            assert_int_equal(rg_fold_restore(f, s), RG_OK);
+            const double is = rg_fold_angles(f, NULL)[c], aim = nextafter(is, 4.0 * way);
+            assert_int_equal(rg_fold_drive(f, 1, &c, &aim), RG_OK);
+            for (double percent = 12.5; percent < 100; percent += 12.5) {
+                assert_int_equal(rg_fold_go_to(f, percent), RG_OK);
+                const double progress = rg_fold_get_info(f)->progress;
+                if (!(progress >= 0 && progress <= 1)) fail_msg("crease %d at %g %%: %g", (int)c, percent, progress);
+            }
+        }
+    rg_snapshot_destroy(s);
+    rg_fold_destroy(f);
+    rg_pattern_destroy(p);
+}
+
 typedef struct patience { double last; int left, fell; } patience;
 
 static int lose_patience(void *ctx, double progress)
@@ -953,7 +981,7 @@ int main(void)
         cmocka_unit_test(a_locked_crease), cmocka_unit_test(a_group), cmocka_unit_test(from_a_moved_pattern), cmocka_unit_test(pinned_before_the_search), cmocka_unit_test(between_frames), cmocka_unit_test(frames_do_not_matter), cmocka_unit_test(to_and_fro), cmocka_unit_test(forgotten_on_the_way), cmocka_unit_test(flat_paper_to_its_end), cmocka_unit_test(not_by_a_whole_turn),
         cmocka_unit_test(kept_states), cmocka_unit_test(positions_and_transforms), cmocka_unit_test(recorded),
         cmocka_unit_test(records_are_verified), cmocka_unit_test(restored_to_before_it_was_steered),
-        cmocka_unit_test(nothing_to_fold), cmocka_unit_test(sent_to_where_it_is), cmocka_unit_test(driven_and_ended), cmocka_unit_test(recorded_before_it_begins), cmocka_unit_test(what_is_told_rises),
+        cmocka_unit_test(nothing_to_fold), cmocka_unit_test(sent_to_where_it_is), cmocka_unit_test(driven_and_ended), cmocka_unit_test(next_to_no_way), cmocka_unit_test(recorded_before_it_begins), cmocka_unit_test(what_is_told_rises),
         cmocka_unit_test(steps_ask_for_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -267,6 +267,7 @@ static void stand_at(rg_fold *f, int32_t k, double part, double closure)
     f->between = 1;
     f->closure = closure;
     f->progress = f->steered && k < f->first ? progress_before(f, k, part) : progress_of(f, f->rho);
+    f->progress = fmin(1, fmax(0, f->progress)); /* of a way that is next to nothing, rounding is many times as much */
     rg_fold_look(f);
 }
 
