@@ -415,8 +415,8 @@ class Snapshot:
 
 
 class Fold(_Sheet):
-    """A fold that the caller moves. Options are the members of rg_settings; flat=True: looks for no motion, to be
-    driven."""
+    """A fold that the caller moves, in one thread at a time: the interpreter is let go while it does. Options are the
+    members of rg_settings; flat=True: looks for no motion, to be driven."""
 
     def __init__(self, pattern, progress=None, flat=False, **options):
         settings, keep = _made("rg_settings", options)
