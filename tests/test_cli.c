@@ -737,6 +737,16 @@ static void messages_stay_on_one_line(void **state)
     (void)state;
     const ran *r = ends(2, run("info", "two\nlines\033[1m.opx"));
     says(r, "rigami: two?lines?[1m.opx: ", "");
+    /* On standard output, and while it is at it, too. */
+    ends(0, run("convert", "good.opx", "-o", "two\nlines\033[1m.opx"));
+    r = ends(0, run("fold", "two\nlines\033[1m.opx", "--frames", "2", "-o", "two\nlines\033[1m.csv", "--progress"));
+    assert_non_null(strstr(r->out, "two?lines?[1m.opx: folded, "));
+    assert_non_null(strstr(r->out, "\n  written   two?lines?[1m.csv\n"));
+    assert_non_null(strstr(r->err, "writing two?lines?[1m.csv"));
+    r = ends(0, run("batch", "two\nlines\033[1m.opx", "-o", "two_lines", "--frames", "2"));
+    assert_non_null(strstr(r->out, "] two?lines?[1m.opx: folded, "));
+    unlink("two\nlines\033[1m.opx");
+    unlink("two\nlines\033[1m.csv");
 }
 
 /* --------------------------------------------------------------------------------------------- outputs ---- */

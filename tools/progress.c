@@ -1,5 +1,6 @@
 #include "progress.h"
 #include "interrupt.h"
+#include "say.h"
 #include "seconds.h"
 
 #include <stdio.h>
@@ -48,8 +49,9 @@ int progress_show(void *ctx, double part)
 
 void progress_say(progress *p, const char *doing, const char *what)
 {
+    char plain[4096];
     if (!p->shown) return;
-    fprintf(stderr, "\r%s %.60s\033[K", doing, what);
+    fprintf(stderr, "\r%s %.60s\033[K", doing, say_plain(what, plain, sizeof plain));
     fflush(stderr);
     p->on_screen = 1;
 }

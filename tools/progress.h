@@ -1,5 +1,5 @@
 /* progress.h -- one line on standard error that says how far it is; gone when it is done.
- * Uses  interrupt.h        Used by  cmd_fold.c */
+ * Uses  interrupt.h say.h        Used by  cmd_fold.c */
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
