@@ -75,7 +75,7 @@ static int set_all(const options *o, const char *name, rg_pattern *p, rg_driven 
                 a->text, (int)rg_pattern_get_info(p)->creases - 1);
             return ENDS_USAGE;
         }
-        list[i] = (aimed){e, a->what};
+        list[i] = (aimed){e, (int)a->what};
         if (is_taken(list, i, &list[i])) {
             say("%s: --%s %s: another --drive, --pin or --free says otherwise of that crease", name, option, a->text);
             return ENDS_USAGE;
