@@ -598,6 +598,33 @@ static void overlays(void **state)
     rg_pattern_destroy(b);
 }
 
+/* One crease is to open nearly all the way, whichever it is: others go past where they should be for it, which counts as
+ * all of their way and no more. It was told as up to 107 percent. */
+static void no_more_than_all_of_it(void **state)
+{
+    (void)state;
+    rg_settings s = with_frames(12);
+    s.effort = RG_EFFORT_FAST;
+    s.contact = RG_CONTACT_IGNORE;
+    rg_pattern *p = read_pattern("preliminary");
+    const int32_t edges = rg_pattern_get_plane(p)->edges;
+    int walks = 0;
+    rg_pattern_destroy(p);
+    for (int32_t e = 0; e < edges; e++) {
+        rg_pattern *pattern[] = {read_pattern("preliminary"), read_pattern("preliminary"), read_pattern("preliminary")};
+        if (rg_pattern_set_target(pattern[2], e, 0.09) != RG_OK) {
+            for (int k = 0; k < 3; k++) rg_pattern_destroy(pattern[k]);
+            continue;
+        }
+        walk w = walk_of(pattern, 3, &s);
+        for (int32_t k = 0; k < w.r->frame_count; k++) assert_true(w.r->frames[k].percent <= 100);
+        assert_true(w.r->folded_percent <= 100 && w.r->least_folded_percent <= w.r->folded_percent + 1e-9);
+        walk_free(&w);
+        walks++;
+    }
+    assert_int_equal(walks, 6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -606,6 +633,6 @@ int main(void)
         cmocka_unit_test(mountain_and_valley_exchanged), cmocka_unit_test(a_state_out_of_reach),
         cmocka_unit_test(drawings_off_by_rounding), cmocka_unit_test(other_sheets_are_refused),
         cmocka_unit_test(settings_that_make_no_sense), cmocka_unit_test(one_state), cmocka_unit_test(stopped_on_the_way),
-        cmocka_unit_test(memory_refused), cmocka_unit_test(overlays)};
+        cmocka_unit_test(memory_refused), cmocka_unit_test(overlays), cmocka_unit_test(no_more_than_all_of_it)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

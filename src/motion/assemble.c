@@ -82,8 +82,9 @@ static double part_done(const rg_attempt *t, int32_t frame, double *least)
     for (int32_t i = 0; i < t->mesh.N; i++) {
         const double way = t->target[i] - t->from[i];
         if (!(fabs(way) > NO_WAY)) continue;
-        sum += (rho[i] - t->from[i]) / way;
-        *least = fmin(*least, (rho[i] - t->from[i]) / way);
+        const double part = fmin(1, (rho[i] - t->from[i]) / way); /* none for more than all of it */
+        sum += part;
+        *least = fmin(*least, part);
         n++;
     }
     if (!n) *least = t->count > 1 ? (double)frame / (t->count - 1) : 1;
@@ -98,7 +99,7 @@ static void put(rg_motion *m, const rg_states *q, const rg_stretch *s, const rg_
     double least, done = part_done(t, frame, &least);
     rg_overlay_angles(o, rg_attempt_angles(t, frame), m->rho + (size_t)f * (size_t)m->mesh.N);
     if (m->flat) rg_overlay_points(o, rg_attempt_pattern(t, frame), m->flat + (size_t)f * (size_t)m->mesh.nv);
-    if (s->backwards) done = 1 - done, least = done;
+    if (s->backwards) done = fmin(1, 1 - done), least = done;
     m->frame[f].percent = 100 * (s->begin + done * (s->end - s->begin)) / ways;
     m->report.folded_percent = m->frame[f].percent;
     m->report.least_folded_percent = 100 * (s->begin + least * (s->end - s->begin)) / ways;
