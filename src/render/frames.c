@@ -7,6 +7,7 @@
 #include "render/render.h"
 #include "render/tint.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
@@ -125,7 +126,9 @@ static void caption(const studio *s, int32_t frame, unsigned char *rgb)
     const rg_picture *p = &s->wish->picture;
     unsigned char ink[3];
     char percent[40];
-    rg_text(percent, sizeof percent, "%.0f %%", s->motion->frame[frame].percent);
+    /* What is short of the end, by more than a tenth shows, is not rounded up to it. */
+    const double folded = s->motion->frame[frame].percent;
+    rg_text(percent, sizeof percent, "%.0f %%", folded < 99.95 ? fmin(folded, 99) : folded);
     rg_caption_ink(p->background, ink);
     rg_caption_draw(s->title, percent, ink, p->width, p->height, rgb);
 }
