@@ -95,7 +95,8 @@ static void cut_back(rg_attempt *t)
 }
 
 /* A part of the way is asked for as a mean. It counts only where no crease is on the wrong side of flat there; one that
- * has not left flat yet may come later, as is known of a path that goes on to the end. */
+ * has not left flat yet may come later, as is known of a path that goes on to the end; and where none makes up, by going
+ * beyond its own target, for another. */
 static void judge(rg_attempt *t, const double *rho)
 {
     const double to = fabs(t->to);
@@ -107,9 +108,12 @@ static void judge(rg_attempt *t, const double *rho)
         t->strays += !t->backwards && !(part > LEFT_FLAT);
         wrong += !(part >= -LEFT_FLAT);
     }
-    if (wrong) t->outcome = RG_STOPPED;
+    const int ahead = score(t, rho) < to - ARRIVED;
+    if (wrong || ahead) t->outcome = RG_STOPPED;
     rg_text(t->reason, sizeof t->reason, "as far as was asked for%s",
-            wrong ? ", but with creases on the wrong side of flat" : "");
+            wrong   ? ", but with creases on the wrong side of flat"
+            : ahead ? " only with creases beyond their own targets, and others that lag"
+                    : "");
 }
 
 /* Everything that attempts are compared by. */

@@ -38,6 +38,8 @@ static void check_report(const rg_motion *m, const rg_settings *s)
     const rg_report *r = rg_motion_report(m);
     promise(r->outcome == RG_FOLDED || r->outcome == RG_STOPPED || r->outcome == RG_RESTS);
     promise(r->outcome == RG_FOLDED || r->reason[0]);
+    promise(r->outcome != RG_FOLDED || r->folded_percent >= 100 * fabs(s->to) - 1 - 1e-6);
+    promise(r->outcome != RG_FOLDED || fabs(s->to) < 1 || r->least_folded_percent >= 99 - 1e-6);
     promise(s->contact != RG_CONTACT_IGNORE || r->contact == RG_CONTACT_UNCHECKED);
     promise((r->contact == RG_CONTACT_FREE) <= (r->contact_frames == 0 && r->first_contact_frame < 0));
     promise(r->frame_count >= 1 && r->frame_count <= s->frames);
