@@ -307,6 +307,53 @@ static void frames_have_a_size(void **state)
     }
 }
 
+/* What folds is what the judge, who knows the file only, finds valid; frames go one way. */
+static void what_folds_is_valid(void **state)
+{
+    (void)state;
+    static const struct { const char *name; double to, adjust; rg_effort effort; int symmetry; } fold[] = {
+        {"open-angles.fold", 1, RG_ADJUST_AUTO, RG_EFFORT_NORMAL, RG_SYMMETRY_AUTO},
+        {"open-angles.fold", -1, RG_ADJUST_AUTO, RG_EFFORT_FAST, RG_SYMMETRY_AUTO},
+        {"flat-valley.fold", 1, RG_ADJUST_AUTO, RG_EFFORT_FAST, RG_SYMMETRY_AUTO},
+        {"flat-valley.fold", 0.5, RG_ADJUST_AUTO, RG_EFFORT_FAST, RG_SYMMETRY_AUTO},
+        {"corner-on-diagonal.fold", 1, RG_ADJUST_AUTO, RG_EFFORT_NORMAL, RG_SYMMETRY_AUTO},
+        {"folded-added.fold", 1, RG_ADJUST_AUTO, RG_EFFORT_NORMAL, RG_SYMMETRY_AUTO},
+        {"goes-back.fold", 0.01, RG_ADJUST_AUTO, RG_EFFORT_NORMAL, RG_SYMMETRY_OFF},
+        {"beyond-its-own.fold", 0.4, 0, RG_EFFORT_NORMAL, RG_SYMMETRY_AUTO},
+    };
+    char path[40];
+    snprintf(path, sizeof path, "/tmp/rigami-bad-%ld.fold", (long)getpid());
+    for (size_t k = 0; k < sizeof fold / sizeof *fold; k++) {
+        char name[200];
+        snprintf(name, sizeof name, "%s/%s", FOLDER, fold[k].name);
+        rg_diag why = {0, ""};
+        rg_pattern *p = NULL;
+        rg_motion *m = NULL;
+        rg_certificate *c = NULL;
+        rg_settings s = rg_settings_default();
+        s.frames = 12;
+        s.threads = 1;
+        s.to = fold[k].to;
+        s.adjust = fold[k].adjust;
+        s.effort = fold[k].effort;
+        s.symmetry = fold[k].symmetry;
+        assert_int_equal(rg_pattern_read(name, NULL, &p, &why), RG_OK);
+        assert_int_equal(rg_motion_create(p, &s, NULL, NULL, &m, &why), RG_OK);
+        const rg_report *r = rg_motion_report(m);
+        if (r->outcome != RG_FOLDED || r->contact != RG_CONTACT_FREE) fail_msg("%s: %s", name, r->reason);
+        near(r->folded_percent, 100 * fabs(s.to), 1);
+        for (int32_t i = 1; i < r->frame_count; i++) assert_true(r->frames[i].percent >= r->frames[i - 1].percent - 1e-6);
+        assert_int_equal(rg_motion_write(m, path, NULL, &why), RG_OK);
+        assert_int_equal(rg_certificate_create(path, p, NULL, &c, &why), RG_OK);
+        const rg_fault *fault;
+        if (rg_certificate_faults(c, &fault) > 0) fail_msg("%s: %s", name, fault->text);
+        rg_certificate_destroy(c);
+        rg_motion_destroy(m);
+        rg_pattern_destroy(p);
+    }
+    unlink(path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -326,6 +373,7 @@ int main(void)
         cmocka_unit_test(what_is_shown_moves_no_cursor),
         cmocka_unit_test(frames_have_a_size),
         cmocka_unit_test(what_the_parser_is_slow_at),
+        cmocka_unit_test(what_folds_is_valid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -242,6 +242,7 @@ int fold_one(const options *o, fold_seen seen, void *ctx)
             say("%s: it ends on a pattern moved by %.2g %% of the sheet, as it does not close as it was drawn; rigami "
                 "info says where",
                 name, 100 * r->moved_at_end);
+        if (!stopped && !o->quiet) verdict_say_open(name, m);
         if (!stopped && r->contact == RG_CONTACT_CROSSES) verdict_say_contact(o, name, q.pattern[q.count - 1], m);
         if (!stopped && interrupt_time_is_up())
             say("%s: the %g seconds that it may take are over, with all of it written", name, o->seconds);

@@ -156,6 +156,24 @@ void verdict_say(const options *o, const char *name, const rg_pattern *p, const 
             next);
 }
 
+void verdict_say_open(const char *name, const rg_motion *m)
+{
+    const rg_report *r = rg_motion_report(m);
+    const double *rho = rg_motion_angles(m, r->frame_count - 1), seen = 0.5 * 3.14159265358979323846 / 180;
+    double as = 0; /* negative: mountains and valleys are exchanged */
+    int turned = 0;
+    rg_crease c;
+    for (int32_t i = 0; rg_motion_crease(m, i, &c) == RG_OK; i++) as += isnan(c.target) ? 0 : c.target * rho[i];
+    for (int32_t i = 0; rg_motion_crease(m, i, &c) == RG_OK; i++) {
+        const double angle = as < 0 ? -rho[i] : rho[i];
+        turned += isnan(c.target) && ((c.assignment == 'M' && angle > seen) || (c.assignment == 'V' && angle < -seen));
+    }
+    if (turned)
+        say("%s: of the creases that no angle is asked of, %d end%s the other way than drawn, mountains as valleys or "
+            "valleys as mountains. Next: ask an angle of one, or draw it as it goes",
+            name, turned, turned == 1 ? "s" : "");
+}
+
 double verdict_tidy(double x, double size) { return fabs(x) > SAME_PLACE * size ? x : 0; }
 
 void verdict_say_contact(const options *o, const char *name, const rg_pattern *p, const rg_motion *m)

@@ -10,6 +10,8 @@
 void verdict_say(const options *o, const char *name, const rg_pattern *p, const rg_motion *m);
 /* The same of one that reaches its end through itself: from where on, which facets first, why if that is known. */
 void verdict_say_contact(const options *o, const char *name, const rg_pattern *p, const rg_motion *m);
+/* Of creases that no angle was asked of: how many end as mountains, drawn as valleys, or the other way; silent for none. */
+void verdict_say_open(const char *name, const rg_motion *m);
 /* A coordinate as people write it: what is 0 but for rounding, over the sheet's size, is 0. */
 double verdict_tidy(double x, double size);
 /* Outputs and report of `o`, those that were written, on one line, with `lead` before them; an empty text: there are

@@ -156,6 +156,7 @@ void rg_straight_set_most_steps(rg_straight *f, int32_t most)
 void rg_straight_stand(rg_straight *f, const double *rho, double s, int32_t frame)
 {
     f->smooth = 0;
+    f->stands = 0;
     f->steps = 2;
     f->frame = frame;
     rg_path_clear(&f->path);
@@ -226,13 +227,17 @@ static void go_on(rg_straight *f)
     const int32_t beyond = f->smooth ? RG_PATH_WINDOW / 2 : 1;
     const int ended = f->path_ended || last >= f->s_end || !f->smooth;
     const int reached = goal <= last && (ended || (p->count > beyond && goal <= p->node[p->count - beyond].s));
-    if (reached && rg_integrate_read_off(f, goal)) {
+    if (reached && goal < f->stands) {
+        rg_straight_accept(f, f->rho, goal);
+    } else if (reached && rg_integrate_read_off(f, goal)) {
         rg_straight_accept(f, f->trial, goal);
-    } else if (reached && !f->smooth) { /* where nothing between two nodes closes: the nearer one */
+    } else if (reached && !f->smooth) { /* where nothing between two nodes closes: the nearer one that is not behind */
         int32_t first, n;
         rg_path_around(p, goal, &first, &n);
         const rg_node *a = &p->node[first], *b = a + n - 1;
-        rg_straight_accept(f, (goal - a->s < b->s - goal ? a : b)->rho, goal);
+        const rg_node *at = goal - a->s < b->s - goal && f->s <= a->s ? a : b;
+        rg_straight_accept(f, at->rho, goal);
+        f->stands = at->s;
     } else if (!reached && f->smooth && !ended) {
         if (may_step(f)) f->path_ended = !rg_integrate_advance(f);
     } else if (f->smooth) { /* from the last node that can be read off on, step by step */

@@ -53,6 +53,7 @@ struct rg_straight {
     int smooth, path_ended;       /* steps are adaptive ones; and there is no way on from the last node for them */
     int64_t nodes;                /* made by them */
     double s, s_end, ds;          /* progress, where to stop, size of the next step in s */
+    double stands;                /* frames up to there stand at a node, as nothing closes before it */
     int end_is_closed;            /* the folded state closes to tolerance: land on it exactly */
     int32_t frame;                /* the next frame to reach */
     int32_t steps;

@@ -21,13 +21,19 @@ void rg_flat_free(rg_flat *f)
     memset(f, 0, sizeof *f);
 }
 
-/* Facets of the mesh on both sides of an added crease are one. */
-static void number_facets(rg_flat *f, const rg_mesh *m)
+/* An added crease is one if it is folded; else it parts nothing. */
+static int parts(const rg_mesh *m, const double *angle, int32_t i)
+{
+    return i < m->N - m->added || fabs(fabs(angle[i]) - RG_PI) <= MEANT;
+}
+
+/* Facets of the mesh on both sides of an added crease that is not folded are one. */
+static void number_facets(rg_flat *f, const rg_mesh *m, const double *angle)
 {
     for (int32_t i = 0; i < m->nf; i++) f->facet_of[i] = i;
     for (int32_t i = m->N - m->added; i < m->N; i++) {
         const int32_t *side = m->edge_facet[m->crease_edge[i]];
-        rg_class_join(f->facet_of, side[0], side[1]);
+        if (!parts(m, angle, i)) rg_class_join(f->facet_of, side[0], side[1]);
     }
     for (int32_t i = 0; i < m->nf; i++) f->facet_of[i] = rg_class_of(f->facet_of, i);
     for (int32_t i = 0; i < m->nf; i++) f->facet_of[i] = f->facet_of[i] == i ? f->nf++ : f->facet_of[f->facet_of[i]];
@@ -96,7 +102,7 @@ static int32_t find_turns(rg_flat *f, const rg_mesh *m, const double *angle)
     for (int32_t e = 0; e < m->ne; e++) {
         const int32_t i = m->edge_crease[e];
         f->turn[e] = 0;
-        if (i < 0 || i >= m->N - m->added) continue;
+        if (i < 0 || !parts(m, angle, i)) continue;
         if (isnan(angle[i])) f->turn[e] = RG_TURN_UNTOLD, untold++;
         else if (fabs(fabs(angle[i]) - RG_PI) <= MEANT) f->turn[e] = angle[i] > 0 ? 1 : -1;
         else if (!(fabs(angle[i]) <= MEANT) && f->state == RG_FLAT_END) {
@@ -195,7 +201,7 @@ rg_status rg_flat_init(rg_flat *f, const rg_memory *mem, const rg_mesh *m, const
                                 RG_ARRAY(f->turn, ne), RG_ARRAY(f->place, nf), RG_ARRAY(f->x, nv),
                                 RG_ARRAY(f->middle, nf));
     if (s == RG_OK) {
-        number_facets(f, m);
+        number_facets(f, m, angle);
         list_edges(f, m);
         s = find_middles(f, m);
     }

@@ -2,7 +2,8 @@
  * Source   J. Justin, "Towards a mathematical theory of origami" (1989): an isometric flat map is made by reflections
  * Uses  undriven.h        Used by  cells.c
  *
- * The facets here are those that were drawn: facets of the mesh that only added creases part are one. */
+ * The facets here are those that were drawn: facets of the mesh that only added creases part, which are not
+ * folded, are one. */
 #ifndef RG_LAYERS_FLAT_H
 #define RG_LAYERS_FLAT_H
 

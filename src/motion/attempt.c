@@ -94,6 +94,19 @@ static void cut_back(rg_attempt *t)
     t->outcome = RG_STOPPED;
 }
 
+/* A crease that was drawn with an angle of 0 has no way of which it could be short: it counts as there within that part
+ * of half a turn. */
+static void stays_flat(rg_attempt *t, const double *rho)
+{
+    int32_t bent = 0;
+    for (int32_t i = 0; i < t->mesh.N - t->mesh.added; i++)
+        bent += t->target[i] == 0 && t->from[i] == 0 && !(fabs(rho[i]) <= ARRIVED * RG_PI);
+    if (!bent) return;
+    t->outcome = RG_STOPPED;
+    rg_text(t->reason, sizeof t->reason, "folded, but for %d crease%s that should end flat", (int)bent,
+            bent == 1 ? "" : "s");
+}
+
 /* A part of the way is asked for as a mean. It counts only where no crease is on the wrong side of flat there; one that
  * has not left flat yet may come later, as is known of a path that goes on to the end; and where none makes up, by going
  * beyond its own target, for another. */
@@ -102,7 +115,11 @@ static void judge(rg_attempt *t, const double *rho)
     const double to = fabs(t->to);
     double part;
     int32_t wrong = 0;
-    if (t->outcome != RG_FOLDED || to == 0 || to == 1) return;
+    if (t->outcome != RG_FOLDED || to == 0) return;
+    if (to == 1) {
+        stays_flat(t, rho);
+        return;
+    }
     for (int32_t i = 0; i < t->mesh.N; i++) {
         if (!has_way(t, i, rho, &part)) continue;
         t->strays += !t->backwards && !(part > LEFT_FLAT);

@@ -15,7 +15,6 @@ static int whole_turns(const rg_motion *m, int32_t frame, double *angle)
         angle[i] = RG_PI * round(rho[i] / RG_PI);
         folded |= angle[i] != 0;
         if (!(fabs(rho[i] - angle[i]) <= THERE)) return 0;
-        if (i >= m->mesh.N - m->mesh.added && angle[i] != 0) return 0; /* a facet bent on itself */
     }
     return folded;
 }

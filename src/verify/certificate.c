@@ -137,6 +137,9 @@ static void write_text(const rg_certificate *c, FILE *out)
                "valid: one sheet, %d rigid facets, closed in all of %d frames%s; nothing crosses in them deeper than "
                "%g of the sheet, or on rigid ways between them deeper than %.2g\n",
                (int)i->facets, (int)i->frames, between, RG_THROUGH_LEAST, i->between_depth);
+    if (c->isometry.open)
+        rg_text_to(out, "%d of the creases whose angles the pattern leaves open end as mountains, drawn as valleys, or "
+                        "the other way\n", (int)c->isometry.open);
     if (i->ends_flat)
         rg_text_to(out,
                    "the last frame lies flat and rests on the order of its layers alone: %d pairs of facets, valid; %d "
@@ -161,6 +164,7 @@ static void write_json(const rg_certificate *c, FILE *out)
     rg_json_number(&j, "max_angle", i->max_angle);
     rg_json_number(&j, "max_leap_deg", i->max_leap_deg);
     rg_json_number(&j, "max_wrong_side_deg", i->max_wrong_side_deg);
+    rg_json_integer(&j, "open_creases_turned", c->isometry.open);
     rg_json_number(&j, "contact_depth", i->contact_depth);
     rg_json_number(&j, "between_depth", i->between_depth);
     rg_json_bool(&j, "ends_flat", i->ends_flat);

@@ -12,6 +12,8 @@ static const double SAME_ANGLE = 1e-6;
 static const double STRAIGHT = 1e-4;
 /* Radians: beyond half a turn by rounding of whoever drew it, and on the wrong side of flat at the end. */
 static const double BEYOND = 0.1 * RG_DEG, WRONG_SIDE = 0.5 * RG_DEG;
+/* What shall end flat does within 1 % of half a turn. */
+static const double FLAT_WITHIN = 0.01 * RG_PI;
 /* Radians from one frame to the next: more is not a way, but two states. */
 static const double LEAP = RG_PI / 2;
 /* Percent: of a path that goes on, and of percent found again from the angles. */
@@ -363,15 +365,23 @@ static void check_path(const rg_record *r, rg_faults *all, rg_isometry *found)
     }
 }
 
-/* Mountains are mountains and valleys valleys at the end, or all exchanged; on the way it is told. */
+/* Mountains are mountains and valleys valleys at the end, or all exchanged; on the way it is told, and so it is of those
+ * that nothing is asked of, which may end as they come. What is asked to be flat is so at the end, whatever its letter;
+ * a file without any angle asks by its letters. */
 static void check_assignments(const rg_record *r, rg_faults *all, rg_isometry *found)
 {
-    const double *end = angles_of(r, r->frames - 1), as = way_of(r);
+    const double *end = angles_of(r, r->frames - 1), as = way_of(r), percent = percent_of(r, r->frames - 1, as);
     for (int32_t e = 0; e < r->ne; e++) {
-        const double side = r->added[e] ? 0 : as * side_of(r->assignment[e]);
+        const int flat = r->target[e] == 0 && !r->open[e] && !isnan(percent);
+        const double side = r->added[e] || flat ? 0 : as * side_of(r->assignment[e]);
+        if (flat && side_of(r->assignment[e]) != 0 && percent >= 99 && !(fabs(end[e]) <= FLAT_WITHIN))
+            rg_faults_add(all, r->frames - 1, r->side[e][0], r->side[e][1],
+                          "the crease between them should end flat, and ends at %.4g degrees", end[e] / RG_DEG);
         for (int32_t k = 0; k < r->frames && side != 0; k++)
             found->wrong = larger(found->wrong, -side * angles_of(r, k)[e]);
-        if (side != 0 && !(side * end[e] >= -WRONG_SIDE))
+        if (side == 0 || side * end[e] >= -WRONG_SIDE) continue;
+        if (r->open[e] && isfinite(end[e])) found->open++;
+        else
             rg_faults_add(all, r->frames - 1, r->side[e][0], r->side[e][1], "the %s between them ends at %.4g degrees",
                           r->assignment[e] == 'V' ? "valley" : "mountain", as * end[e] / RG_DEG);
     }

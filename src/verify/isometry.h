@@ -12,6 +12,7 @@ typedef struct rg_isometry {
     double closed;   /* the largest rotation left round an inner vertex, radians */
     double angle;    /* the largest difference of an angle to the places, radians */
     double leap;     /* the largest change of a mountain or valley from one frame to the next, radians */
+    int32_t open;    /* creases without a target that end on the other side of flat than their letters say */
     double wrong;    /* the most that a crease is on the wrong side of flat on the way, radians */
 } rg_isometry;
 

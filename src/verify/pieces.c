@@ -35,25 +35,33 @@ static void add(rg_pieces *p, int32_t f, const int32_t *c, int32_t n)
     p->n++;
 }
 
-/* The triangle at corner i holds no other vertex. */
-static int is_ear(const rg_vec2 *X, const int32_t *c, int32_t n, int32_t i)
+/* Is q left of a -> b, or to the right by an angle whose sine is at most `near`? */
+static int is_left(rg_vec2 a, rg_vec2 b, rg_vec2 q, double near)
+{
+    return rg_vec2_turn(a, b, q) >= -near * rg_vec2_length(rg_vec2_sub(b, a)) * rg_vec2_length(rg_vec2_sub(q, a));
+}
+
+/* The triangle at corner i holds no other vertex, nor has one on its rim, as near as that. */
+static int is_ear(const rg_vec2 *X, const int32_t *c, int32_t n, int32_t i, double near)
 {
     const rg_vec2 a = X[c[(i + n - 1) % n]], b = X[c[i]], d = X[c[(i + 1) % n]];
     if (!(sine_at(a, b, d) > STRAIGHT)) return 0;
     for (int32_t k = 0; k < n; k++) {
         const rg_vec2 q = X[c[k]];
         if (c[k] == c[i] || c[k] == c[(i + 1) % n] || c[k] == c[(i + n - 1) % n]) continue;
-        if (rg_vec2_turn(a, b, q) >= 0 && rg_vec2_turn(b, d, q) >= 0 && rg_vec2_turn(d, a, q) >= 0) return 0;
+        if (is_left(a, b, q, near) && is_left(b, d, q, near) && is_left(d, a, q, near)) return 0;
     }
     return 1;
 }
 
-/* Ears off, one after the other; corners in line that are left over have no area. c[n] is used up. */
+/* Ears off, one after the other; corners in line that are left over have no area. An ear with a corner on its rim leaves
+ * a polygon that touches itself, and is taken only where there is no other. c[n] is used up. */
 static void cut(rg_pieces *p, const rg_vec2 *X, int32_t f, int32_t *c, int32_t n)
 {
     while (n >= 3) {
         int32_t i = 0;
-        while (i < n && !is_ear(X, c, n, i)) i++;
+        while (i < n && !is_ear(X, c, n, i, STRAIGHT)) i++;
+        for (i %= n; i < n && !is_ear(X, c, n, i, 0); i++) continue;
         if (i == n) return;
         add(p, f, (const int32_t[]){c[(i + n - 1) % n], c[i], c[(i + 1) % n]}, 3);
         memmove(c + i, c + i + 1, (size_t)(n - i - 1) * sizeof *c);

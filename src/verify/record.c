@@ -90,8 +90,9 @@ static rg_status edges(const reader *q)
     r->assignment = room(q, r->ne, 1);
     r->target = room(q, r->ne, sizeof *r->target);
     r->added = room(q, r->ne, 1);
+    r->open = room(q, r->ne, 1);
     r->side = room(q, r->ne, sizeof *r->side);
-    if (!r->edge || !r->assignment || !r->target || !r->added || !r->side) return RG_ENOMEM;
+    if (!r->edge || !r->assignment || !r->target || !r->added || !r->open || !r->side) return RG_ENOMEM;
     for (int32_t e = 0; e < r->ne; e++) {
         const rg_value *row = rg_value_at(v, (size_t)e);
         const char *letter = rg_value_text(rg_value_at(a, (size_t)e));
@@ -105,7 +106,10 @@ static rg_status edges(const reader *q)
         r->added[e] = letter[0] == 'F' && rg_value_is_true(rg_value_at(added, (size_t)e)) != 0;
         r->side[e][0] = r->side[e][1] = -1;
     }
-    return angles(q, q->root, r->target);
+    s = angles(q, q->root, r->target);
+    for (int32_t e = 0; s == RG_OK && e < r->ne; e++)
+        r->open[e] = rg_value_kind(rg_value_at(rg_value_get(q->root, "edges_foldAngle"), (size_t)e)) == RG_KIND_NULL;
+    return s;
 }
 
 static double area_of(const rg_record *r, int32_t f)
@@ -272,7 +276,7 @@ rg_status rg_record_parse(const char *bytes, size_t size, const rg_memory *mem, 
 void rg_record_free(rg_record *r)
 {
     if (!r->mem.resize) return;
-    RG_MEM_FREE(&r->mem, r->X, r->edge, r->assignment, r->target, r->added, r->start, r->corner, r->turned, r->side,
+    RG_MEM_FREE(&r->mem, r->X, r->edge, r->assignment, r->target, r->added, r->open, r->start, r->corner, r->turned, r->side,
                 r->number, r->percent, r->x, r->rho, r->flat, r->order);
     memset(r, 0, sizeof *r);
 }

@@ -20,6 +20,7 @@ typedef struct rg_record {
     char *assignment;         /* [ne] */
     double *target;           /* [ne] radians */
     unsigned char *added;     /* [ne] non-zero: not of the pattern */
+    unsigned char *open;      /* [ne] non-zero: the pattern asks no angle of it, whatever its letter */
     int32_t *start, *corner;  /* [nf + 1], counter-clockwise in the pattern, whatever way the file has them */
     unsigned char *turned;    /* [nf] non-zero: the file has it clockwise */
     /* [ne] the facets left and right of edge[e][0] -> edge[e][1]; -1: none; found by isometry.c */
