@@ -1418,8 +1418,8 @@ static void names_are_as_long_as_they_may_be(void **state)
 static void a_chart_that_is_ended_says_so(void **state)
 {
     (void)state;
-    ends(0, run("gen", "miura", "16", "16", "-o", "charted.opx"));
-    says(ends(1, run("chart", "charted.opx", "-q", "-o", "charts", "--max-seconds", "1")), "rigami: charted.opx: ", "the 1 seconds");
+    ends(0, run("gen", "miura", "6", "-o", "charted.opx"));
+    says(ends(1, run("chart", "charted.opx", "-q", "-o", "charts", "--max-seconds", "0.7")), "rigami: charted.opx: ", "0.7 seconds");
     assert_false(is_empty("charts/charted.md"));
 }
 
