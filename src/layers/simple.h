@@ -37,8 +37,8 @@ typedef struct rg_simple {
 } rg_simple;
 
 /* l: an order is chosen; of a mesh without added creases. RG_OK also where no fold is simple: folds is 0; so it is
- * where that takes more work than is allowed, and once `stop` was asked for. RG_ENOMEM. Owner: the caller, rg_simple_free,
- * also after a failure. */
+ * where that takes more work than is allowed, and once `stop` was asked for. RG_ENOMEM. Owner: the caller,
+ * rg_simple_free, also after a failure. */
 rg_status rg_simple_find(rg_simple *q, const rg_memory *mem, const rg_layers *l, const rg_stop *stop);
 void rg_simple_free(rg_simple *q);
 

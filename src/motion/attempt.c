@@ -108,8 +108,8 @@ static void stays_flat(rg_attempt *t, const double *rho)
 }
 
 /* A part of the way is asked for as a mean. It counts only where no crease is on the wrong side of flat there; one that
- * has not left flat yet may come later, as is known of a path that goes on to the end; and where none makes up, by going
- * beyond its own target, for another. */
+ * has not left flat yet may come later, as is known of a path that goes on to the end; and where none makes up, by
+ * going beyond its own target, for another. */
 static void judge(rg_attempt *t, const double *rho)
 {
     const double to = fabs(t->to);

@@ -365,8 +365,8 @@ static void check_path(const rg_record *r, rg_faults *all, rg_isometry *found)
     }
 }
 
-/* Mountains are mountains and valleys valleys at the end, or all exchanged; on the way it is told, and so it is of those
- * that nothing is asked of, which may end as they come. What is asked to be flat is so at the end, whatever its letter;
+/* Mountains are mountains and valleys valleys at the end, or all exchanged; on the way it is told, and so it is of
+ * those that nothing is asked of, which may end as they come. What is asked to be flat is so at the end, whatever its letter;
  * a file without any angle asks by its letters. */
 static void check_assignments(const rg_record *r, rg_faults *all, rg_isometry *found)
 {

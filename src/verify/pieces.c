@@ -54,8 +54,8 @@ static int is_ear(const rg_vec2 *X, const int32_t *c, int32_t n, int32_t i, doub
     return 1;
 }
 
-/* Ears off, one after the other; corners in line that are left over have no area. An ear with a corner on its rim leaves
- * a polygon that touches itself, and is taken only where there is no other. c[n] is used up. */
+/* Ears off, one after the other; corners in line that are left over have no area. An ear with a corner on its rim
+ * leaves a polygon that touches itself, and is taken only where there is no other. c[n] is used up. */
 static void cut(rg_pieces *p, const rg_vec2 *X, int32_t f, int32_t *c, int32_t n)
 {
     while (n >= 3) {

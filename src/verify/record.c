@@ -276,8 +276,8 @@ rg_status rg_record_parse(const char *bytes, size_t size, const rg_memory *mem, 
 void rg_record_free(rg_record *r)
 {
     if (!r->mem.resize) return;
-    RG_MEM_FREE(&r->mem, r->X, r->edge, r->assignment, r->target, r->added, r->open, r->start, r->corner, r->turned, r->side,
-                r->number, r->percent, r->x, r->rho, r->flat, r->order);
+    RG_MEM_FREE(&r->mem, r->X, r->edge, r->assignment, r->target, r->added, r->open, r->start, r->corner, r->turned,
+                r->side, r->number, r->percent, r->x, r->rho, r->flat, r->order);
     memset(r, 0, sizeof *r);
 }
 
